@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+# `cmake --install` puts the headers and a package file for find_package(voussoir) in place.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/voussoir")  # share: nothing depends on the machine
+install(
+  TARGETS voussoir
+  EXPORT voussoirTargets
+  FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT voussoir_headers)
+install(
+  EXPORT voussoirTargets
+  NAMESPACE voussoir::
+  DESTINATION "${package_dir}"
+  COMPONENT voussoir_headers)
+configure_package_config_file(
+  "${CMAKE_CURRENT_LIST_DIR}/voussoirConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/cmake/voussoirConfig.cmake" INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/cmake/voussoirConfigVersion.cmake"
+                                 COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
+install(
+  FILES "${PROJECT_BINARY_DIR}/cmake/voussoirConfig.cmake"
+        "${PROJECT_BINARY_DIR}/cmake/voussoirConfigVersion.cmake"
+  DESTINATION "${package_dir}"
+  COMPONENT voussoir_headers)
+install(
+  FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  COMPONENT voussoir_headers)
+if(TARGET voussoir_cli)
+  install(TARGETS voussoir_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
+                                       COMPONENT voussoir_program)
+endif()

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The input file of the program: what is in it, and how to read it.
+///
+/// SI and radians throughout. Axes: x right (East), y up, both from the tunnel centre; angles
+/// anticlockwise from the right-hand springing. A member without a remark on its default must be
+/// given in the file. The keys of the file are declared in input.cpp, one line each.
+namespace voussoir::program {
+
+/// x, y [m]
+using Point = std::array<double, 2>;
+
+enum class TunnelShape { circle, horseshoe, polygon };
+enum class DipDirection { east, west };
+enum class BoltAnchors { lorig, garga_wang, joint_face };
+enum class BoltLaw { axial, axial_shear };
+enum class LiningBeam { euler_bernoulli, timoshenko };
+enum class RunMethod { two_level, relaxation, explicit_ };
+
+/// [model] The block of ground that is modelled.
+struct ModelInput {
+  double width = 0;           ///< of the whole domain, the tunnel in its middle [m], > 0
+  double below_invert = 0;    ///< ground under the invert [m], > 0
+  std::uint64_t seed = 1;     ///< of the random joints
+  double gravity = 9.81;      ///< [m/s^2], > 0
+  Point origin = {0.0, 0.0};  ///< site coordinates of the tunnel centre, for files of joints [m]
+};
+
+/// [tunnel] The opening. The centre is that of the circle; of the roof's half circle for the
+/// horseshoe (so the springing is at y = 0 and the floor at -wall_height); (0, 0) of the polygon.
+struct TunnelInput {
+  TunnelShape shape = TunnelShape::circle;
+  double diameter = 0;          ///< circle [m], > 0
+  double width = 0;             ///< horseshoe: between its walls, = diameter of its roof [m], > 0
+  double wall_height = 0;       ///< horseshoe: floor to springing [m], > 0
+  std::vector<Point> vertices;  ///< polygon: simple, anticlockwise whatever the file's order
+  double cover = 0;             ///< crown to ground surface [m], > 0
+  int facets = 72;              ///< chords on a full circle, for the curved parts, 12 to 720
+
+  [[nodiscard]] double half_width() const;  ///< half the breadth of the opening [m]
+  [[nodiscard]] double crown() const;       ///< y of the highest point [m]
+  [[nodiscard]] double invert() const;      ///< y of the lowest point [m]
+};
+
+/// [rock]
+struct RockInput {
+  double density = 0;  ///< [kg/m^3], > 0
+};
+
+/// [stress] In situ: vertical from depth, horizontal = K0 times vertical.
+struct StressInput {
+  double K0 = 0;         ///< horizontal / vertical [-], 0 to 10
+  double surcharge = 0;  ///< on the ground surface [Pa], >= 0
+};
+
+/// [[joint_set]] One family of random joints. Exactly one of intensity and spacing is given.
+struct JointSetInput {
+  std::string name;  ///< default "set 1", "set 2", ...
+  double dip = 0;    ///< from the horizontal [rad], 0 to pi/2
+  DipDirection dip_direction = DipDirection::east;
+  double sd = 0;                    ///< standard deviation of the dip [rad], 0 to pi/4
+  std::optional<double> intensity;  ///< joint centres per area [1/m^2], > 0, <= 1e4
+  std::optional<double> spacing;    ///< mean, across the joints [m], > 0
+  double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
+};
+
+/// [joint] The mechanics of all joints.
+struct JointInput {
+  double normal_stiffness = 0;  ///< kn [Pa/m], > 0
+  double shear_stiffness = 0;   ///< ks [Pa/m], > 0
+  double friction_angle = 0;    ///< friction [rad], 0 <= . < pi/2
+};
+
+/// [blocks] What is too small or too slender to become a block.
+struct BlocksInput {
+  double min_inscribed_radius = 0;                                  ///< [m], > 0
+  double max_elongation = std::numeric_limits<double>::infinity();  ///< length / width, >= 2
+  double min_wall_area = 0.074;  ///< pieces cut by the opening's wall below this are left out [m^2]
+};
+
+/// Distance between bolts along the wall: an angle at the tunnel centre or a length, as given.
+struct BoltSpacing {
+  double value = 0;       ///< [rad] or [m], > 0
+  bool is_angle = false;  ///< whether `value` is in radians
+};
+
+/// From one angle anticlockwise to another, from the right-hand springing [rad].
+struct ArcInput {
+  double from = 0;
+  double to = 0;  ///< > from, <= from + 2 pi
+};
+
+/// [support.bolts]
+struct BoltsInput {
+  double length = 0;  ///< [m], > 0
+  BoltSpacing spacing;
+  ArcInput arc;                ///< default 0 to pi: the roof
+  double out_of_plane = 1;     ///< distance between bolts along the tunnel [m], > 0
+  double diameter = 0.028;     ///< [m], > 0
+  double stiffness = 0;        ///< axial, of one bolt across one joint [N/m], > 0
+  double shear_stiffness = 0;  ///< of one bolt across one joint, law axial_shear only [N/m], > 0
+  double pretension = 0;       ///< [N], >= 0
+  std::optional<double> yield_force;    ///< of one bolt [N], > 0
+  std::optional<double> rupture_force;  ///< of one bolt [N], > 0
+  BoltAnchors anchors = BoltAnchors::lorig;
+  double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0; default 1.2 diameters
+  BoltLaw law = BoltLaw::axial;
+};
+
+/// [support.lining]
+struct LiningInput {
+  double thickness = 0;        ///< [m], > 0, less than half the opening's width
+  double young_modulus = 0;    ///< E [Pa], > 0
+  double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
+  LiningBeam beam = LiningBeam::euler_bernoulli;
+  double interface_normal_stiffness = 0;  ///< interface.kn [Pa/m], > 0
+  double interface_shear_stiffness = 0;   ///< interface.ks [Pa/m], > 0; default kn
+  double interface_friction_angle = 0;    ///< interface.friction [rad], 0 <= . < pi/2
+  int nodes = 72;                         ///< 8 to 2000; default tunnel.facets
+  std::optional<ArcInput> arc;            ///< default: the full ring
+};
+
+/// [[stage]] One step of the construction, in the order of the file.
+struct StageInput {
+  std::string name;  ///< default "stage 1", "stage 2", ...
+  double wall_traction =
+      0;  ///< left on the wall at the end of the stage / in-situ traction, 0 to 1
+  bool install_bolts = false;   ///< at the start of the stage
+  bool install_lining = false;  ///< at the start of the stage
+};
+
+/// [run] How equilibrium is sought.
+struct RunInput {
+  RunMethod method = RunMethod::two_level;
+  double tolerance = 1e-3;          ///< accepted error estimate [-], 1e-8 to 0.1
+  double displacement_limit = 0.2;  ///< beyond it the tunnel counts as collapsed [m], > 0
+  double damping = 0.7;             ///< local damping, explicit only [-], 0 to 0.95
+  int ramp_steps = 2000;  ///< steps over which the wall is unloaded, explicit only; 0 = at once
+  std::optional<std::int64_t> max_steps;  ///< > 0
+};
+
+/// [diagram] The axes of the interaction diagram, each rising, with two or more entries.
+struct DiagramInput {
+  std::vector<std::optional<BoltSpacing>> spacing;  ///< none: no bolts, always last
+  std::vector<double> thickness;                    ///< 0: no lining [m]
+};
+
+/// A whole input file, checked: every number is in the range given above, and they fit together.
+struct Input {
+  std::string title;
+  ModelInput model;
+  TunnelInput tunnel;
+  RockInput rock;
+  StressInput stress;
+  std::vector<JointSetInput> joint_sets;
+  std::filesystem::path
+      joints_file;  ///< of measured traces, resolved; empty: none; not opened here
+  JointInput joint;
+  BlocksInput blocks;
+  std::optional<BoltsInput> bolts;
+  std::optional<LiningInput> lining;
+  std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
+  RunInput run;
+  std::optional<DiagramInput> diagram;
+
+  [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
+  [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
+};
+
+/// What the joint sets will come to, before anything is generated.
+struct SizeEstimate {
+  double joints = 0;  ///< traces to be drawn
+  double blocks = 0;
+};
+
+/// @return  joints = sum of intensity x area; blocks from the crossings of the sets, but no more
+///          than the minimum inscribed radius lets there be (within a factor of two of generated
+///          masses). Joints of a file are not counted.
+[[nodiscard]] SizeEstimate estimate_size(const Input& input);
+
+/// One thing that is wrong with an input, and where.
+struct InputError {
+  std::string file;           ///< name of the file as the user gave it
+  int line = 0;               ///< from 1; 0: the file as a whole, or an override
+  int column = 0;             ///< in characters, from 1
+  int width = 1;              ///< characters to underline
+  std::string source_line;    ///< text of that line
+  std::string override_text;  ///< "joint.kn=5e9" when an override is at fault, otherwise empty
+  std::string key;            ///< "joint_set[0].dip"; empty: none is concerned
+  std::string message;        ///< "joint.kn = 5e9 has no unit"
+  std::string accepted;       ///< what to write instead; may be empty
+
+  /// The message with its place, the line in question and what is accepted, as compilers do.
+  [[nodiscard]] std::string text() const;
+};
+
+/// Everything that is wrong with an input, in the order of its lines; `what()` holds all of it.
+class InputErrors : public std::runtime_error {
+ public:
+  /// @pre  errors is not empty
+  explicit InputErrors(std::vector<InputError> errors);
+  [[nodiscard]] const std::vector<InputError>& errors() const { return errors_; }
+
+ private:
+  std::vector<InputError> errors_;
+};
+
+/// Reads a file and checks all of it.
+///
+/// @param overrides  "key=value" as given behind --set: dotted keys with indices from 0
+///                   (`joint_set[0].dip=75 deg`), the value as in the file, quotes optional.
+///                   Later ones win. They may add keys, tables and, at the end, array entries.
+/// @throws InputErrors  the file cannot be read or is no TOML, a key is unknown, missing, of the
+///                      wrong kind or out of range, or the parts do not fit together
+[[nodiscard]] Input read_input(const std::filesystem::path& file,
+                               const std::vector<std::string>& overrides = {});
+
+/// The same from a text already read, for pipes and tests.
+///
+/// @param name       what to call the text in messages
+/// @param directory  where paths in the text are relative to
+[[nodiscard]] Input read_input_text(std::string_view text, const std::string& name,
+                                    const std::filesystem::path& directory,
+                                    const std::vector<std::string>& overrides = {});
+
+}  // namespace voussoir::program

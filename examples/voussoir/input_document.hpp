@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input.hpp"
+
+/// An input file as a tree of values that remember where they were written. The TOML library is
+/// behind this header: what the keys mean (input.cpp) does not depend on it.
+namespace voussoir::program {
+
+/// Where something was written: in the file, or in an override.
+struct Place {
+  int line = 0;  ///< from 1; 0: no line of the file
+  int column = 0;
+  int width = 1;
+  int override_index = -1;  ///< into Document::overrides; -1: in the file
+};
+
+struct Entry;
+
+/// A value of the file.
+struct Node {
+  enum class Kind { table, array, text, integer, real, boolean, date };
+  Kind kind = Kind::table;
+  std::string text;          ///< of Kind::text
+  std::int64_t integer = 0;  ///< of Kind::integer
+  double real = 0;           ///< of Kind::real, and Kind::integer as a double
+  std::vector<Entry> table;  ///< of Kind::table
+  std::vector<Node> array;   ///< of Kind::array
+  Place place;               ///< the value; of a table its header
+  std::string written;       ///< the value as it was written; its first line
+
+  [[nodiscard]] const Node* find(std::string_view key) const;
+  [[nodiscard]] Node* find(std::string_view key);
+};
+
+/// A key and its value.
+struct Entry {
+  std::string key;
+  Place place;  ///< of the key
+  Node value;
+};
+
+/// A file and the overrides laid over it.
+struct Document {
+  std::string name;
+  std::vector<std::string> lines;
+  std::vector<std::string> overrides;
+  Node root;
+  std::vector<InputError> errors;  ///< overrides that could not be applied
+
+  /// An error at a place, with the text of its line.
+  [[nodiscard]] InputError error_at(const Place& place, std::string key, std::string message,
+                                    std::string accepted) const;
+};
+
+/// @throws InputErrors  the file cannot be read, holds no text, or is not TOML
+[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+
+/// @throws InputErrors  the text is empty or is not TOML
+[[nodiscard]] Document read_document(std::string_view text, const std::string& name,
+                                     const std::vector<std::string>& overrides);
+
+/// `text` with control characters shown as `?`, cut behind 80 bytes.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// The candidate that `word` is probably meant to be: at most one slip in three letters.
+/// @return  empty if none is near
+[[nodiscard]] std::string closest(std::string_view word,
+                                  const std::vector<std::string>& candidates);
+
+}  // namespace voussoir::program

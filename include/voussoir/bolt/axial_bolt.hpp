@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/core/errors.hpp>
+
+namespace voussoir {
+
+/// Axial spring along the line between the anchors: elastic, yielding, breaking, pretensioned.
+///
+///   f = T0 + K_a (l - d_init - p),   l the present distance of the anchors,
+///
+/// up to the yield force; beyond it the plastic extension p grows and the force with a fraction of
+/// the stiffness; at the rupture force the bolt is lost at this joint. Tension only unless asked.
+///
+/// Source: Boon, Houlsby & Utili (2015), eqs (1), (2); yield and rupture are ours.
+class AxialBolt {
+ public:
+  using role = roles::BoltLaw;
+  static constexpr const char* name = "AxialBolt";
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+  struct Params {
+    double axial_stiffness;            ///< K_a, across one joint [N/m], > 0
+    double pretension = 0;             ///< T0 [N], >= 0
+    double yield_force = unlimited;    ///< [N], > pretension
+    double rupture_force = unlimited;  ///< [N], > pretension; below the yield force: brittle
+    double hardening_ratio = 0.02;     ///< stiffness after / before yield [-], 0 <= ratio < 1
+    bool carries_compression = false;
+  };
+  struct State {
+    double plastic_extension = 0;  ///< p [m]
+    bool ruptured = false;
+  };
+
+  /// @throws InvalidInput  a parameter is outside the range given in Params
+  explicit AxialBolt(const Params& params) : params_(params) {
+    require(params.axial_stiffness > 0 && std::isfinite(params.axial_stiffness), "axial_stiffness",
+            params.axial_stiffness, "> 0 N/m");
+    require(params.pretension >= 0 && std::isfinite(params.pretension), "pretension",
+            params.pretension, ">= 0 N");
+    require(params.yield_force > params.pretension, "yield_force", params.yield_force,
+            "> pretension");
+    require(params.rupture_force > params.pretension, "rupture_force", params.rupture_force,
+            "> pretension");
+    require(params.hardening_ratio >= 0 && params.hardening_ratio < 1, "hardening_ratio",
+            params.hardening_ratio, ">= 0 and < 1");
+    require(params.hardening_ratio > 0 || params.rupture_force <= params.yield_force ||
+                std::isinf(params.rupture_force),
+            "hardening_ratio", params.hardening_ratio,
+            "> 0, or the rupture force can never be reached beyond yield");
+  }
+
+  template <int Dim>
+  [[nodiscard]] BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
+    if (state.ruptured) return {};
+    const auto [direction, extension] = stretch(span);
+    const double axial = std::min(returned(extension, state).force, params_.rupture_force);
+    return {axial * direction, axial};
+  }
+
+  template <int Dim>
+  bool commit(const BoltSpan<Dim>& span, State& state) const {
+    if (state.ruptured) return false;
+    const Return now = returned(stretch(span).extension, state);
+    state.plastic_extension = now.plastic_extension;
+    state.ruptured = now.force >= params_.rupture_force;
+    return state.ruptured;
+  }
+
+  template <int Dim>
+  [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
+    // Anchors that coincide pull along whatever direction they separate in.
+    if (!(span.initial.norm() > 0)) return params_.axial_stiffness * Stress<Dim>::Identity();
+    return params_.axial_stiffness * span.axis * span.axis.transpose();
+  }
+
+  [[nodiscard]] const Params& params() const { return params_; }
+
+ private:
+  template <int Dim>
+  struct Stretch {
+    Vec<Dim> direction;
+    double extension;
+  };
+  struct Return {
+    double force, plastic_extension;
+  };
+
+  template <int Dim>
+  [[nodiscard]] static Stretch<Dim> stretch(const BoltSpan<Dim>& span) {
+    const Vec<Dim> now = span.initial + span.motion;
+    const double length = now.norm(), initial = span.initial.norm();
+    if (!(length > 0)) return {span.axis, -initial};
+    // l - d = (m^2 + 2 d.m)/(l + d) keeps its digits where the motion is tiny beside the span.
+    const double extension =
+        (span.motion.squaredNorm() + 2 * span.initial.dot(span.motion)) / (length + initial);
+    return {now / length, extension};
+  }
+
+  [[nodiscard]] Return returned(double extension, const State& state) const {
+    const double stiffness = params_.axial_stiffness;
+    const double trial = params_.pretension + stiffness * (extension - state.plastic_extension);
+    if (trial < 0 && !params_.carries_compression) return {0.0, state.plastic_extension};
+    const double hardening = stiffness * params_.hardening_ratio / (1 - params_.hardening_ratio);
+    const double yield = params_.yield_force + hardening * state.plastic_extension;
+    if (trial <= yield) return {trial, state.plastic_extension};
+    const double growth = (trial - yield) / (stiffness + hardening);
+    return {trial - stiffness * growth, state.plastic_extension + growth};
+  }
+
+  Params params_;
+};
+
+static_assert(BoltLaw<AxialBolt, 2> && BoltLaw<AxialBolt, 3>);
+
+}  // namespace voussoir

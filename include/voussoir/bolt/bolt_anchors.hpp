@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/roles.hpp>
+
+namespace voussoir {
+
+/// A joint that a bolt crosses: how far the bolt runs in the two blocks beside it [m].
+struct BoltCrossing {
+  double before, after;  ///< length inside the block towards the head, towards the tip
+};
+
+/// Where the bolt grips the two blocks: distances from the joint along the bolt [m].
+struct AnchorDistances {
+  double before, after;
+};
+
+template <class Anchors>
+concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing& crossing) {
+  { anchors.distances(crossing) } -> std::same_as<AnchorDistances>;
+};
+
+/// Chooses the two anchors of a bolt at every joint it crosses.
+///
+/// What the compiler cannot check: anchors stay inside the passages, 0 <= distance <= length.
+///
+/// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
+template <class Anchors>
+concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && std::copyable<Anchors> &&
+                      std::default_initializable<Anchors> && HasAnchorDistances<Anchors>;
+
+template <class Anchors>
+consteval bool explain_bolt_anchors() {
+  static_assert(HasAnchorDistances<Anchors>,
+                "bolt anchors: add `AnchorDistances distances(const BoltCrossing&) const` [m]");
+  static_assert(std::default_initializable<Anchors>,
+                "bolt anchors: add a default constructor (the documented default placement)");
+  return true;
+}
+
+/// Anchors at a fixed distance from the joint, by default 1.2 bolt diameters of a 28 mm bar.
+///
+/// Where a block is thinner than twice the distance the anchor sits in its middle.
+///
+/// Source: Lorig (1985); Boon, Houlsby & Utili (2015), Fig. 4a and section 5.2.
+struct LorigAnchors {
+  using role = roles::BoltAnchors;
+  static constexpr const char* name = "LorigAnchors";
+
+  double distance = 1.2 * 0.028;  ///< [m], > 0
+
+  /// @throws InvalidInput  distance not > 0
+  [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
+    require(distance > 0 && std::isfinite(distance), "anchor distance", distance, "> 0 m");
+    return {std::min(distance, 0.5 * crossing.before), std::min(distance, 0.5 * crossing.after)};
+  }
+};
+
+/// Anchors midway in the blocks. Source: Garga & Wang (1993); Boon et al. (2015), Fig. 4b.
+struct GargaWangAnchors {
+  using role = roles::BoltAnchors;
+  static constexpr const char* name = "GargaWangAnchors";
+  [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
+    return {0.5 * crossing.before, 0.5 * crossing.after};
+  }
+};
+
+/// Anchors on the joint itself: in shear the force is along the joint only, without clamping it.
+/// Source: Moosavi & Grayeli (2006); Boon et al. (2015), Fig. 4c.
+struct JointFaceAnchors {
+  using role = roles::BoltAnchors;
+  static constexpr const char* name = "JointFaceAnchors";
+  [[nodiscard]] AnchorDistances distances(const BoltCrossing&) const { return {0.0, 0.0}; }
+};
+
+static_assert(BoltAnchors<LorigAnchors> && BoltAnchors<GargaWangAnchors> &&
+              BoltAnchors<JointFaceAnchors>);
+
+}  // namespace voussoir

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+
+#include <voussoir/core/roles.hpp>
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// A bolt between its two anchors at one joint: the vector from the first anchor to the second at
+/// installation, the unit vector of the bar, and the displacement of the second anchor relative to
+/// the first since then [m].
+template <int Dim>
+struct BoltSpan {
+  Vec<Dim> initial;
+  Vec<Dim> axis;
+  Vec<Dim> motion;
+};
+
+/// What the bolt does at one joint.
+template <int Dim>
+struct BoltForce {
+  Vec<Dim> pull = Vec<Dim>::Zero();  ///< on the first anchor; the second gets the opposite [N]
+  double axial = 0;                  ///< along the line of the anchors, tension positive [N]
+};
+
+template <class Law, int Dim>
+concept HasBoltState = std::default_initializable<typename Law::State>;
+template <class Law, int Dim>
+concept HasBoltForce =
+    requires(const Law law, const BoltSpan<Dim>& span, const typename Law::State& state) {
+      { law.force(span, state) } -> std::same_as<BoltForce<Dim>>;
+    };
+template <class Law, int Dim>
+concept HasBoltCommit = requires(const Law law, const BoltSpan<Dim>& span, typename Law::State& state) {
+  { law.commit(span, state) } -> std::same_as<bool>;
+};
+template <class Law, int Dim>
+concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
+  { law.stiffness(span) } -> std::same_as<Stress<Dim>>;
+};
+
+/// The spring that a bolt is, at every joint it crosses. Values are per bolt, not per metre.
+///
+/// What the compiler cannot check: `force` reads and `commit` remembers, as for a contact law;
+/// `commit` returns true when the bolt broke, so that equilibrium must be sought anew; `stiffness`
+/// [N/m] is symmetric, not negative, and bounds the tangent stiffness near the initial span.
+///
+/// Models: AxialBolt, AxialShearBolt.
+template <class Law, int Dim>
+concept BoltLaw = Fills<Law, roles::BoltLaw> && std::copyable<Law> && HasBoltState<Law, Dim> &&
+                  HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
+
+template <class Law, int Dim>
+consteval bool explain_bolt_law() {
+  static_assert(HasBoltState<Law, Dim>,
+                "bolt law: add `struct State` for what a bolt remembers at a joint");
+  static_assert(HasBoltForce<Law, Dim>,
+                "bolt law: add `BoltForce<Dim> force(const BoltSpan<Dim>&, const State&) const`");
+  static_assert(HasBoltCommit<Law, Dim>,
+                "bolt law: add `bool commit(const BoltSpan<Dim>&, State&) const` (true: it broke)");
+  static_assert(HasBoltStiffness<Law, Dim>,
+                "bolt law: add `Stress<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m]");
+  return true;
+}
+
+}  // namespace voussoir

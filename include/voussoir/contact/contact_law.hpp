@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+
+#include <voussoir/core/roles.hpp>
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// Displacement of body b relative to body a at one contact point, since the in-situ state.
+template <int Dim>
+struct PointMotion {
+  double opening;     ///< along the normal from a to b, positive when the joint opens [m]
+  Vec<Dim - 1> slip;  ///< along the tangents [m]
+};
+
+/// Force at one contact point, on body b (a gets the opposite).
+template <int Dim>
+struct PointForce {
+  double normal = 0;                             ///< compression positive [N]
+  Vec<Dim - 1> tangential = Vec<Dim - 1>::Zero();  ///< along the tangents [N]
+};
+
+/// A contact point as a law sees it: the length (2-D) or area (3-D) it stands for [m], [m^2], the
+/// force in the in-situ state, and the motion since.
+template <int Dim>
+struct PointLoad {
+  double weight;
+  PointForce<Dim> initial;
+  PointMotion<Dim> motion;
+};
+
+template <class Law, int Dim>
+concept HasContactState = std::default_initializable<typename Law::template State<Dim>>;
+template <class Law, int Dim>
+concept HasContactForce =
+    requires(const Law law, const PointLoad<Dim>& load, const typename Law::template State<Dim>& state) {
+      { law.force(load, state) } -> std::same_as<PointForce<Dim>>;
+    };
+template <class Law, int Dim>
+concept HasContactCommit =
+    requires(const Law law, const PointLoad<Dim>& load, typename Law::template State<Dim>& state) {
+      { law.commit(load, state) } -> std::same_as<void>;
+    };
+template <class Law>
+concept HasJointStiffness = requires(const Law law) {
+  { law.joint_normal_stiffness() } -> std::same_as<double>;
+  { law.joint_shear_stiffness() } -> std::same_as<double>;
+};
+
+/// Turns the motion at one contact point into a force. Reading and remembering are separate.
+///
+/// What the compiler cannot check, and a law must still honour:
+///  - `force` depends on its arguments alone and is continuous in the motion;
+///  - `commit` sets the state so that `force` at the same motion gives the same force as before;
+///  - with zero motion and a fresh state, `force` returns the initial force where that is admissible;
+///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
+///
+/// Models: CoulombJoint (rock joints, lining interface), SmoothWall (edge of the domain).
+template <class Law, int Dim>
+concept ContactLaw = std::copyable<Law> && HasContactState<Law, Dim> && HasContactForce<Law, Dim> &&
+                     HasContactCommit<Law, Dim> && HasJointStiffness<Law>;
+
+template <class Law, int Dim>
+consteval bool explain_contact_law() {
+  static_assert(HasContactState<Law, Dim>,
+                "contact law: add `template <int Dim> struct State` for what a point remembers");
+  static_assert(HasContactForce<Law, Dim>,
+                "contact law: add `PointForce<Dim> force(const PointLoad<Dim>&, const State<Dim>&) "
+                "const`");
+  static_assert(HasContactCommit<Law, Dim>,
+                "contact law: add `void commit(const PointLoad<Dim>&, State<Dim>&) const`");
+  static_assert(HasJointStiffness<Law>,
+                "contact law: add `double joint_normal_stiffness() const` and `double "
+                "joint_shear_stiffness() const` [Pa/m]");
+  return true;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/errors.hpp>
+
+namespace voussoir {
+
+/// Linear elastic joint that carries no tension and slides at the Coulomb limit.
+///
+///   N = max(0, N0 - k_n w g)
+///   T = T0 - k_s w (s - q), shortened to |T| <= N tan(phi)
+///
+/// w weight of the point, g opening, s slip, q plastic slip (the only thing remembered). The normal
+/// force is in total form, so an opened joint closes again where it opened; the shear spring needs
+/// no turning along at the small rotations for which the contact topology is frozen.
+///
+/// Source: Boon, Houlsby & Utili (2015), section 2.1; k_n, k_s as of Goodman, Taylor & Brekke (1968).
+class CoulombJoint {
+ public:
+  using role = roles::ContactLaw;
+  static constexpr const char* name = "CoulombJoint";
+
+  struct Params {
+    double joint_normal_stiffness;  ///< k_n [Pa/m], > 0
+    double joint_shear_stiffness;   ///< k_s [Pa/m], > 0
+    double friction_angle;          ///< phi [rad], 0 <= phi < pi/2
+  };
+
+  template <int Dim>
+  struct State {
+    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
+  };
+
+  /// @throws InvalidInput  a parameter is outside the range given in Params
+  explicit CoulombJoint(const Params& params)
+      : params_(params), friction_coefficient_(std::tan(params.friction_angle)) {
+    require(params.joint_normal_stiffness > 0 && std::isfinite(params.joint_normal_stiffness),
+            "joint_normal_stiffness", params.joint_normal_stiffness, "> 0 Pa/m");
+    require(params.joint_shear_stiffness > 0 && std::isfinite(params.joint_shear_stiffness),
+            "joint_shear_stiffness", params.joint_shear_stiffness, "> 0 Pa/m");
+    require(params.friction_angle >= 0 && params.friction_angle < 0.5 * std::numbers::pi,
+            "friction_angle", params.friction_angle, ">= 0 and < pi/2 rad");
+  }
+
+  template <int Dim>
+  [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const double normal = std::max(
+        0.0, load.initial.normal - params_.joint_normal_stiffness * load.weight * load.motion.opening);
+    return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
+  }
+
+  template <int Dim>
+  void commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+    const PointForce<Dim> now = force(load, state);
+    // Only a point that slides moves its spring: q stays bit for bit where it was otherwise.
+    if (now.tangential != elastic_shear(load, state))
+      state.plastic_slip =
+          load.motion.slip +
+          (now.tangential - load.initial.tangential) / (params_.joint_shear_stiffness * load.weight);
+  }
+
+  [[nodiscard]] double joint_normal_stiffness() const { return params_.joint_normal_stiffness; }
+  [[nodiscard]] double joint_shear_stiffness() const { return params_.joint_shear_stiffness; }
+  [[nodiscard]] double friction_coefficient() const { return friction_coefficient_; }
+
+ private:
+  template <int Dim>
+  [[nodiscard]] Vec<Dim - 1> elastic_shear(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    return load.initial.tangential - params_.joint_shear_stiffness * load.weight *
+                                         (load.motion.slip - state.plastic_slip);
+  }
+
+  [[nodiscard]] static Vec<1> shortened(const Vec<1>& shear, double limit) {
+    return Vec<1>(std::clamp(shear[0], -limit, limit));
+  }
+  [[nodiscard]] static Vec<2> shortened(const Vec<2>& shear, double limit) {
+    const double length = shear.norm();
+    return length > limit ? Vec<2>(shear * (limit / length)) : shear;
+  }
+
+  Params params_;
+  double friction_coefficient_;
+};
+
+static_assert(ContactLaw<CoulombJoint, 2> && ContactLaw<CoulombJoint, 3>);
+
+}  // namespace voussoir

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+/// On in tests and debug builds: a broken invariant of the toolkit itself, never a user's mistake.
+#if defined(VOUSSOIR_ASSERTIONS) || !defined(NDEBUG)
+#define VOUSSOIR_ASSERT(condition, text)                                            \
+  ((condition) ? static_cast<void>(0)                                               \
+               : throw std::logic_error(std::string("voussoir: broken invariant: ") \
+                                            .append(text)                           \
+                                            .append(" [" #condition "]")))
+#else
+#define VOUSSOIR_ASSERT(condition, text) static_cast<void>(0)
+#endif
+
+namespace voussoir {
+
+/// Data given by the user cannot be used: the message names what, its value and the rule.
+class InvalidInput : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// A calculation went bad at run time: the message names where and the probable cause.
+class NumericalFault : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Refuses a parameter outside its range; `range` reads like "> 0". Written so that NaN is refused:
+/// pass the condition that must hold.
+inline void require(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  throw InvalidInput(std::string(name) + " = " + std::to_string(value) + ": must be " + range);
+}
+
+}  // namespace voussoir

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace voussoir {
+
+/// A point, displacement or force in the space of the model; world axes x right, y up (z up in 3-D).
+template <int Dim>
+using Vec = Eigen::Matrix<double, Dim, 1>;
+using Vec2 = Vec<2>;
+
+/// Number of independent rotations of a rigid body.
+template <int Dim>
+inline constexpr int spin_count = Dim == 2 ? 1 : 3;
+
+/// A small rotation [rad] or a moment [N m]; one number in 2-D, anticlockwise positive.
+template <int Dim>
+using Spin = Eigen::Matrix<double, spin_count<Dim>, 1>;
+
+/// A stress tensor [Pa], compression positive (ground).
+template <int Dim>
+using Stress = Eigen::Matrix<double, Dim, Dim>;
+
+/// v turned by +90 degrees.
+[[nodiscard]] inline Vec2 perpendicular(const Vec2& v) { return {-v.y(), v.x()}; }
+
+/// z component of the cross product: twice the signed area of the triangle (0, a, b).
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Displacement of a point at `arm` from the centre of a body that turns by the small rotation `spin`.
+[[nodiscard]] inline Vec<2> turned(const Spin<2>& spin, const Vec<2>& arm) {
+  return {-spin[0] * arm.y(), spin[0] * arm.x()};
+}
+[[nodiscard]] inline Vec<3> turned(const Spin<3>& spin, const Vec<3>& arm) {
+  return {spin[1] * arm[2] - spin[2] * arm[1], spin[2] * arm[0] - spin[0] * arm[2],
+          spin[0] * arm[1] - spin[1] * arm[0]};
+}
+
+/// Moment about the centre of a force that acts at `arm` from it: the transpose of `turned`.
+[[nodiscard]] inline Spin<2> moment_of(const Vec<2>& arm, const Vec<2>& force) {
+  return Spin<2>(cross(arm, force));
+}
+[[nodiscard]] inline Spin<3> moment_of(const Vec<3>& arm, const Vec<3>& force) {
+  return turned(arm, force);
+}
+
+}  // namespace voussoir

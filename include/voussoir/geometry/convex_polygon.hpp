@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/half_space.hpp>
+#include <voussoir/geometry/segment.hpp>
+
+namespace voussoir {
+
+/// A convex polygon whose faces remember the cut that made them.
+///
+/// Face k runs from vertex k to vertex k + 1; vertices are anticlockwise.
+class ConvexPolygon {
+ public:
+  static constexpr int dim = 2;
+
+  ConvexPolygon() = default;
+
+  /// @param vertices  anticlockwise, first not repeated [m]
+  /// @param cuts      label of each face; as many as vertices
+  /// @throws InvalidInput  fewer than 3 vertices, a number that is not finite, a repeated vertex, a
+  ///                       clockwise or non-convex corner; the message names the vertex
+  ConvexPolygon(std::vector<Vec2> vertices, std::vector<int> cuts)
+      : vertices_(std::move(vertices)), cuts_(std::move(cuts)) {
+    check();
+  }
+
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  [[nodiscard]] const std::vector<Vec2>& vertices() const { return vertices_; }
+  [[nodiscard]] const Vec2& vertex(std::size_t k) const { return vertices_[k]; }
+  [[nodiscard]] int cut(std::size_t face) const { return cuts_[face]; }
+  [[nodiscard]] Segment face(std::size_t k) const {
+    return {vertices_[k], vertices_[k + 1 == size() ? 0 : k + 1]};
+  }
+  /// The half space that face k bounds, the polygon inside.
+  [[nodiscard]] HalfSpace<2> half_space(std::size_t k) const {
+    const Segment side = face(k);
+    return left_of(side.start, side.end);
+  }
+
+  /// Cuts the polygon by a line into the parts below and above; nothing if the line misses it.
+  ///
+  /// Both parts get the very same new vertices, bit for bit, so contacts found later from shared
+  /// vertices close exactly. A vertex within `tolerance` of the line is taken to lie on it.
+  [[nodiscard]] std::optional<std::pair<ConvexPolygon, ConvexPolygon>> split(
+      const HalfSpace<2>& line, int cut, double tolerance) const {
+    std::vector<double> distances(size());
+    bool below = false, above = false;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const double d = line.distance(vertices_[k]);
+      distances[k] = std::abs(d) <= tolerance ? 0.0 : d;
+      below = below || distances[k] < 0;
+      above = above || distances[k] > 0;
+    }
+    if (!below || !above) return std::nullopt;
+    std::pair<ConvexPolygon, ConvexPolygon> parts;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const std::size_t next = k + 1 == size() ? 0 : k + 1;
+      const double here = distances[k], there = distances[next];
+      if (here <= 0) parts.first.append(vertices_[k], here == 0 && there > 0 ? cut : cuts_[k]);
+      if (here >= 0) parts.second.append(vertices_[k], here == 0 && there < 0 ? cut : cuts_[k]);
+      if (here * there < 0) {
+        const Vec2 crossing =
+            vertices_[k] + (here / (here - there)) * (vertices_[next] - vertices_[k]);
+        parts.first.append(crossing, here < 0 ? cut : cuts_[k]);
+        parts.second.append(crossing, here > 0 ? cut : cuts_[k]);
+      }
+    }
+    return parts;
+  }
+
+  /// Longest distance between two vertices [m].
+  [[nodiscard]] double diameter() const {
+    double squared = 0;
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        squared = std::max(squared, (vertices_[i] - vertices_[j]).squaredNorm());
+    return std::sqrt(squared);
+  }
+
+  /// Length of the outline [m].
+  [[nodiscard]] double perimeter() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < size(); ++k) sum += face(k).length();
+    return sum;
+  }
+
+ private:
+  void append(const Vec2& vertex, int cut) {
+    vertices_.push_back(vertex);
+    cuts_.push_back(cut);
+  }
+
+  void check() const {
+    const auto fail = [](std::size_t k, const char* rule) {
+      throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule);
+    };
+    if (size() < 3) throw InvalidInput("convex polygon: needs at least 3 vertices");
+    if (cuts_.size() != size()) throw InvalidInput("convex polygon: needs one label per face");
+    double turning = 0;
+    for (std::size_t k = 0; k < size(); ++k) {
+      if (!vertices_[k].allFinite()) fail(k, "is not finite");
+      const Segment in = face(k), out = face(k + 1 == size() ? 0 : k + 1);
+      if (!(in.length() > 0)) fail(k, "is repeated");
+      const Vec2 u = in.end - in.start, v = out.end - out.start;
+      if (!(cross(u, v) >= 0)) fail((k + 1) % size(), "is a non-convex or clockwise corner");
+      turning += std::atan2(cross(u, v), u.dot(v));
+    }
+    // Every corner turns left; a star polygon does so too, but turns more than once.
+    if (std::abs(turning - 6.283185307179586) > 1e-6)
+      throw InvalidInput("convex polygon: the outline crosses itself or encloses no area");
+  }
+
+  std::vector<Vec2> vertices_;
+  std::vector<int> cuts_;
+};
+
+}  // namespace voussoir

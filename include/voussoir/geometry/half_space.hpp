@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// The points x with normal . x <= offset; in 2-D the part below (left of) a line.
+template <int Dim>
+struct HalfSpace {
+  Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit vector out of the half space
+  double offset = 0;                   ///< [m]
+
+  /// Signed distance to the boundary, negative inside [m].
+  [[nodiscard]] double distance(const Vec<Dim>& point) const { return normal.dot(point) - offset; }
+
+  /// The half space through `point` with the outward unit vector `normal`.
+  [[nodiscard]] static HalfSpace through(const Vec<Dim>& point, const Vec<Dim>& normal) {
+    return {normal, normal.dot(point)};
+  }
+};
+
+/// The half space left of the directed line from `a` to `b`.
+[[nodiscard]] inline HalfSpace<2> left_of(const Vec2& a, const Vec2& b) {
+  return HalfSpace<2>::through(a, -perpendicular(b - a).normalized());
+}
+
+}  // namespace voussoir

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace voussoir {
+
+namespace detail {
+[[noreturn]] inline void throw_write_error(const std::filesystem::path& path,
+                                           const std::string& reason) {
+  throw std::runtime_error("cannot write '" + path.string() + "': " + reason);
+}
+
+/// Writes all of `content` and closes the file.
+/// @return  0, or the errno of the first step that failed
+inline int write_and_close(std::FILE* file, std::string_view content) {
+  errno = 0;
+  const bool is_written =
+      std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+      std::fflush(file) == 0;  // a full disk shows here, not in fwrite, which only fills a buffer
+  int reason = is_written ? 0 : (errno != 0 ? errno : EIO);
+  errno = 0;
+  if (std::fclose(file) != 0 && reason == 0) reason = errno != 0 ? errno : EIO;  // network drives
+  return reason;
+}
+
+inline std::string error_text(int error_number) {
+  return std::generic_category().message(error_number);
+}
+}  // namespace detail
+
+/// Content on its way to a file: it lies, complete and checked, in a hidden neighbour of the
+/// target until `publish` renames it. Destroyed before that, it leaves no trace.
+///
+/// Survives a killed process and a full disk; not a power cut, for which the operating system
+/// would have to be told to empty its own buffers. A target that is a device or pipe
+/// (/dev/stdout) is written in place by `publish`: renaming would replace the device itself.
+class StagedFile {
+ public:
+  /// @throws std::runtime_error  naming path and reason: no such folder, no permission, disk full,
+  ///                             target is a folder
+  StagedFile(const std::filesystem::path& path, std::string_view content) : path_(path) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    // Follow a link, so that what it points to is replaced and not the link.
+    if (fs::is_symlink(fs::symlink_status(path_, ignored))) {
+      const fs::path pointed_to = fs::weakly_canonical(path_, ignored);
+      if (!ignored) path_ = pointed_to;
+    }
+    const fs::file_status status = fs::status(path_, ignored);
+    if (path_.filename().empty() || fs::is_directory(status)) {
+      detail::throw_write_error(path_, "it is a folder");
+    }
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+      content_for_device_ = content;
+      is_device_ = true;
+      return;
+    }
+    // 64 random bits: two runs that write one path at a time must not share the temporary.
+    std::random_device random;
+    temporary_ =
+        path_.parent_path() / ("." + path_.filename().string() + "." + std::to_string(random()) +
+                               std::to_string(random()) + ".part");
+    errno = 0;
+    std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx");  // x: never an existing file
+    if (file == nullptr) {
+      const int reason = errno;
+      temporary_.clear();
+      detail::throw_write_error(path_, detail::error_text(reason));
+    }
+    if (const int reason = detail::write_and_close(file, content); reason != 0) {
+      discard();  // the destructor of a half-built object does not run
+      detail::throw_write_error(path_, detail::error_text(reason));
+    }
+  }
+
+  StagedFile(StagedFile&& other) noexcept
+      : path_(std::move(other.path_)),
+        temporary_(std::exchange(other.temporary_, {})),
+        content_for_device_(std::move(other.content_for_device_)),
+        is_device_(std::exchange(other.is_device_, false)) {}
+  StagedFile& operator=(StagedFile&&) = delete;
+  ~StagedFile() { discard(); }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Puts the content in its place, replacing an older file in one step. A second call does
+  /// nothing.
+  /// @throws std::runtime_error  naming path and reason; the older file is then untouched
+  void publish() {
+    if (is_device_) {
+      is_device_ = false;
+      errno = 0;
+      std::FILE* file = std::fopen(path_.string().c_str(), "wb");
+      const int reason =
+          file == nullptr ? errno : detail::write_and_close(file, content_for_device_);
+      if (reason != 0) detail::throw_write_error(path_, detail::error_text(reason));
+    }
+    if (temporary_.empty()) return;
+    std::error_code failure;
+    std::filesystem::rename(temporary_, path_, failure);
+    if (failure) detail::throw_write_error(path_, failure.message());
+    temporary_.clear();
+  }
+
+ private:
+  void discard() noexcept {
+    if (temporary_.empty()) return;
+    std::error_code ignored;  // nothing left to tell it to
+    std::filesystem::remove(temporary_, ignored);
+    temporary_.clear();
+  }
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;  ///< empty: nothing staged, or already published
+  std::string content_for_device_;
+  bool is_device_ = false;
+};
+
+/// Writes a file so that a reader sees the old content or the new, never a part.
+/// @throws std::runtime_error  naming path and reason; the old file stays, no temporary is left
+inline void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  StagedFile(path, content).publish();
+}
+
+/// The files of one run: all are written and checked first, then renamed together, so that a run
+/// that fails half-way leaves the folder as it was.
+///
+///   OutputSet outputs;
+///   outputs.add(folder / "bolts.csv", bolts.text());
+///   outputs.add(folder / "blocks.svg", picture);
+///   outputs.publish();
+///
+/// The renames come one after another: a process killed between two of them leaves every file
+/// whole, but some of this run and some of the last.
+class OutputSet {
+ public:
+  /// @throws std::runtime_error     the content cannot be written (see StagedFile)
+  /// @throws std::invalid_argument  the path was added before
+  void add(const std::filesystem::path& path, std::string_view content) {
+    for (const StagedFile& file : files_) {
+      if (file.path().lexically_normal() == path.lexically_normal()) {
+        throw std::invalid_argument("OutputSet: '" + path.string() + "' was added twice");
+      }
+    }
+    files_.emplace_back(path, content);
+  }
+
+  [[nodiscard]] std::size_t size() const { return files_.size(); }
+
+  /// Renames everything and empties the set.
+  /// @throws std::runtime_error  one file could not be put in its place; those added before it are
+  ///                             in place, it and those after it are not
+  void publish() {
+    std::vector<StagedFile> files = std::exchange(files_, {});
+    for (StagedFile& file : files) file.publish();
+  }
+
+ private:
+  std::vector<StagedFile> files_;
+};
+
+}  // namespace voussoir

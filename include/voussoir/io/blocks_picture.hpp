@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/io/blocks_picture_data.hpp>
+#include <voussoir/io/detail/bolt_layers.hpp>
+#include <voussoir/io/detail/rock_layers.hpp>
+#include <voussoir/io/detail/side_column.hpp>
+#include <voussoir/io/picture_parts.hpp>
+#include <voussoir/io/svg.hpp>
+
+namespace voussoir {
+
+namespace detail {
+
+/// Bar of colours with round numbers in mm.
+inline void draw_displacement_bar(SvgCanvas& canvas, const ViewRect& bar,
+                                  const DisplacementScale& scale) {
+  const PageMap map({{0, 0}, {scale.top() * 1e3, 1}}, bar);
+  const double step_width = bar.width() / DisplacementScale::step_count;
+  for (int step = 0; step < DisplacementScale::step_count; ++step) {
+    const double x = bar.low.x() + step * step_width;  // a little overlap: no hairlines
+    canvas.rectangle(
+        {{x, bar.low.y()}, {std::min(x + step_width + 0.5, bar.high.x()), bar.high.y()}},
+        {.fill = scale.colour(step)});
+  }
+  canvas.rectangle(bar, {.stroke = "#111", .stroke_width = 0.8});
+  const RoundTicks ticks = round_ticks(0, scale.top() * 1e3, 8);
+  for (const double value : ticks.values) {
+    const Vec2 foot = map({value, 0});
+    canvas.line(foot, foot + Vec2(0, 4), {.stroke = "#111"});
+    const bool is_last = value > ticks.values.back() - ticks.step / 2;
+    canvas.text(foot + Vec2(0, 17), (is_last && scale.is_cut() ? "≥ " : "") + ticks.label(value),
+                {.anchor = TextAnchor::middle});
+  }
+  canvas.text(bar.low - Vec2(0, 6), "displacement of blocks [mm]");
+}
+
+/// Samples of what the picture holds, and of nothing else.
+inline std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
+                                             const ForceScale& forces) {
+  const auto dash = [](const char* colour, double width) {
+    return [=](SvgCanvas& canvas, const Vec2& c) {
+      canvas.line(c - Vec2(12, 0), c + Vec2(12, 0),
+                  {.stroke = colour, .stroke_width = width, .round_ends = true});
+    };
+  };
+  const auto box = [](const char* fill, const char* stroke) {
+    return [=](SvgCanvas& canvas, const Vec2& c) {
+      canvas.rectangle({c - Vec2(12, 6), c + Vec2(12, 6)},
+                       {.fill = fill, .stroke = stroke, .stroke_width = 1.4});
+    };
+  };
+  const auto has_joint = [&](PictureJoint::State state) {
+    return std::any_of(picture.joints.begin(), picture.joints.end(),
+                       [&](const PictureJoint& joint) { return joint.state == state; });
+  };
+  const auto has_crossing = [&](PictureCrossing::State state) {
+    for (const PictureBolt& bolt : picture.bolts) {
+      for (const PictureCrossing& crossing : bolt.crossings) {
+        if (crossing.state == state) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<LegendItem> items;
+  if (has_joint(PictureJoint::State::slipped))
+    items.push_back({"slipped joint", dash(slipped_colour, 1.7)});
+  if (has_joint(PictureJoint::State::opened))
+    items.push_back({"opened joint", dash(opened_colour, 3.1)});
+  if (picture.lining)
+    items.push_back({"lining, " + trimmed_text(picture.lining->thickness * 100, 1) + " cm",
+                     box("#9aa3ab", "#222")});
+  if (std::any_of(picture.blocks.begin(), picture.blocks.end(),
+                  [](const PictureBlock& block) { return block.is_fallen; })) {
+    items.push_back({"fallen block", box("url(#hatch)", fallen_colour)});
+  }
+  if (!picture.bolts.empty()) items.push_back({"bolt", dash("black", 2)});
+  if (forces.sample() > 0) {
+    const double length = forces.sample() * forces.px_per_newton();
+    items.push_back({"force in bolt, " + readable_text(forces.sample() / 1e3, 1) + " kN",
+                     [=](SvgCanvas& canvas, const Vec2& c) {
+                       const Vec2 left = c - Vec2(13, 0);
+                       canvas.line(left + Vec2(0, -7), left + Vec2(0, 7),
+                                   {.stroke = "black", .stroke_width = 2});
+                       canvas.line(left, left + Vec2(length, 0),
+                                   {.stroke = "black", .stroke_width = 3.4});
+                     },
+                     std::max(0.0, length - 26)});
+  }
+  for (const auto& [state, text] : {std::pair{PictureCrossing::State::yielded, "bolt yields"},
+                                    std::pair{PictureCrossing::State::ruptured, "bolt ruptured"}}) {
+    if (!has_crossing(state)) continue;
+    items.push_back({text, [state = state](SvgCanvas& canvas, const Vec2& c) {
+                       draw_crossing_state(canvas, c, state);
+                     }});
+  }
+  return items;
+}
+
+inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                      const DisplacementScale& scale, const ForceScale& forces) {
+  canvas.clip_rectangle("rock-frame", map.page());
+  canvas.begin_layer("rock", "rock-frame");
+  canvas.begin_layer("blocks");
+  draw_blocks(canvas, picture, map, scale, std::clamp(0.024 * map.scale(), 0.25, 0.5), 2);
+  canvas.end_layer();
+  canvas.begin_layer("joints");
+  draw_joints(canvas, picture, map, std::clamp(0.075 * map.scale(), 0.6, 1.6));
+  canvas.end_layer();
+  canvas.begin_layer("fallen-blocks");
+  draw_fallen_blocks(canvas, picture, map);
+  canvas.end_layer();
+  canvas.begin_layer("opening");
+  canvas.polygon(on_page(picture.outline, map), {.stroke = "#111", .stroke_width = 1.6});
+  if (picture.ground_surface) draw_ground(canvas, *picture.ground_surface, map, 8);
+  canvas.end_layer();
+  canvas.begin_layer("lining");
+  if (picture.lining) draw_lining(canvas, *picture.lining, map);
+  canvas.end_layer();
+  canvas.begin_layer("bolts");
+  draw_bolts(canvas, picture, map, forces);
+  canvas.end_layer();
+  canvas.end_layer();
+  canvas.rectangle(map.page(), {.stroke = "#111"});
+}
+
+}  // namespace detail
+
+/// The page that an engineer's report shows of one calculation: the rock around the opening with
+/// displacements, slipped joints, bolts and their forces, lining; beside it thrust and moment
+/// around the lining (or the bolts' forces where there is none) and the whole model.
+///
+/// @return  an SVG document, 190 mm wide; about 80 bytes a block
+///
+/// Never fails on the values of a calculation gone bad: what has coordinates that are not finite is
+/// left out, and the picture says how much that is.
+/// @throws InvalidInput  `picture.view` is empty
+[[nodiscard]] inline std::string draw_blocks_picture(const BlocksPicture& picture) {
+  using namespace detail;
+  const double left_width = 640;
+  const ViewRect wanted = picture.view.value_or(view_around_opening(picture));
+  if (!(wanted.width() > 0 && wanted.height() > 0)) {
+    throw InvalidInput("draw_blocks_picture: the view needs a positive width and height");
+  }
+  const double header = picture.header.height();
+  const double rock_height =
+      std::clamp(left_width * wanted.height() / wanted.width(), 400.0, 640.0);
+  const ViewRect rock{{picture_margin, header},
+                      {picture_margin + left_width, header + rock_height}};
+  const PageMap map = PageMap::equal_scales(wanted, rock);
+  const DisplacementScale scale(picture.blocks);
+  const ForceScale forces(picture.bolts, map);
+  const Legend legend(blocks_legend(picture, forces), left_width);
+  const double legend_top = rock.high.y() + 66;
+  const auto not_drawn = std::count_if(picture.blocks.begin(), picture.blocks.end(),
+                                       [](const auto& block) { return !is_drawable(block); });
+  const double height =
+      std::max(legend_top + legend.height() + (not_drawn > 0 ? 40 : 16), header + 560);
+
+  SvgCanvas canvas(picture_width, height, picture_printed_width, picture.header.title);
+  canvas.hatch_pattern("hatch", fallen_colour, 6, 1.6);
+  picture.header.draw(canvas);
+  draw_rock(canvas, picture, map, scale, forces);
+  draw_displacement_bar(
+      canvas, {{rock.low.x() + 4, rock.high.y() + 28}, {rock.low.x() + 324, rock.high.y() + 41}},
+      scale);
+  draw_scale_bar(canvas, {rock.low.x() + 400, rock.high.y() + 38}, 200, map.scale());
+  legend.draw(canvas, {rock.low.x(), legend_top});
+  if (not_drawn > 0) {
+    canvas.text({rock.low.x(), height - 14},
+                "Blocks not drawn, because their coordinates are not finite numbers: " +
+                    std::to_string(not_drawn),
+                {.bold = true, .fill = "#c00000"});
+  }
+
+  draw_side_column(canvas, {{692, header}, {picture_width - picture_margin, height - 10}}, picture,
+                   map.world(), scale);
+  return canvas.document();
+}
+
+}  // namespace voussoir

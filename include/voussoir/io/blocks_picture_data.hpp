@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/io/page_map.hpp>
+#include <voussoir/io/picture_parts.hpp>
+
+namespace voussoir {
+
+// What a picture of the rock around a tunnel is made of: plain values, filled by whoever has them.
+// Metres and newtons; world axes x right, y up; everything per metre out of plane.
+
+/// A block where it now lies.
+struct PictureBlock {
+  std::vector<Vec2> corners;  ///< of a convex polygon [m]
+  double displacement = 0;    ///< magnitude [m]; NaN: unknown, drawn grey
+  bool is_fallen = false;     ///< left the rock: hatched, and outside the scale of colours
+};
+
+/// A stretch of joint between two blocks.
+struct PictureJoint {
+  enum class State { closed, slipped, opened };
+  Vec2 p = Vec2::Zero(), q = Vec2::Zero();  ///< ends [m]
+  State state = State::closed;
+};
+
+/// Where a bolt crosses a joint.
+struct PictureCrossing {
+  enum class State { elastic, yielded, ruptured };
+  Vec2 point = Vec2::Zero();  ///< [m]
+  double force = 0;           ///< axial, tension positive [N]
+  State state = State::elastic;
+};
+
+struct PictureBolt {
+  Vec2 head = Vec2::Zero(), tip = Vec2::Zero();  ///< at the opening, in the rock [m]
+  std::vector<PictureCrossing> crossings;        ///< from head to tip
+};
+
+struct PictureLiningNode {
+  Vec2 point = Vec2::Zero();           ///< on the axis of the beam [m]
+  Vec2 outward_normal = Vec2::Zero();  ///< towards the rock, unit length
+  double thrust = 0;                   ///< N [N/m], compression positive
+  double moment = 0;                   ///< M [N m/m], positive: outer fibre in tension
+};
+
+struct PictureLining {
+  std::vector<PictureLiningNode> nodes;  ///< in order along the beam
+  bool is_ring = true;                   ///< the last node is joined to the first
+  double thickness = 0;                  ///< [m]
+};
+
+/// All that `draw_blocks_picture` shows.
+struct BlocksPicture {
+  PictureHeader header;  ///< title, verdict in words, key numbers
+  std::vector<PictureBlock> blocks;
+  std::vector<PictureJoint> joints;
+  std::vector<Vec2> outline;             ///< of the opening, closed, first point not repeated [m]
+  std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
+  std::vector<PictureBolt> bolts;
+  std::optional<PictureLining> lining;
+  /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
+  std::optional<ViewRect> view;
+};
+
+/// All blocks, the opening and the ground surface.
+[[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
+  std::vector<Vec2> points = picture.outline;
+  for (const PictureBlock& block : picture.blocks) {
+    if (block.is_fallen) continue;  // may be anywhere
+    points.insert(points.end(), block.corners.begin(), block.corners.end());
+  }
+  for (const PictureBolt& bolt : picture.bolts) {
+    points.push_back(bolt.head);
+    points.push_back(bolt.tip);
+  }
+  for (const PictureJoint& joint : picture.joints) {
+    points.push_back(joint.p);
+    points.push_back(joint.q);
+  }
+  ViewRect rect = bounding_rect(points).value_or(ViewRect{{-1, -1}, {1, 1}});
+  if (picture.ground_surface && !points.empty()) {
+    rect.high.y() = std::max(rect.high.y(), *picture.ground_surface);
+  }
+  return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
+}
+
+/// Three diameters (or what is asked) of rock, the opening in the middle.
+/// @return  the whole model if there is no opening
+[[nodiscard]] inline ViewRect view_around_opening(const BlocksPicture& picture,
+                                                  double diameters = 3) {
+  const std::optional<ViewRect> opening = bounding_rect(picture.outline);
+  if (!opening) return view_of_everything(picture);
+  const double half = std::max(opening->width(), opening->height()) * diameters / 2;
+  return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};
+}
+
+}  // namespace voussoir

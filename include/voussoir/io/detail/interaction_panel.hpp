@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/io/detail/contour_panel.hpp>
+#include <voussoir/io/interaction_picture_data.hpp>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/io/svg.hpp>
+
+namespace voussoir::detail {
+
+/// A part of the diagram: the spacings with a value, or one row alone as a strip.
+struct InteractionPanel {
+  std::vector<std::size_t> rows;  ///< indices of spacings
+  ContourGrid grid;               ///< thickness [m], spacing, convergence [% of the radius]
+  ViewRect page;
+
+  [[nodiscard]] bool is_strip() const { return rows.size() == 1; }
+  [[nodiscard]] double row_y(std::size_t k) const { return is_strip() ? 0 : grid.y[k]; }
+  /// White margins about the grid, so that marks on its edge lie inside the frame.
+  [[nodiscard]] PageMap map() const {
+    const Vec2 low(grid.x.front(), grid.y.front()), high(grid.x.back(), grid.y.back());
+    const Vec2 margin_px(34, is_strip() ? 8 : 26);
+    const Vec2 inner = page.high - page.low - 2 * margin_px;
+    const Vec2 margin = (high - low).cwiseQuotient(inner).cwiseProduct(margin_px);
+    return {{low - margin, high + margin}, page};
+  }
+};
+
+inline InteractionPanel interaction_panel(const InteractionPicture& picture,
+                                          std::vector<std::size_t> rows, const ViewRect& page) {
+  InteractionPanel panel{std::move(rows), {picture.thicknesses, {}, {}}, page};
+  const std::size_t count = panel.is_strip() ? 2 : panel.rows.size();
+  panel.grid.value.resize(picture.convergence.rows(), static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t j = panel.is_strip() ? panel.rows[0] : panel.rows[k];
+    panel.grid.y.push_back(panel.is_strip() ? (k == 0 ? -1.0 : 1.0) : *picture.spacings[j].value);
+    panel.grid.value.col(static_cast<Eigen::Index>(k)) =
+        picture.convergence.col(static_cast<Eigen::Index>(j)) * (200 / picture.diameter);
+  }
+  return panel;
+}
+
+inline void draw_failed_mark(SvgCanvas& canvas, const Vec2& at) {
+  canvas.circle(at, 7, {.fill = "white", .stroke = "#c8102e", .stroke_width = 2});
+  draw_cross(canvas, at, 4.6, {.stroke = "#c8102e", .stroke_width = 2});
+}
+inline void draw_missing_mark(SvgCanvas& canvas, const Vec2& at) {
+  canvas.circle(at, 3.2, {.fill = "white", .stroke = "#666", .stroke_width = 1.2});
+}
+
+inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& picture,
+                                   const InteractionPanel& panel, const ContourBands& bands) {
+  const PageMap map = panel.map();
+  const TextStyle small{.size = 11.5, .anchor = TextAnchor::middle, .fill = "#222", .halo = true};
+  TakenPlaces taken;
+  struct Label {
+    Vec2 at;
+    std::string text;
+  };
+  std::vector<Label> labels;
+  const auto place = [&](std::size_t i, std::size_t k) {
+    return map({picture.thicknesses[i], panel.row_y(k)});
+  };
+  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
+    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
+      const Vec2 at = place(i, k);
+      taken.take({at - Vec2(9, 9), at + Vec2(9, 9)});
+    }
+  }
+  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
+    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
+      const double value = picture.at(i, panel.rows[k]);
+      if (!std::isfinite(value)) continue;
+      const std::string text = printed_text(value * 1e3);
+      const double up = picture.is_failed(i, panel.rows[k]) ? 12 : 11;
+      for (const double shift : {-up, up + 9}) {  // above the point, else below, else nowhere
+        const Vec2 at = place(i, k) + Vec2(0, shift);
+        if (const ViewRect room = text_room(at, text, small).grown(-1.5); taken.is_free(room)) {
+          taken.take(room);
+          labels.push_back({at, text});
+          break;
+        }
+      }
+    }
+  }
+  canvas.begin_layer(panel.is_strip() ? "row-" + std::to_string(panel.rows[0]) : "contours");
+  draw_contours(canvas, panel.grid, map, bands, taken);
+  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
+    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
+      if (picture.is_failed(i, panel.rows[k])) {
+        draw_failed_mark(canvas, place(i, k));
+      } else if (std::isfinite(picture.at(i, panel.rows[k]))) {
+        canvas.circle(place(i, k), 3, {.fill = "#111"});
+      } else {
+        draw_missing_mark(canvas, place(i, k));
+      }
+    }
+  }
+  for (const Label& label : labels) canvas.text(label.at, label.text, small);
+  canvas.rectangle(panel.page, {.stroke = "#111"});
+  double last_y = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < panel.rows.size(); ++k) {  // upwards
+    const double y = map({0, panel.row_y(k)}).y(), left = panel.page.low.x();
+    canvas.line({left - 5, y}, {left, y}, {.stroke = "#111"});
+    if (last_y - y < 14) continue;  // rows closer than the letters are high
+    canvas.text({left - 9, y + 4.5}, picture.spacings[panel.rows[k]].label,
+                {.anchor = TextAnchor::end});
+    last_y = y;
+  }
+  canvas.end_layer();
+}
+
+}  // namespace voussoir::detail

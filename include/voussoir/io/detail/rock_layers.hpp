@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+#include <voussoir/io/blocks_picture_data.hpp>
+#include <voussoir/io/colour_map.hpp>
+#include <voussoir/io/round_ticks.hpp>
+#include <voussoir/io/svg.hpp>
+
+namespace voussoir::detail {
+
+// The rock of a blocks picture, layer by layer. Black and strong colours only on top of the pale
+// map of displacements, and every pair told apart by shape or width too: it prints in grey.
+inline constexpr const char* slipped_colour = "#d7261e";
+inline constexpr const char* opened_colour = "#6a1b9a";
+inline constexpr const char* fallen_colour = "#8c2d04";
+
+/// Colours of displacement in steps, each of which is one path in the file.
+class DisplacementScale {
+ public:
+  static constexpr int step_count = 40;
+
+  /// The scale ends where 98 % of the standing blocks are below: one loosened wedge must not paint
+  /// everything else in a single colour. `is_cut` says that some are beyond.
+  explicit DisplacementScale(const std::vector<PictureBlock>& blocks) {
+    std::vector<double> values;
+    for (const PictureBlock& block : blocks) {
+      if (!block.is_fallen && std::isfinite(block.displacement)) {
+        values.push_back(block.displacement);
+      }
+    }
+    if (values.empty()) return;
+    std::sort(values.begin(), values.end());
+    const double typical =
+        values[static_cast<std::size_t>(0.98 * static_cast<double>(values.size() - 1))];
+    is_cut_ = values.back() > 1.6 * typical && typical > 0;
+    const double reach = is_cut_ ? typical : values.back();
+    const RoundTicks ticks = round_ticks(0, reach, 8);  // the end is a round number too
+    top_ = reach > 0 ? ticks.step * std::ceil(reach / ticks.step - 1e-9) : 1e-3;
+  }
+
+  [[nodiscard]] double top() const { return top_; }  ///< [m]
+  [[nodiscard]] bool is_cut() const { return is_cut_; }
+  /// @return  0 to step_count - 1; step_count for NaN
+  [[nodiscard]] int step(double displacement) const {
+    if (!std::isfinite(displacement)) return step_count;
+    return std::clamp(static_cast<int>(std::min(displacement / top_, 1.0) * step_count), 0,
+                      step_count - 1);
+  }
+  [[nodiscard]] std::string colour(int step) const {
+    static const ColourMap map = ColourMap::straw_to_blue();
+    if (step >= step_count) return "#bdbdbd";
+    return map((step + 0.5) / step_count).hex();
+  }
+
+ private:
+  double top_ = 1e-3;
+  bool is_cut_ = false;
+};
+
+inline bool is_drawable(const PictureBlock& block) {
+  return block.corners.size() >= 3 && std::all_of(block.corners.begin(), block.corners.end(),
+                                                  [](const Vec2& p) { return p.allFinite(); });
+}
+
+/// @param edge_width  of the outlines [px]; 0: outlines in the colour of the block
+/// @param decimals    of a px in the file
+inline void draw_blocks(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                        const DisplacementScale& scale, double edge_width, int decimals) {
+  std::vector<SvgPath> paths(DisplacementScale::step_count + 1, SvgPath(decimals));
+  for (const PictureBlock& block : picture.blocks) {
+    if (block.is_fallen || !is_drawable(block)) continue;
+    const std::vector<Vec2> visible = clip_polygon(block.corners, map.world());
+    paths[static_cast<std::size_t>(scale.step(block.displacement))].add_polygon(
+        on_page(visible, map));
+  }
+  for (int step = 0; step <= DisplacementScale::step_count; ++step) {
+    const std::string fill = scale.colour(step);
+    canvas.path(paths[static_cast<std::size_t>(step)],
+                {.fill = fill,
+                 .stroke = edge_width > 0 ? "#5c6670" : fill,  // own colour: no white hairlines
+                 .stroke_width = edge_width > 0 ? edge_width : 0.4});
+  }
+}
+
+inline void draw_fallen_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
+                               const PageMap& map) {
+  SvgPath path;
+  for (const PictureBlock& block : picture.blocks) {
+    if (block.is_fallen && is_drawable(block)) {
+      path.add_polygon(on_page(clip_polygon(block.corners, map.world()), map));
+    }
+  }
+  canvas.path(path, {.fill = "white"});
+  canvas.path(path, {.fill = "url(#hatch)", .stroke = fallen_colour, .stroke_width = 1.3});
+}
+
+/// Closed joints are the outlines of the blocks already; drawn only where there are no blocks.
+inline void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                        double width) {
+  std::array<SvgPath, 3> paths;
+  for (const PictureJoint& joint : picture.joints) {
+    if (!joint.p.allFinite() || !joint.q.allFinite()) continue;
+    if (joint.state == PictureJoint::State::closed && !picture.blocks.empty()) continue;
+    if (const auto visible = clip_segment(joint.p, joint.q, map.world())) {
+      paths[static_cast<std::size_t>(joint.state)].add_line(map(visible->first),
+                                                            map(visible->second));
+    }
+  }
+  canvas.path(paths[0], {.stroke = "#5c6670", .stroke_width = 0.5});
+  canvas.path(paths[1], {.stroke = slipped_colour, .stroke_width = width, .round_ends = true});
+  canvas.path(paths[2], {.stroke = opened_colour, .stroke_width = 1.8 * width, .round_ends = true});
+}
+
+inline void draw_lining(SvgCanvas& canvas, const PictureLining& lining, const PageMap& map) {
+  // True to scale, but never thinner than is seen: 5 cm of shotcrete would be one px.
+  const double half = std::max(lining.thickness, 3.5 / map.scale()) / 2;
+  std::vector<Vec2> inner, outer;
+  for (const PictureLiningNode& node : lining.nodes) {
+    if (!node.point.allFinite() || !node.outward_normal.allFinite()) continue;
+    inner.push_back(map(node.point - half * node.outward_normal));
+    outer.push_back(map(node.point + half * node.outward_normal));
+  }
+  if (inner.size() < 2) return;
+  SvgPath band;
+  std::reverse(inner.begin(), inner.end());  // a ring's inner side turns the other way: a hole
+  if (lining.is_ring) {
+    band.add_polygon(outer);
+    band.add_polygon(inner);
+  } else {
+    outer.insert(outer.end(), inner.begin(), inner.end());
+    band.add_polygon(outer);
+  }
+  canvas.path(band, {.fill = "#9aa3ab", .stroke = "#222"});
+}
+
+/// Line of the ground with the strokes that say "earth below".
+inline void draw_ground(SvgCanvas& canvas, double y, const PageMap& map, double stroke_length) {
+  const ViewRect& world = map.world();
+  if (y < world.low.y() || y > world.high.y()) return;
+  const Vec2 left = map({world.low.x(), y}), right = map({world.high.x(), y});
+  SvgPath strokes;
+  for (double x = left.x() + 2 * stroke_length; x < right.x(); x += 2.5 * stroke_length) {
+    strokes.add_line({x, left.y()}, {x - stroke_length, left.y() + stroke_length});
+  }
+  canvas.line(left, right, {.stroke = "#3e2a14", .stroke_width = 2});
+  canvas.path(strokes, {.stroke = "#3e2a14"});
+}
+
+}  // namespace voussoir::detail

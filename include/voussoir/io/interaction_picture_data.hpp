@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/io/picture_parts.hpp>
+
+namespace voussoir {
+
+/// What an interaction diagram shows: crown convergence over lining thickness and bolt spacing.
+struct InteractionPicture {
+  struct Spacing {
+    std::string label;                 ///< as written on the axis: "15°", "no bolts"
+    std::optional<double> value = {};  ///< in any one unit; none: no bolts
+  };
+  PictureHeader header;
+  double diameter = 0;              ///< D of the opening [m], > 0
+  std::vector<double> thicknesses;  ///< t of the lining [m], ascending, 2 or more
+  std::vector<Spacing> spacings;    ///< ascending, 2 or more; only the last may be without value
+  std::string spacing_axis = "bolt spacing";  ///< title of the axis
+  Eigen::MatrixXd convergence;  ///< (thickness, spacing) [m], into the opening positive; NaN: none
+  /// (thickness, spacing): blocks fall. Empty: nowhere. A failed point counts in the contours only
+  /// if it has a convergence.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
+
+  [[nodiscard]] bool is_failed(std::size_t i, std::size_t j) const {
+    return failed.size() > 0 && failed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  [[nodiscard]] double at(std::size_t i, std::size_t j) const {
+    return convergence(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+};
+
+/// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
+///                       diameter not > 0
+inline void check_interaction(const InteractionPicture& picture) {
+  const auto columns = static_cast<Eigen::Index>(picture.thicknesses.size());
+  const auto rows = static_cast<Eigen::Index>(picture.spacings.size());
+  if (columns < 2 || rows < 2) {
+    throw InvalidInput("interaction picture: needs 2 or more thicknesses and spacings");
+  }
+  if (picture.convergence.rows() != columns || picture.convergence.cols() != rows ||
+      (picture.failed.size() > 0 &&
+       (picture.failed.rows() != columns || picture.failed.cols() != rows))) {
+    throw InvalidInput("interaction picture: tables must be thicknesses x spacings");
+  }
+  for (std::size_t i = 0; i + 1 < picture.thicknesses.size(); ++i) {
+    if (!(picture.thicknesses[i] < picture.thicknesses[i + 1])) {
+      throw InvalidInput("interaction picture: thicknesses must ascend");
+    }
+  }
+  for (std::size_t j = 0; j + 1 < picture.spacings.size(); ++j) {
+    const std::optional<double> here = picture.spacings[j].value;
+    const std::optional<double> next = picture.spacings[j + 1].value;
+    if (!here || (next && !(*here < *next))) {
+      throw InvalidInput("interaction picture: spacings must ascend, `no bolts` last");
+    }
+  }
+  require(picture.diameter > 0, "interaction picture: diameter", picture.diameter, "> 0");
+}
+
+}  // namespace voussoir

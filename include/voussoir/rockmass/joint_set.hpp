@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/random.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/rockmass/domain.hpp>
+
+namespace voussoir {
+
+/// A discontinuity: where it runs and how far it reaches.
+struct Joint {
+  Segment trace;  ///< [m]
+  int set;        ///< index of its joint set; -1: none
+};
+
+/// The direction in which a joint falls, in the plane of the section.
+enum class DipDirection { east, west };  ///< east: down to the right; west: down to the left
+
+/// A family of joints of similar orientation, as borehole and scanline surveys describe it.
+struct JointSet {
+  std::string name;
+  double dip;                    ///< from the horizontal [rad], 0 to pi/2
+  DipDirection dip_direction = DipDirection::east;
+  double dip_deviation = 0;      ///< standard deviation of the dip, normal [rad], >= 0
+  double intensity = 0;          ///< joint centres per area [1/m^2]; 0: use `spacing`
+  double spacing = 0;            ///< normal spacing [m]; 0: use `intensity`
+  double extent = std::numeric_limits<double>::infinity();  ///< full length of a trace [m], > 0
+
+  /// @throws InvalidInput  a value out of range, or not exactly one of intensity and spacing
+  void check() const {
+    const std::string of = "joint set " + name + ": ";
+    const auto rule = [&of](bool holds, const char* text) {
+      if (!holds) throw InvalidInput(of + text);
+    };
+    rule(dip >= 0 && dip <= 0.5 * std::numbers::pi, "dip must be 0 to 90 deg");
+    rule(dip_deviation >= 0 && std::isfinite(dip_deviation), "deviation of the dip must be >= 0");
+    rule((intensity > 0) != (spacing > 0), "give either an intensity > 0 or a spacing > 0");
+    rule(std::isfinite(intensity) && std::isfinite(spacing), "intensity and spacing must be finite");
+    rule(extent > 0, "extent must be > 0");
+  }
+};
+
+namespace detail {
+
+/// Unit vector down the dip.
+[[nodiscard]] inline Vec2 dip_vector(double dip, DipDirection direction) {
+  const double x = std::cos(dip), y = -std::sin(dip);
+  return {direction == DipDirection::east ? x : -x, y};
+}
+
+}  // namespace detail
+
+/// Joints of one set inside the domain.
+///
+/// With an intensity (or a spacing and a finite extent, which amounts to 1/(spacing * extent)
+/// centres per area) centres are uniform over the domain and their number is the expected one,
+/// rounded. With a spacing and no end the joints are equidistant, with a random first one.
+[[nodiscard]] inline std::vector<Joint> generate(const JointSet& set, int index,
+                                                 const Domain<2>& domain, std::uint64_t seed) {
+  set.check();
+  Random random(seed, static_cast<std::uint64_t>(index) + 1);
+  const double half = 0.5 * std::fmin(set.extent, 2.1 * domain.diameter());
+  std::vector<Joint> joints;
+  const auto add = [&](const Vec2& centre) {
+    const Vec2 along =
+        detail::dip_vector(set.dip + set.dip_deviation * random.normal(), set.dip_direction);
+    joints.push_back({{centre - half * along, centre + half * along}, index});
+  };
+  if (set.spacing > 0 && std::isinf(set.extent)) {
+    const Vec2 centre = 0.5 * (domain.low + domain.high);
+    const Vec2 normal = perpendicular(detail::dip_vector(set.dip, set.dip_direction));
+    const double reach = 0.5 * domain.diameter();
+    const double first = -reach + random.uniform() * set.spacing;
+    const auto count = static_cast<int>(std::floor((reach - first) / set.spacing)) + 1;
+    for (int k = 0; k < count; ++k) add(centre + (first + k * set.spacing) * normal);
+    return joints;
+  }
+  const double intensity = set.intensity > 0 ? set.intensity : 1.0 / (set.spacing * set.extent);
+  const auto count = static_cast<std::size_t>(std::llround(intensity * domain.measure()));
+  joints.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = random.uniform(), y = random.uniform();
+    add(domain.low + domain.size().cwiseProduct(Vec2(x, y)));
+  }
+  return joints;
+}
+
+/// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
+/// would use up the block sizes that the minimum allows.
+[[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
+                                                      const Domain<2>& domain,
+                                                      std::uint64_t seed) {
+  domain.check();
+  std::vector<Joint> all;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed);
+    all.insert(all.end(), joints.begin(), joints.end());
+  }
+  Random(seed, 0).shuffle(all);
+  return all;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/roles.hpp>
+#include <voussoir/detection/contact_detector.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/lining/beams.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/solver/system.hpp>
+#include <voussoir/solver/two_level.hpp>
+
+namespace voussoir {
+
+namespace detail {
+
+/// The policy among `Policies` that fills `Role`, or `Default`.
+template <class Role, class Default, class... Policies>
+struct Pick {
+  using type = Default;
+};
+template <class Role, class Default, class First, class... Rest>
+struct Pick<Role, Default, First, Rest...> {
+  using type = typename std::conditional_t<Fills<First, Role>, std::type_identity<First>,
+                                           Pick<Role, Default, Rest...>>::type;
+};
+
+template <class Policy>
+inline constexpr bool fills_some_role =
+    Fills<Policy, roles::Geometry> || Fills<Policy, roles::ContactDetector> ||
+    Fills<Policy, roles::ContactLaw> || Fills<Policy, roles::BoltAnchors> ||
+    Fills<Policy, roles::BoltLaw> || Fills<Policy, roles::Lining> ||
+    Fills<Policy, roles::Equilibrium>;
+
+template <class Role, class... Policies>
+inline constexpr int fillers = (0 + ... + (Fills<Policies, Role> ? 1 : 0));
+
+}  // namespace detail
+
+/// The physics of a solver: one model per role, from policies in any order; a role left out has
+/// its default. This is the one place where every requirement is spelled out to the user.
+///
+/// | role               | default            |
+/// |--------------------|--------------------|
+/// | geometry           | Planar             |
+/// | contact detector   | CutContacts        |
+/// | contact law        | CoulombJoint       |
+/// | bolt anchors       | LorigAnchors       |
+/// | bolt law           | AxialBolt          |
+/// | lining             | EulerBernoulliBeam |
+/// | equilibrium method | TwoLevel           |
+template <class... Policies>
+struct Composition {
+  static_assert((detail::fills_some_role<Policies> && ...),
+                "Solver: a policy fills no role; give it `using role = voussoir::roles::...`");
+  static_assert(detail::fillers<roles::Geometry, Policies...> <= 1, "Solver: two geometries given");
+  static_assert(detail::fillers<roles::ContactDetector, Policies...> <= 1,
+                "Solver: two contact detectors given");
+  static_assert(detail::fillers<roles::ContactLaw, Policies...> <= 1,
+                "Solver: two contact laws given");
+  static_assert(detail::fillers<roles::BoltAnchors, Policies...> <= 1,
+                "Solver: two kinds of bolt anchors given");
+  static_assert(detail::fillers<roles::BoltLaw, Policies...> <= 1, "Solver: two bolt laws given");
+  static_assert(detail::fillers<roles::Lining, Policies...> <= 1, "Solver: two linings given");
+  static_assert(detail::fillers<roles::Equilibrium, Policies...> <= 1,
+                "Solver: two equilibrium methods given");
+
+  using Geometry = typename detail::Pick<roles::Geometry, Planar, Policies...>::type;
+  using Detector = typename detail::Pick<roles::ContactDetector, CutContacts, Policies...>::type;
+  using JointLaw = typename detail::Pick<roles::ContactLaw, CoulombJoint, Policies...>::type;
+  using Anchors = typename detail::Pick<roles::BoltAnchors, LorigAnchors, Policies...>::type;
+  using BoltLaw = typename detail::Pick<roles::BoltLaw, AxialBolt, Policies...>::type;
+  using Lining = typename detail::Pick<roles::Lining, EulerBernoulliBeam, Policies...>::type;
+  using Method = typename detail::Pick<roles::Equilibrium, TwoLevel, Policies...>::type;
+
+  static_assert(explain_contact_detector<Detector, RockMass<Geometry>, Geometry>());
+  static_assert(explain_contact_law<JointLaw, Geometry::dim>());
+  static_assert(explain_bolt_anchors<Anchors>());
+  static_assert(explain_bolt_law<BoltLaw, Geometry::dim>());
+  static_assert(explain_lining_model<Lining, Geometry::dof>());
+
+  /// For the first line of every log: "Planar, CutContacts, CoulombJoint, ...".
+  [[nodiscard]] static std::string describe() {
+    std::string text = Geometry::name;
+    for (const char* name : {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name,
+                             Lining::name, Method::name})
+      text.append(", ").append(name);
+    return text;
+  }
+};
+
+}  // namespace voussoir

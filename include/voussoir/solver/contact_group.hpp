@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/planar.hpp>
+
+namespace voussoir {
+
+/// Small displacement of the point at `arm` from the centre of a body with these values.
+template <int Dim>
+[[nodiscard]] Vec<Dim> displacement_at(const double* body, const Vec<Dim>& arm) {
+  return Eigen::Map<const Vec<Dim>>(body) +
+         turned(Spin<Dim>(Eigen::Map<const Spin<Dim>>(body + Dim)), arm);
+}
+
+/// Adds a force that acts at `arm` from the centre to the force and moment of a body.
+template <int Dim>
+void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
+  Eigen::Map<Vec<Dim>>{body} += force;
+  Eigen::Map<Spin<Dim>>{body + Dim} += moment_of(arm, force);
+}
+
+/// What evaluating forces does to the contact history.
+struct Frozen {};      ///< read it: the force depends on the displacement alone
+struct Committing {};  ///< and bring it up to date at every evaluation
+
+/// All contacts that follow one law, with their points and history.
+template <class Geometry, class Law>
+class ContactGroup {
+ public:
+  static constexpr int dim = Geometry::dim;
+  static constexpr int dof = Geometry::dof;
+  using State = typename Law::template State<dim>;
+
+  /// One facet in which body a touches body b, at the reference position.
+  struct Contact {
+    Vec<dim> normal;        ///< from a to b
+    Vec<dim> arm_a, arm_b;  ///< from the centres of the bodies to the centre of the facet [m]
+    int a, b;
+    int first, last;  ///< points first, ..., last - 1
+  };
+  struct Point {
+    Vec<dim - 1> offset;      ///< from the centre of the facet, along the tangents [m]
+    double weight;            ///< [m] or [m^2]
+    PointForce<dim> initial;  ///< in the in-situ state, or minus what the installation must not feel
+    [[no_unique_address]] State state;
+  };
+
+  explicit ContactGroup(Law law) : law_(std::move(law)) {}
+
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+
+  /// @param facet     its area vector points from a to b
+  /// @param centre_a, centre_b  of the bodies [m]
+  /// @param at        integration points of the facet
+  void add(int a, int b, const typename Geometry::Facet& facet, const Vec<dim>& centre_a,
+           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at) {
+    Contact contact;
+    contact.normal = facet.area_vector().normalized();
+    contact.arm_a = facet.centre_from(centre_a);
+    contact.arm_b = facet.centre_from(centre_b);
+    contact.a = a;
+    contact.b = b;
+    contact.first = static_cast<int>(points_.size());
+    contact.last = contact.first + static_cast<int>(at.size());
+    const TangentBasis<dim> tangents = tangent_basis(contact.normal);
+    for (const FacetPoint<dim>& point : at)
+      points_.push_back({tangents.transpose() * point.offset, point.weight, {}, State{}});
+    contacts_.push_back(contact);
+  }
+
+  /// Sets the initial force at every point from the stress there: on b, -traction of the facet.
+  template <class StressAt>
+  void set_initial(StressAt&& stress_at) {
+    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
+      const TangentBasis<dim> tangents = tangent_basis(c.normal);
+      const Vec<dim> force = stress_at(c, offset) * c.normal * p.weight;
+      p.initial = {c.normal.dot(force), tangents.transpose() * force};
+    });
+  }
+
+  /// Makes the present displacement the one at which the elastic springs are free of force:
+  /// for contacts that are installed on ground which has already moved.
+  void start_from(const double* u) {
+    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
+      const PointMotion<dim> motion = motion_at(c, offset, u);
+      p.initial = {law_.joint_normal_stiffness() * p.weight * motion.opening,
+                   law_.joint_shear_stiffness() * p.weight * motion.slip};
+    });
+  }
+
+  /// Adds the contact forces at displacement `u` to `f`, both dof values per body.
+  template <class History>
+  void add_forces(const double* u, double* f) {
+    for (const Contact& c : contacts_) add_force<History>(c, u, f);
+  }
+  /// The same for the contacts with these numbers only.
+  void add_forces(std::span<const int> which, const double* u, double* f) {
+    for (const int k : which) add_force<Frozen>(contacts_[static_cast<std::size_t>(k)], u, f);
+  }
+
+  /// Brings the history up to date with displacement `u`.
+  void commit(const double* u) {
+    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
+      law_.commit({p.weight, p.initial, motion_at(c, offset, u)}, p.state);
+    });
+  }
+
+  /// Hands the elastic (closed, sticking) stiffness of each contact to `sink(a, b, aa, ab, bb)`.
+  template <class Sink>
+  void add_stiffness(Sink&& sink) const {
+    using Block = Eigen::Matrix<double, dof, dof>;
+    using Row = Eigen::Matrix<double, dof, 1>;
+    for (const Contact& c : contacts_) {
+      const TangentBasis<dim> tangents = tangent_basis(c.normal);
+      Block aa = Block::Zero(), ab = Block::Zero(), bb = Block::Zero();
+      for (int k = c.first; k < c.last; ++k) {
+        const Point& p = points_[static_cast<std::size_t>(k)];
+        const Vec<dim> offset = tangents * p.offset;
+        for (int direction = 0; direction < dim; ++direction) {
+          const Vec<dim> unit = direction == 0 ? c.normal : Vec<dim>(tangents.col(direction - 1));
+          const double stiffness = p.weight * (direction == 0 ? law_.joint_normal_stiffness()
+                                                              : law_.joint_shear_stiffness());
+          Row a, b;
+          a << unit, moment_of(Vec<dim>(c.arm_a + offset), unit);
+          b << unit, moment_of(Vec<dim>(c.arm_b + offset), unit);
+          aa += stiffness * a * a.transpose();
+          ab -= stiffness * a * b.transpose();
+          bb += stiffness * b * b.transpose();
+        }
+      }
+      sink(c.a, c.b, aa, ab, bb);
+    }
+  }
+
+  /// Calls visit(contact, point, load, force) for every point at displacement `u`.
+  template <class Visit>
+  void visit(const double* u, Visit&& visit) const {
+    for (const Contact& c : contacts_)
+      for (int k = c.first; k < c.last; ++k) {
+        const Point& p = points_[static_cast<std::size_t>(k)];
+        const Vec<dim> offset = tangent_basis(c.normal) * p.offset;
+        const PointLoad<dim> load{p.weight, p.initial, motion_at(c, offset, u)};
+        visit(c, p, load, law_.force(load, p.state));
+      }
+  }
+
+  /// Forgets the contacts of bodies for which `gone(body)` holds.
+  template <class Gone>
+  void remove(Gone&& gone) {
+    std::vector<Contact> kept;
+    std::vector<Point> points;
+    for (Contact c : contacts_) {
+      if (gone(c.a) || gone(c.b)) continue;
+      const int first = static_cast<int>(points.size());
+      points.insert(points.end(), points_.begin() + c.first, points_.begin() + c.last);
+      c.first = first;
+      c.last = static_cast<int>(points.size());
+      kept.push_back(c);
+    }
+    contacts_ = std::move(kept);
+    points_ = std::move(points);
+  }
+
+ private:
+  template <class History>
+  void add_force(const Contact& c, const double* u, double* f) {
+    const TangentBasis<dim> tangents = tangent_basis(c.normal);
+    const double *ua = u + dof * c.a, *ub = u + dof * c.b;
+    const Vec<dim> jump = displacement_at<dim>(ub, c.arm_b) - displacement_at<dim>(ua, c.arm_a);
+    const Spin<dim> turn =
+        Eigen::Map<const Spin<dim>>(ub + dim) - Eigen::Map<const Spin<dim>>(ua + dim);
+    Vec<dim> force = Vec<dim>::Zero();
+    Spin<dim> moment = Spin<dim>::Zero();
+    for (int k = c.first; k < c.last; ++k) {
+      Point& p = points_[static_cast<std::size_t>(k)];
+      const Vec<dim> offset = tangents * p.offset;
+      const Vec<dim> motion = jump + turned(turn, offset);
+      const PointLoad<dim> load{
+          p.weight, p.initial, {c.normal.dot(motion), tangents.transpose() * motion}};
+      const PointForce<dim> at = law_.force(load, p.state);
+      if constexpr (std::is_same_v<History, Committing>) law_.commit(load, p.state);
+      const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
+      force += on_b;
+      moment += moment_of(offset, on_b);
+    }
+    Eigen::Map<Vec<dim>>{f + dof * c.b} += force;
+    Eigen::Map<Vec<dim>>{f + dof * c.a} -= force;
+    Eigen::Map<Spin<dim>>{f + dof * c.b + dim} += moment + moment_of(c.arm_b, force);
+    Eigen::Map<Spin<dim>>{f + dof * c.a + dim} -= moment + moment_of(c.arm_a, force);
+  }
+
+  [[nodiscard]] static PointMotion<dim> motion_at(const Contact& c, const Vec<dim>& offset,
+                                                  const double* u) {
+    const Vec<dim> motion = displacement_at<dim>(u + dof * c.b, c.arm_b + offset) -
+                            displacement_at<dim>(u + dof * c.a, c.arm_a + offset);
+    return {c.normal.dot(motion), tangent_basis(c.normal).transpose() * motion};
+  }
+
+  template <class Visit>
+  void for_each_point(Visit&& visit) {
+    for (const Contact& c : contacts_)
+      for (int k = c.first; k < c.last; ++k) {
+        Point& p = points_[static_cast<std::size_t>(k)];
+        visit(c, p, Vec<dim>(tangent_basis(c.normal) * p.offset));
+      }
+  }
+
+  Law law_;
+  std::vector<Contact> contacts_;
+  std::vector<Point> points_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <voussoir/core/roles.hpp>
+
+namespace voussoir {
+
+/// What is known about a state after equilibrium was sought.
+enum class Verdict {
+  stable,      ///< all three tests passed, possibly after loose blocks fell
+  collapsing,  ///< more rock moved than the limit, or blocks never stop falling
+  undecided,   ///< the step limit was reached first
+};
+
+[[nodiscard]] constexpr const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stable: return "stable";
+    case Verdict::collapsing: return "collapsing";
+    case Verdict::undecided: return "undecided";
+  }
+  return "undecided";
+}
+
+/// When a state counts as an equilibrium.
+struct Acceptance {
+  double error_estimate = 1e-3;       ///< largest elastic correction / largest displacement [-]
+  double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
+  double displacement_limit = 0.2;    ///< a body that moved further has fallen [m]
+  double collapse_measure = 20;       ///< more fallen rock than this is a collapse [m^2], [m^3]
+};
+
+/// The outcome of one search for equilibrium, with the numbers that decided it.
+struct EquilibriumReport {
+  Verdict verdict = Verdict::undecided;
+  std::string reason;                ///< one sentence
+  /// Largest elastic correction / largest displacement; not a number if it was not computed.
+  double error_estimate = std::numeric_limits<double>::quiet_NaN();
+  double unbalance_over_weight = std::numeric_limits<double>::quiet_NaN();
+  double largest_displacement = 0;   ///< [m]
+  int steps = 0;                     ///< force evaluations
+  int elastic_solves = 0;
+  int factorisations = 0;
+  std::vector<int> fallen;           ///< bodies removed because they fell, in this search
+  double fallen_measure = 0;         ///< [m^2] or [m^3]
+  int broken_bolts = 0;              ///< bolt springs that ruptured
+};
+
+/// Called now and then: a fraction between 0 and 1 of the work done, or a negative number where it
+/// cannot be known; returns false to stop the search (verdict undecided).
+using Progress = std::function<bool(double fraction)>;
+
+/// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.
+struct SearchContext {
+  Acceptance acceptance;
+  /// Area or volume of each body: what is lost if it falls [m^2], [m^3]; 0 for lining nodes.
+  const std::vector<double>* measures = nullptr;
+  double wall_fraction = 0;  ///< part of the in-situ wall traction left when the stage has ended
+  Progress progress;
+};
+
+template <class Method, class System>
+concept HasEquilibriumSearch =
+    requires(const Method method, System& system, const SearchContext& context) {
+      { method.find(system, context) } -> std::same_as<EquilibriumReport>;
+    };
+
+/// Finds the equilibrium of a system after its load or its supports have changed.
+///
+/// What the compiler cannot check: on return `system.displacement` holds the state that the report
+/// speaks of, its history is committed, and `wall_fraction` is that of the context.
+///
+/// Models: TwoLevel, Relaxation, Explicit.
+template <class Method, class System>
+concept EquilibriumMethod = Fills<Method, roles::Equilibrium> && std::copyable<Method> &&
+                            std::default_initializable<Method> && HasEquilibriumSearch<Method, System>;
+
+template <class Method, class System>
+consteval bool explain_equilibrium_method() {
+  static_assert(HasEquilibriumSearch<Method, System>,
+                "equilibrium method: add `template <class System> EquilibriumReport find(System&, "
+                "const SearchContext&) const`");
+  static_assert(std::default_initializable<Method>,
+                "equilibrium method: add a default constructor (documented default settings)");
+  return true;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/solver/block_cholesky.hpp>
+#include <voussoir/solver/contact_group.hpp>
+#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/solver/relaxation.hpp>
+
+namespace voussoir {
+
+/// Explicit time stepping with local damping, as distinct element codes do it.
+///
+/// Here to compare with the paper and to show what dynamics do to the answer: a sudden, lightly
+/// damped excavation overshoots, slips on the way, and ends with a crown that has moved 10 to 50 %
+/// further although its unbalanced force is as small as anybody's. The wall traction is therefore
+/// taken away along a ramp unless `ramp_steps` is zero.
+///
+/// Masses are density-scaled so that the critical step is the same for every unknown (quarter of
+/// the Gershgorin row sums) unless `real_masses`. Local damping shrinks the stable step: an unknown
+/// with damping alpha behaves as if (1 + alpha) times as stiff, so the step is
+/// safety / sqrt(1 + alpha) of the undamped critical one.
+///
+/// Source: Cundall (1987), Distinct element models of rock and soil structure (local damping).
+class Explicit {
+ public:
+  using role = roles::Equilibrium;
+  static constexpr const char* name = "Explicit";
+
+  struct Params {
+    double damping = 0.7;      ///< local damping alpha [-], 0 <= alpha < 1
+    int ramp_steps = 2000;     ///< over which the wall traction goes; 0: sudden
+    double safety = 0.9;       ///< of the stable step [-], 0 < safety <= 1
+    int max_steps = 200000;
+    int check_every = 50;
+    bool real_masses = false;  ///< true: time is physical; weightless lining nodes keep a scaled mass
+    double gravity = 9.81;     ///< turns weights into masses [m/s^2]; used with real_masses
+  };
+  Explicit() = default;
+  /// @throws InvalidInput  a parameter is outside the range given in Params
+  explicit Explicit(const Params& params) : params_(params) {
+    require(params.damping >= 0 && params.damping < 1, "damping", params.damping, ">= 0 and < 1");
+    require(params.ramp_steps >= 0, "ramp_steps", params.ramp_steps, ">= 0");
+    require(params.safety > 0 && params.safety <= 1, "safety", params.safety, "> 0 and <= 1");
+    require(params.max_steps > params.ramp_steps, "max_steps", params.max_steps, "> ramp_steps");
+  }
+
+  /// Accepts on the same three tests as `TwoLevel`; the elastic factor is made once, for the
+  /// estimate alone, when the unbalance test has passed.
+  template <class System>
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
+    constexpr int dof = System::dof;
+    EquilibriumReport report;
+    const Acceptance& accept = context.acceptance;
+    detail::drop(system, system.unsupported(), context, report);
+    const double from = system.wall_fraction, to = context.wall_fraction;
+    Eigen::VectorXd& u = system.displacement;
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
+    Eigen::VectorXd mass = masses(system);
+    double step = stable_step(system, mass);
+    double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
+    while (report.steps < params_.max_steps) {
+      const bool ramping = report.steps < params_.ramp_steps;
+      const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
+      system.wall_fraction = from + (to - from) * done;
+      system.template forces<Committing>(u, f);
+      ++report.steps;
+      for (Eigen::Index k = 0; k < u.size(); ++k) {
+        // Velocity Verlet in its leapfrog form: velocities live at half steps.
+        const double damped = f[k] - params_.damping * std::abs(f[k]) * sign(velocity[k]);
+        velocity[k] += step * damped / mass[k];
+        u[k] += step * velocity[k];
+      }
+      if (report.steps % params_.check_every != 0) continue;
+      report.largest_displacement = System::largest_translation(u);
+      if (!std::isfinite(report.largest_displacement))
+        throw NumericalFault("explicit stepping: displacements are not finite at step " +
+                             std::to_string(report.steps) + "; lower the safety factor of the step");
+      if (context.progress &&
+          !context.progress(ramping ? done : -1.0)) {
+        report.reason = "stopped by the user";
+        break;
+      }
+      const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+      if (!fallen.empty()) {
+        for (const int b : fallen) velocity.template segment<dof>(dof * b).setZero();
+        detail::drop(system, fallen, context, report);
+        if (report.fallen_measure > accept.collapse_measure) {
+          report.verdict = Verdict::collapsing;
+          report.reason = detail::collapse_sentence(report, accept);
+          break;
+        }
+        mass = masses(system);
+        step = stable_step(system, mass);
+        continue;
+      }
+      if (ramping) continue;
+      report.unbalance_over_weight = system.unbalance_over_weight(f);
+      if (report.unbalance_over_weight >= accept.unbalance_over_weight ||
+          report.unbalance_over_weight > next_estimate)
+        continue;
+      report.error_estimate = estimate(system, f, report);
+      if (report.error_estimate < accept.error_estimate) {
+        report.verdict = Verdict::stable;
+        report.reason = "error estimate, unbalance and displacements are within their limits";
+        break;
+      }
+      next_estimate = 0.5 * report.unbalance_over_weight;
+    }
+    if (report.verdict == Verdict::undecided && report.reason.empty())
+      report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.state.ruptured;
+    return report;
+  }
+
+  /// The largest stable time step of the undamped system with these masses, from Gershgorin's bound
+  /// on every row: 2 / omega, omega^2 <= row sum / mass [s].
+  template <class System>
+  [[nodiscard]] static double critical_step(const System& system, const Eigen::VectorXd& mass) {
+    const Eigen::VectorXd sums = system.elastic_stiffness().absolute_row_sums();
+    return 2.0 / std::sqrt(sums.cwiseQuotient(mass).maxCoeff());
+  }
+
+ private:
+  [[nodiscard]] static double sign(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
+
+  template <class System>
+  [[nodiscard]] double stable_step(const System& system, const Eigen::VectorXd& mass) const {
+    return params_.safety * critical_step(system, mass) / std::sqrt(1 + params_.damping);
+  }
+
+  template <class System>
+  [[nodiscard]] Eigen::VectorXd masses(const System& system) const {
+    constexpr int dof = System::dof, dim = System::dim;
+    Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
+    if (!params_.real_masses) return mass;
+    // Scaled masses have critical step 1; give weightless nodes the scale of the blocks.
+    double block_step = 1e300;
+    Eigen::VectorXd real = mass;
+    for (int b = 0; b < system.body_count(); ++b) {
+      const auto& body = system.body(b);
+      if (!body.movable || !(body.weight > 0)) continue;
+      const double m = body.weight / params_.gravity;
+      real.template segment<dim>(dof * b).setConstant(m);
+      real.template segment<dof - dim>(dof * b + dim).setConstant(m * body.gyration * body.gyration);
+      for (int k = 0; k < dof; ++k)
+        block_step = std::min(block_step, std::sqrt(real[dof * b + k] / mass[dof * b + k]));
+    }
+    for (int b = 0; b < system.body_count(); ++b)
+      if (!(system.body(b).weight > 0 && system.body(b).movable))
+        real.template segment<dof>(dof * b) *= block_step * block_step;
+    return real;
+  }
+
+  template <class System>
+  [[nodiscard]] static double estimate(const System& system, const Eigen::VectorXd& f,
+                                       EquilibriumReport& report) {
+    Eigen::VectorXd d = f;
+    const BlockCholesky<System::dof> factor(system.elastic_stiffness());
+    factor.solve_in_place(d);
+    ++report.factorisations;
+    ++report.elastic_solves;
+    return System::largest_translation(d) / System::largest_translation(system.displacement);
+  }
+
+  Params params_;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// The stress in the ground before anything is built, and the weight that goes with it.
+///
+///   sigma_v = surcharge + rho g depth,   sigma_h = K0 sigma_v,   no shear on horizontal planes
+///
+/// Prescribing its tractions at the Gauss points of all contacts puts every block in equilibrium,
+/// force and moment, to rounding: no generation stage has to be simulated.
+struct InSitu {
+  double density;        ///< rho [kg/m^3], > 0
+  double k0 = 1;         ///< horizontal / vertical stress [-], >= 0
+  double surcharge = 0;  ///< pressure on the ground surface [Pa], >= 0
+  double gravity = 9.81; ///< g [m/s^2], > 0
+
+  /// @throws InvalidInput  a value out of range
+  void check() const {
+    require(density > 0 && std::isfinite(density), "density", density, "> 0 kg/m^3");
+    require(k0 >= 0 && std::isfinite(k0), "K0", k0, ">= 0");
+    require(surcharge >= 0 && std::isfinite(surcharge), "surcharge", surcharge, ">= 0 Pa");
+    require(gravity > 0 && std::isfinite(gravity), "gravity", gravity, "> 0 m/s^2");
+  }
+
+  [[nodiscard]] double vertical(double depth) const { return surcharge + density * gravity * depth; }
+
+  /// Stress at a depth, compression positive [Pa].
+  template <int Dim>
+  [[nodiscard]] Stress<Dim> stress(double depth) const {
+    Stress<Dim> s = k0 * vertical(depth) * Stress<Dim>::Identity();
+    s(Dim - 1, Dim - 1) = vertical(depth);
+    return s;
+  }
+
+  /// Friction that every joint orientation can need to carry this stress [rad]:
+  /// sin(phi) = |1 - K0| / (1 + K0), from the Mohr circle; zero for K0 = 1.
+  [[nodiscard]] double required_friction_angle() const {
+    return std::asin(std::abs(1 - k0) / (1 + k0));
+  }
+};
+
+}  // namespace voussoir

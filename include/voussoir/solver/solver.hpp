@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/pierce.hpp>
+#include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/composition.hpp>
+#include <voussoir/solver/in_situ.hpp>
+#include <voussoir/solver/system.hpp>
+
+namespace voussoir {
+
+/// Where a lining touches the rock: node `node` and body `body` share this facet of the wall.
+template <class Geometry>
+struct LiningContact {
+  int node, body;
+  typename Geometry::Facet facet;  ///< node on its left (2-D): anticlockwise round the opening
+};
+
+/// A lining as the solver takes it: nodes, the members between them, and its contact with the rock.
+template <class Geometry>
+struct LiningFrame {
+  std::vector<Vec<Geometry::dim>> nodes;     ///< [m]
+  std::vector<std::pair<int, int>> members;  ///< node numbers
+  std::vector<LiningContact<Geometry>> contacts;
+};
+
+/// Rock, excavation, supports and the search for equilibrium, composed from policies.
+///
+/// The order of calls is that of the construction: the rock in its in-situ stress; excavate; then
+/// any number of stages of installing supports, changing the wall traction and finding equilibrium.
+/// History is committed at the end of every equilibrium.
+///
+/// 2-D forces are per metre of tunnel; a bolt's values are per bolt, shared over its spacing.
+template <class... Policies>
+class Solver {
+ public:
+  using Parts = Composition<Policies...>;
+  using Geometry = typename Parts::Geometry;
+  using JointLaw = typename Parts::JointLaw;
+  using Anchors = typename Parts::Anchors;
+  using BoltLaw = typename Parts::BoltLaw;
+  using Lining = typename Parts::Lining;
+  using Method = typename Parts::Method;
+  using SystemType = System<Geometry, JointLaw, BoltLaw>;
+  static constexpr int dim = Geometry::dim;
+  static constexpr int dof = Geometry::dof;
+  static_assert(explain_equilibrium_method<Method, SystemType>());
+
+  /// Puts the rock in its in-situ state.
+  /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
+  Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ)
+      : mass_(std::move(mass)),
+        joint_law_(std::move(joint_law)),
+        in_situ_(in_situ),
+        system_(joint_law_, joint_law_.joint_normal_stiffness(), free_interface()) {
+    in_situ_.check();
+    if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
+    build();
+  }
+
+  /// The models this solver is made of, by name.
+  [[nodiscard]] static std::string composition() { return Parts::describe(); }
+
+  /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
+  /// goes on acting until a stage takes it away.
+  /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]
+  /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074) {
+    if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
+    mass_ = carve(std::move(mass_), opening, smallest_piece);
+    system_ = SystemType(joint_law_, joint_law_.joint_normal_stiffness(), free_interface());
+    build();
+    Eigen::VectorXd f;
+    system_.forces(system_.displacement, f);
+    system_.wall_load = -f;
+    system_.wall_fraction = 1;
+  }
+
+  /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
+  /// present position of the rock, free of force but for its pretension.
+  /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
+  /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
+  int install_bolt(const Segment& bar, const BoltLaw& law, double spacing = 1.0,
+                   const Anchors& anchors = {}) {
+    require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
+    const double length = bar.length();
+    require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
+    const Vec<dim> axis = (bar.end - bar.start) / length;
+    system_.bolt_laws.push_back(law);
+    const std::vector<Passage> passages = passages_of_present_rock(bar);
+    int crossed = 0;
+    for (std::size_t k = 1; k < passages.size(); ++k) {
+      const Passage &before = passages[k - 1], &after = passages[k];
+      if (before.body == after.body) continue;  // round a corner of the opening and back
+      const AnchorDistances d =
+          anchors.distances({before.to - before.from, after.to - after.from});
+      BoltSpring<Geometry, BoltLaw> spring{};
+      spring.a = before.body;
+      spring.b = after.body;
+      spring.bolt = bolt_count_;
+      spring.position = 0.5 * (before.to + after.from);
+      const Vec<dim> grip_a = bar.start + (before.to - d.before) * axis;
+      const Vec<dim> grip_b = bar.start + (after.from + d.after) * axis;
+      spring.arm_a = grip_a - system_.body(spring.a).centre;
+      spring.arm_b = grip_b - system_.body(spring.b).centre;
+      spring.span = {grip_b - grip_a, axis, Vec<dim>::Zero()};
+      spring.span.motion = -spring.span_at(system_.displacement.data()).motion;
+      spring.share = dim == 2 ? 1.0 / spacing : 1.0;
+      spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
+      system_.bolts.push_back(spring);
+      ++crossed;
+    }
+    ++bolt_count_;
+    started_ = true;
+    return crossed;
+  }
+
+  /// Installs a lining on the wall in its present position, free of force.
+  /// @param interface_law  rock on lining
+  /// @throws InvalidInput  a lining is already there, a member has no length, or no rock touches it
+  void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
+                      const CoulombJoint& interface_law) {
+    if (!system_.frames.empty()) throw InvalidInput("lining: there is already one");
+    if (frame.contacts.empty()) throw InvalidInput("lining: no rock touches it");
+    first_node_ = system_.body_count();
+    std::vector<double> tributary(frame.nodes.size(), 0.0);
+    for (const auto& [i, j] : frame.members) {
+      const double length =
+          (frame.nodes[static_cast<std::size_t>(j)] - frame.nodes[static_cast<std::size_t>(i)]).norm();
+      require(length > 0, "length of a lining member", length, "> 0 m");
+      tributary[static_cast<std::size_t>(i)] += 0.5 * length;
+      tributary[static_cast<std::size_t>(j)] += 0.5 * length;
+    }
+    for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
+      const double weight = section.mass * tributary[k] * in_situ_.gravity;
+      const int node = system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true});
+      system_.load[dof * node + dim - 1] = -weight;
+      measures_.push_back(0.0);
+    }
+    for (const auto& [i, j] : frame.members) {
+      const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(i)];
+      const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(j)];
+      const double length = (b - a).norm();
+      system_.frames.push_back({first_node_ + i, first_node_ + j, length, element_axes(a, b),
+                                Lining::template stiffness<dof>(section, length)});
+    }
+    typename SystemType::Interface interface(interface_law);
+    for (const LiningContact<Geometry>& c : frame.contacts) {
+      if (!system_.body(c.body).movable) continue;  // that block has fallen
+      const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.length()};
+      const int node = first_node_ + c.node;
+      interface.add(node, c.body, c.facet, system_.body(node).centre, system_.body(c.body).centre,
+                    {&point, 1});
+    }
+    interface.start_from(system_.displacement.data());
+    system_.interface = std::move(interface);
+    started_ = true;
+  }
+
+  /// Lets the rock and its supports find their equilibrium with a part of the in-situ traction left
+  /// on the wall (relaxation before support: > 0; the final state: 0).
+  /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before
+  /// @throws NumericalFault  see the method
+  EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
+                                const Acceptance& acceptance = {}, const Progress& progress = {}) {
+    require(wall_fraction >= 0 && wall_fraction <= 1, "wall traction", wall_fraction, "0 to 1");
+    started_ = true;
+    const SearchContext context{acceptance, &measures_, wall_fraction, progress};
+    EquilibriumReport report = method.find(system_, context);
+    fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
+    return report;
+  }
+
+  [[nodiscard]] const RockMass<Geometry>& mass() const { return mass_; }
+  [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
+  [[nodiscard]] const SystemType& system() const { return system_; }
+  [[nodiscard]] SystemType& system() { return system_; }
+  [[nodiscard]] int bolt_count() const { return bolt_count_; }
+  /// Bodies that fell, in the order in which they did.
+  [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
+  /// Number of the first lining node among the bodies of the system; -1 without lining.
+  [[nodiscard]] int first_lining_node() const { return first_node_; }
+  /// Number of the fixed ground among the bodies of the system.
+  [[nodiscard]] int ground() const { return static_cast<int>(mass_.bodies.size()); }
+
+  /// Displacement of a point that moves with a body since the in-situ state [m].
+  [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const {
+    return displacement_at<dim>(system_.displacement.data() + dof * body,
+                                Vec<dim>(point - system_.body(body).centre));
+  }
+
+ private:
+  /// A stand-in until a lining is installed: there are no contacts that could use it.
+  [[nodiscard]] static CoulombJoint free_interface() {
+    return CoulombJoint({.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
+  }
+
+  void build() {
+    measures_.clear();
+    for (const Body<Geometry>& body : mass_.bodies) {
+      const auto& p = body.properties;
+      const double weight = in_situ_.density * in_situ_.gravity * p.measure;
+      const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
+      const int b = system_.add_body({p.centroid, weight, gyration, true});
+      system_.load[dof * b + dim - 1] = -weight;
+      measures_.push_back(p.measure);
+    }
+    const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
+    measures_.push_back(0.0);
+    for (const auto& c : Parts::Detector::find(mass_)) {
+      const auto points = c.facet.gauss_points();
+      system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
+                         points);
+    }
+    for (const auto& f : boundary_facets(mass_)) {
+      const auto points = f.facet.gauss_points();
+      if (f.side == Side::top) {
+        const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
+        add_force_at<dim>(system_.load.data() + dof * f.body,
+                          f.facet.centre_from(system_.body(f.body).centre), pressure);
+      } else {
+        system_.boundary.add(f.body, fixed, f.facet, system_.body(f.body).centre,
+                             system_.body(fixed).centre, points);
+      }
+    }
+    const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
+      const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
+      return in_situ_.stress<dim>(mass_.domain.depth(point));
+    };
+    system_.joints.set_initial(stress_at);
+    system_.boundary.set_initial(stress_at);
+  }
+
+  /// The passages of a bar without the bodies that have fallen.
+  [[nodiscard]] std::vector<Passage> passages_of_present_rock(const Segment& bar) const {
+    std::vector<Passage> passages = pierce(mass_, bar);
+    std::erase_if(passages, [this](const Passage& p) { return !system_.body(p.body).movable; });
+    return passages;
+  }
+
+  RockMass<Geometry> mass_;
+  JointLaw joint_law_;
+  InSitu in_situ_;
+  SystemType system_;
+  std::vector<double> measures_;
+  std::vector<int> fallen_;
+  int bolt_count_ = 0;
+  int first_node_ = -1;
+  bool started_ = false;
+};
+
+}  // namespace voussoir

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/solver/block_matrix.hpp>
+#include <voussoir/solver/contact_group.hpp>
+#include <voussoir/solver/support_elements.hpp>
+
+namespace voussoir {
+
+/// A body of the mechanical system: a rock body, a lining node, or the fixed ground.
+template <int Dim>
+struct SystemBody {
+  Vec<Dim> centre;       ///< at the reference position [m]
+  double weight;         ///< m g [N]
+  double gyration;       ///< radius of gyration: turns a moment into a force for comparison [m]
+  bool movable = true;
+};
+
+/// Everything that moves and every force between: the mechanical state that the equilibrium
+/// methods work on. It knows neither shapes nor tunnels.
+///
+/// Displacements and forces are flat vectors with `dof` values per body: translations, rotations.
+/// Rotations are small and the contact topology is that of the reference position.
+///
+/// A copy is a full snapshot: about 2 kB per block.
+template <class Geometry, class JointLaw, class BoltLaw>
+class System {
+ public:
+  static constexpr int dim = Geometry::dim;
+  static constexpr int dof = Geometry::dof;
+  using Body = SystemBody<dim>;
+  using Matrix = BlockMatrix<dof>;
+  using Joints = ContactGroup<Geometry, JointLaw>;
+  using Boundary = ContactGroup<Geometry, SmoothWall>;
+  using Interface = ContactGroup<Geometry, CoulombJoint>;
+
+  System(JointLaw joint_law, double boundary_stiffness, CoulombJoint interface_law)
+      : joints(std::move(joint_law)),
+        boundary(SmoothWall(boundary_stiffness)),
+        interface(std::move(interface_law)) {}
+
+  Joints joints;        ///< rock on rock
+  Boundary boundary;    ///< rock on the fixed edge of the domain
+  Interface interface;  ///< rock on lining
+  std::vector<BoltLaw> bolt_laws;
+  std::vector<BoltSpring<Geometry, BoltLaw>> bolts;
+  std::vector<FrameElement<Geometry>> frames;
+
+  int add_body(const Body& body) {
+    bodies_.push_back(body);
+    const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
+    displacement.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    wall_load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    return static_cast<int>(bodies_.size()) - 1;
+  }
+
+  [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
+  [[nodiscard]] const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
+
+  [[nodiscard]] std::vector<int> movable_bodies() const {
+    std::vector<int> movable;
+    for (int b = 0; b < body_count(); ++b)
+      if (body(b).movable) movable.push_back(b);
+    return movable;
+  }
+
+  Eigen::VectorXd displacement;  ///< since the in-situ state
+  Eigen::VectorXd load;          ///< weight, surcharge
+  /// What the excavated rock exerted on the wall: with all of it the in-situ state is in equilibrium.
+  Eigen::VectorXd wall_load;
+  double wall_fraction = 1;  ///< part of `wall_load` still acting
+
+  /// Out-of-balance force at displacement `u`; zero for bodies that cannot move.
+  template <class History = Frozen>
+  void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
+    f = load + wall_fraction * wall_load;
+    joints.template add_forces<History>(u.data(), f.data());
+    boundary.template add_forces<History>(u.data(), f.data());
+    interface.template add_forces<History>(u.data(), f.data());
+    for (auto& bolt : bolts) {
+      const BoltLaw& law = bolt_laws[static_cast<std::size_t>(bolt.law)];
+      bolt.add_force(law, u.data(), f.data());
+      if constexpr (std::is_same_v<History, Committing>)
+        law.commit(bolt.span_at(u.data()), bolt.state);
+    }
+    for (const auto& frame : frames) frame.add_force(u.data(), f.data());
+    for (int b = 0; b < body_count(); ++b)
+      if (!body(b).movable) f.segment<dof>(dof * b).setZero();
+  }
+
+  /// Brings all history up to date with the present displacement.
+  /// @return  bolts that broke: equilibrium must then be sought again
+  int commit() {
+    joints.commit(displacement.data());
+    boundary.commit(displacement.data());
+    interface.commit(displacement.data());
+    int broken = 0;
+    for (auto& bolt : bolts)
+      broken += bolt_laws[static_cast<std::size_t>(bolt.law)].commit(bolt.span_at(displacement.data()),
+                                                                    bolt.state);
+    return broken;
+  }
+
+  /// Stiffness with every contact closed and sticking, supports included. Bodies that cannot move
+  /// get a unit diagonal.
+  [[nodiscard]] Matrix elastic_stiffness() const {
+    Matrix k(body_count());
+    const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
+      const bool a_moves = body(a).movable, b_moves = body(b).movable;
+      if (a_moves) k.add(a, aa);
+      if (b_moves) k.add(b, bb);
+      if (a_moves && b_moves) k.add(a, b, ab);
+    };
+    joints.add_stiffness(sink);
+    boundary.add_stiffness(sink);
+    interface.add_stiffness(sink);
+    for (const auto& bolt : bolts)
+      bolt.add_stiffness(bolt_laws[static_cast<std::size_t>(bolt.law)], sink);
+    for (const auto& frame : frames) frame.add_stiffness(sink);
+    for (int b = 0; b < body_count(); ++b)
+      if (!body(b).movable) k.add(b, Matrix::Block::Identity());
+    k.compress();
+    return k;
+  }
+
+  /// Takes bodies out for good: their contacts and bolts go, and they stop moving.
+  void remove(const std::vector<int>& gone) {
+    std::vector<char> is_gone(bodies_.size(), 0);
+    for (const int b : gone) {
+      is_gone[static_cast<std::size_t>(b)] = 1;
+      bodies_[static_cast<std::size_t>(b)].movable = false;
+      displacement.segment<dof>(dof * b).setZero();
+    }
+    const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
+    joints.remove(test);
+    boundary.remove(test);
+    interface.remove(test);
+    std::erase_if(bolts, [&](const auto& bolt) { return test(bolt.a) || test(bolt.b); });
+  }
+
+  /// Movable bodies that nothing touches: they fall whatever the forces.
+  [[nodiscard]] std::vector<int> unsupported() const {
+    std::vector<char> touched(bodies_.size(), 0);
+    const auto touch = [&](int a, int b) {
+      touched[static_cast<std::size_t>(a)] = touched[static_cast<std::size_t>(b)] = 1;
+    };
+    for (const auto& c : joints.contacts()) touch(c.a, c.b);
+    for (const auto& c : boundary.contacts()) touch(c.a, c.b);
+    for (const auto& c : interface.contacts()) touch(c.a, c.b);
+    for (const auto& f : frames) touch(f.i, f.j);
+    std::vector<int> loose;
+    for (int b = 0; b < body_count(); ++b)
+      if (body(b).movable && touched[static_cast<std::size_t>(b)] == 0) loose.push_back(b);
+    return loose;
+  }
+
+  /// Weight of the lightest block: the scale for weightless lining nodes [N].
+  [[nodiscard]] double lightest_weight() const {
+    double lightest = std::numeric_limits<double>::infinity();
+    for (const Body& b : bodies_)
+      if (b.movable && b.weight > 0) lightest = std::min(lightest, b.weight);
+    return lightest;
+  }
+  /// Unbalanced force of one body over its weight; a moment counts as a force at the radius of
+  /// gyration. Zero for a body that cannot move.
+  [[nodiscard]] double unbalance_of(const Eigen::VectorXd& f, int b, double lightest) const {
+    const Body& it = body(b);
+    if (!it.movable) return 0.0;
+    const double force = f.segment<dim>(dof * b).norm();
+    const double moment = f.segment<dof - dim>(dof * b + dim).norm() / it.gyration;
+    return (force + moment) / (it.weight > 0 ? it.weight : lightest);
+  }
+  [[nodiscard]] double unbalance_over_weight(const Eigen::VectorXd& f) const {
+    const double lightest = lightest_weight();
+    double worst = 0;
+    for (int b = 0; b < body_count(); ++b) worst = std::max(worst, unbalance_of(f, b, lightest));
+    return worst;
+  }
+
+  /// Largest translation of a movable body [m].
+  [[nodiscard]] static double largest_translation(const Eigen::VectorXd& u) {
+    double squared = 0;
+    for (Eigen::Index k = 0; k + dof <= u.size(); k += dof)
+      squared = std::max(squared, u.segment<dim>(k).squaredNorm());
+    return std::sqrt(squared);
+  }
+
+ private:
+  std::vector<Body> bodies_;
+};
+
+}  // namespace voussoir

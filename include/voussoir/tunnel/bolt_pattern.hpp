@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <voussoir/core/errors.hpp>
+#include <voussoir/geometry/simple_polygon.hpp>
+
+namespace voussoir {
+
+/// Radial bolts along an arc of the wall. Angles run anticlockwise from the right-hand springing.
+struct BoltPattern {
+  double length;                     ///< [m], > 0
+  double angular_spacing = 0;        ///< [rad]; 0: use `wall_spacing`
+  double wall_spacing = 0;           ///< along the wall [m]; 0: use `angular_spacing`
+  double from = 0;                   ///< [rad]
+  double to = std::numbers::pi;      ///< [rad], from < to <= from + 2 pi
+};
+
+/// The bars of a pattern, head (on the wall) first, in the order of their angle. As many as fit the
+/// arc, centred in it; on a full circle the spacing is kept and the last gap takes what is left.
+///
+/// @throws InvalidInput  a value out of range, or the tunnel centre is not inside the opening
+[[nodiscard]] inline std::vector<Segment> bolt_bars(const BoltPattern& pattern,
+                                                    const SimplePolygon& opening) {
+  require(pattern.length > 0 && std::isfinite(pattern.length), "bolt length", pattern.length, "> 0 m");
+  const double arc = pattern.to - pattern.from, circle = 2 * std::numbers::pi;
+  require(arc > 0 && arc <= circle * (1 + 1e-12), "bolt arc", arc, "> 0 and <= 2 pi rad");
+  const bool angular = pattern.angular_spacing > 0;
+  const double spacing = angular ? pattern.angular_spacing : pattern.wall_spacing;
+  require(spacing > 0 && std::isfinite(spacing) && !(pattern.wall_spacing > 0 && angular),
+          "bolt spacing", spacing, "> 0, either along the wall or as an angle");
+  double reach = 0;
+  for (const Vec2& v : opening.vertices()) reach = std::max(reach, v.norm());
+  const auto wall_point = [&](double angle) {
+    const Vec2 far = 2 * reach * Vec2(std::cos(angle), std::sin(angle));
+    const auto t = opening.last_crossing({Vec2::Zero(), far});
+    if (!t) throw InvalidInput("bolts: the tunnel centre is not inside the opening");
+    return Vec2(*t * far);
+  };
+  // Arc length along the wall as a function of the angle, finely sampled; the identity if angular.
+  constexpr int samples = 3600;
+  std::vector<double> along{0.0};
+  for (int k = 1; k <= samples; ++k) {
+    const double step = angular ? arc / samples
+                                : (wall_point(pattern.from + arc * k / samples) -
+                                   wall_point(pattern.from + arc * (k - 1) / samples))
+                                      .norm();
+    along.push_back(along.back() + step);
+  }
+  const double total = along.back();
+  const bool closed = arc > circle * (1 - 1e-9);
+  const auto gaps = static_cast<int>(std::floor(total / spacing + 1e-9));
+  const int count = closed ? std::max(gaps, 1) : gaps + 1;
+  const double first = closed ? 0.0 : 0.5 * (total - gaps * spacing);
+  std::vector<Segment> bars;
+  for (int k = 0; k < count; ++k) {
+    const double s = first + k * spacing;
+    const auto above = std::lower_bound(along.begin() + 1, along.end() - 1, s);
+    const double part = (s - *(above - 1)) / (*above - *(above - 1));
+    const double place = static_cast<double>(above - along.begin()) - 1 + part;
+    const double angle = pattern.from + arc * place / samples;
+    const Vec2 head = wall_point(angle);
+    bars.push_back({head, head + pattern.length * Vec2(std::cos(angle), std::sin(angle))});
+  }
+  return bars;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <voussoir/core/parallel.hpp>
+#include <voussoir/solver/equilibrium.hpp>
+
+namespace voussoir {
+
+/// One tunnel of an interaction diagram.
+struct DiagramPoint {
+  std::size_t spacing, thickness;  ///< indices into the two axes
+  double crown_convergence = std::numeric_limits<double>::quiet_NaN();  ///< [m]
+  double largest_bolt_force = 0;   ///< [N]
+  double mean_bolt_force = 0;      ///< mean over bolts of each one's largest [N]
+  double largest_thrust = 0;       ///< of the lining [N/m]
+  double largest_moment = 0;       ///< absolute value, of the lining [N m/m]
+  EquilibriumReport report;
+
+  /// Rock fell, or no equilibrium was found: not a design.
+  [[nodiscard]] bool failed() const {
+    return report.verdict != Verdict::stable || report.fallen_measure > 0;
+  }
+};
+
+/// Computes a grid of supported tunnels, bolt spacing against lining thickness, in parallel.
+///
+/// @param run      run(i, j): the tunnel with spacing i and thickness j; called once for each, from
+///                 several threads, must not share mutable state
+/// @param done     called after each tunnel with the number finished; from several threads
+/// @return  row by row (spacing), thickness running faster; independent of the number of threads
+///
+/// Source: Boon, Houlsby & Utili (2015), section 8.1 and Fig. 24.
+[[nodiscard]] inline std::vector<DiagramPoint> interaction_diagram(
+    std::size_t spacings, std::size_t thicknesses, unsigned threads,
+    const std::function<DiagramPoint(std::size_t, std::size_t)>& run,
+    const std::function<void(std::size_t)>& done = {}) {
+  std::vector<DiagramPoint> points(spacings * thicknesses);
+  std::atomic<std::size_t> finished{0};
+  parallel_for(points.size(), threads, [&](std::size_t k) {
+    points[k] = run(k / thicknesses, k % thicknesses);
+    points[k].spacing = k / thicknesses;
+    points[k].thickness = k % thicknesses;
+    const std::size_t now = ++finished;
+    if (done) done(now);
+  });
+  return points;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/solver/solver.hpp>
+
+namespace voussoir {
+
+/// Movement of a piece of the wall.
+struct WallMotion {
+  double angle;         ///< of its middle, anticlockwise from the right-hand springing [rad], 0 to 2 pi
+  double length;        ///< [m]
+  double convergence;   ///< towards the tunnel centre, positive inwards [m]
+};
+
+/// All pieces of the wall that have not fallen.
+template <class Solver>
+[[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
+  std::vector<WallMotion> motion;
+  for (const auto& piece : wall_pieces(solver.mass())) {
+    if (!solver.system().body(piece.body).movable) continue;
+    const Vec2 p = piece.facet.centre();
+    double angle = std::atan2(p.y(), p.x());
+    if (angle < 0) angle += 2 * std::numbers::pi;
+    motion.push_back({angle, piece.facet.length(),
+                      -solver.displacement_of(piece.body, p).dot(p.normalized())});
+  }
+  return motion;
+}
+
+/// Convergence of the wall around one direction: the median over +- 12 degrees, each piece with
+/// the weight of its length, so that neither a loose corner nor the cut of the blocks decides [m].
+/// Not a number if no wall is left there.
+[[nodiscard]] inline double convergence_at(const std::vector<WallMotion>& wall, double angle,
+                                           double half_window = std::numbers::pi / 15) {
+  std::vector<WallMotion> near;
+  double total = 0;
+  for (const WallMotion& piece : wall) {
+    const double away = std::remainder(piece.angle - angle, 2 * std::numbers::pi);
+    if (std::abs(away) > half_window) continue;
+    near.push_back(piece);
+    total += piece.length;
+  }
+  std::sort(near.begin(), near.end(),
+            [](const WallMotion& a, const WallMotion& b) { return a.convergence < b.convergence; });
+  double below = 0;
+  for (const WallMotion& piece : near) {
+    below += piece.length;
+    if (below >= 0.5 * total) return piece.convergence;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Convergence of the four named places of the wall [m].
+struct Convergence {
+  double crown, right_springing, left_springing, invert;
+};
+template <class Solver>
+[[nodiscard]] Convergence convergence(const Solver& solver) {
+  const std::vector<WallMotion> wall = wall_motion(solver);
+  constexpr double right = 0.5 * std::numbers::pi;
+  return {convergence_at(wall, right), convergence_at(wall, 0.0), convergence_at(wall, 2 * right),
+          convergence_at(wall, 3 * right)};
+}
+
+/// A bolt where it crosses a joint.
+struct CrossingForce {
+  int bolt;
+  double position;     ///< from the head [m]
+  double force;        ///< tension positive, of one bolt [N]
+  double extension;    ///< change of the distance between the anchors since installation [m]
+  bool yielded, ruptured;
+};
+
+/// In the order of bolts and, along each, from head to tip.
+template <class Solver>
+[[nodiscard]] std::vector<CrossingForce> bolt_forces(const Solver& solver) {
+  std::vector<CrossingForce> forces;
+  const auto& system = solver.system();
+  for (const auto& spring : system.bolts) {
+    const auto span = spring.span_at(system.displacement.data());
+    const auto& law = system.bolt_laws[static_cast<std::size_t>(spring.law)];
+    forces.push_back({spring.bolt, spring.position, law.force(span, spring.state).axial,
+                      (span.initial + span.motion).norm() - span.initial.norm(),
+                      spring.state.plastic_extension > 0, spring.state.ruptured});
+  }
+  return forces;
+}
+
+/// Largest force of every bolt [N]; 0 for a bolt that crosses no joint.
+template <class Solver>
+[[nodiscard]] std::vector<double> largest_bolt_forces(const Solver& solver) {
+  std::vector<double> largest(static_cast<std::size_t>(solver.bolt_count()), 0.0);
+  for (const CrossingForce& c : bolt_forces(solver))
+    largest[static_cast<std::size_t>(c.bolt)] =
+        std::max(largest[static_cast<std::size_t>(c.bolt)], c.force);
+  return largest;
+}
+
+/// The lining at one node, per metre of tunnel.
+struct LiningForce {
+  Vec2 position;        ///< [m]
+  double thrust;        ///< N, compression positive [N/m]
+  double shear;         ///< V [N/m]
+  double moment;        ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;   ///< towards the tunnel centre since installation [m]
+};
+
+/// One entry per node: the mean of the two members that meet there.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+  const auto& system = solver.system();
+  const int first = solver.first_lining_node();
+  if (first < 0) return {};
+  const auto count = static_cast<std::size_t>(system.body_count() - first);
+  std::vector<LiningForce> forces(count, {Vec2::Zero(), 0, 0, 0, 0});
+  std::vector<int> ends(count, 0);
+  for (const auto& frame : system.frames) {
+    // Members run anticlockwise: their second axis points into the opening, so what a beam calls
+    // sagging (tension below) is tension at the outer fibre here.
+    const auto f = frame.end_forces(system.displacement.data());
+    const auto add = [&](int node, double thrust, double shear, double moment) {
+      LiningForce& at = forces[static_cast<std::size_t>(node - first)];
+      at.thrust += thrust;
+      at.shear += shear;
+      at.moment += moment;
+      ++ends[static_cast<std::size_t>(node - first)];
+    };
+    add(frame.i, f[0], f[1], -f[2]);
+    add(frame.j, -f[3], -f[4], f[5]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const int body = first + static_cast<int>(k);
+    LiningForce& at = forces[k];
+    at.position = system.body(body).centre;
+    const double share = ends[k] > 0 ? 1.0 / ends[k] : 0.0;
+    at.thrust *= share;
+    at.shear *= share;
+    at.moment *= share;
+    at.convergence =
+        -solver.displacement_of(body, at.position).dot(at.position.normalized());
+  }
+  return forces;
+}
+
+
+}  // namespace voussoir

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The toolkit: everything an analysis in two dimensions needs. Pictures and files (io/) are apart.
+
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/random.hpp>
+#include <voussoir/core/version.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/lining/beams.hpp>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/joint_set.hpp>
+#include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/rockmass/trace_file.hpp>
+#include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/relaxation.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/solver/two_level.hpp>
+#include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/interaction_diagram.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/opening.hpp>

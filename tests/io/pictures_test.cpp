@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <voussoir/io/blocks_picture.hpp>
+#include <voussoir/io/interaction_picture.hpp>
+
+#include "io/xml_check.hpp"
+
+using namespace voussoir;
+
+namespace {
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Square blocks of 1 m around a square opening of 4 m, with a ring, one bolt and one of each
+/// state.
+BlocksPicture small_picture() {
+  BlocksPicture picture;
+  picture.header = {"Case <A> & B", {"Stable."}, {{"crown convergence", "3 mm"}}};
+  for (int i = -8; i < 8; ++i) {
+    for (int j = -8; j < 8; ++j) {
+      if (i >= -2 && i < 2 && j >= -2 && j < 2) continue;
+      const double x = i, y = j;
+      picture.blocks.push_back(
+          {{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}, 0.01 / (1 + x * x + y * y)});
+    }
+  }
+  picture.blocks.front().is_fallen = true;
+  picture.outline = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  picture.joints = {{{0, 2}, {0, 3}, PictureJoint::State::slipped},
+                    {{1, 2}, {1, 3}, PictureJoint::State::opened},
+                    {{2, 2}, {2, 3}, PictureJoint::State::closed}};
+  picture.bolts = {{{0, 2},
+                    {0, 5},
+                    {{{0, 3}, 50e3, PictureCrossing::State::yielded},
+                     {{0, 4}, 20e3, PictureCrossing::State::ruptured}}}};
+  picture.ground_surface = 8;
+  return picture;
+}
+
+PictureLining ring(double thrust, double moment) {
+  PictureLining lining;
+  lining.thickness = 0.1;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = i * std::numbers::pi / 12;
+    const Vec2 out(std::cos(angle), std::sin(angle));
+    lining.nodes.push_back({2 * out, out, thrust, moment * std::cos(2 * angle)});
+  }
+  return lining;
+}
+
+InteractionPicture small_diagram() {
+  InteractionPicture picture;
+  picture.diameter = 10;
+  picture.thicknesses = {0, 0.02, 0.1};
+  picture.spacings = {{"7.5°", 7.5}, {"15°", 15.0}, {"no bolts", {}}};
+  picture.convergence.resize(3, 3);
+  picture.convergence << 0.0204, 0.03, not_a_number, 0.01, 0.012, 0.013, 0.004, 0.0041, 0.0042;
+  picture.failed.setConstant(3, 3, false);
+  picture.failed(0, 2) = true;
+  return picture;
+}
+
+}  // namespace
+
+TEST_SUITE("io/blocks_picture") {
+  TEST_CASE("a full picture is well-formed and says what it shows") {
+    BlocksPicture picture = small_picture();
+    const std::string bolted = draw_blocks_picture(picture);
+    CHECK(xml_fault(bolted) == "");
+    for (const std::string text :
+         {"Case &lt;A&gt; &amp; B", "Stable.", "slipped joint", "opened joint", "fallen block",
+          "bolt yields", "bolt ruptured", "force in bolt, 50 kN", "Greatest force in each bolt"}) {
+      CAPTURE(text);
+      CHECK(contains(bolted, text));
+    }
+    picture.lining = ring(812e3, 4e3);
+    const std::string lined = draw_blocks_picture(picture);
+    CHECK(xml_fault(lined) == "");
+    for (const std::string text :
+         {"max 812 at", "max 4.00 at 0°", "min −4.00 at 90°", "compression (+)", "lining, 10 cm"}) {
+      CAPTURE(text);
+      CHECK(contains(lined, text));
+    }
+    CHECK_FALSE(contains(lined, "Greatest force in each bolt"));
+  }
+
+  TEST_CASE("a run gone bad is drawn as far as it goes, and the rest is counted") {
+    BlocksPicture picture = small_picture();
+    picture.blocks[3].corners[0].x() = not_a_number;
+    picture.blocks[4].displacement = not_a_number;
+    picture.bolts[0].crossings[0].force = std::numeric_limits<double>::infinity();
+    picture.bolts.push_back({{not_a_number, 0}, {0, 1}, {}});
+    picture.joints[0].p.y() = not_a_number;
+    picture.lining = ring(not_a_number, 1e3);
+    picture.lining->nodes[2].point.x() = not_a_number;
+    const std::string text = draw_blocks_picture(picture);
+    CHECK(xml_fault(text) == "");
+    CHECK(contains(text, "not finite numbers: 1"));
+    CHECK_FALSE(contains(text, "nan"));
+    CHECK_FALSE(contains(text, "inf"));
+  }
+
+  TEST_CASE("nothing at all is a picture too") {
+    CHECK(xml_fault(draw_blocks_picture({})) == "");
+    BlocksPicture picture;
+    picture.lining = PictureLining{};
+    picture.bolts = {{}};
+    CHECK(xml_fault(draw_blocks_picture(picture)) == "");
+    picture.view = ViewRect{{0, 0}, {0, 1}};
+    CHECK_THROWS_AS(draw_blocks_picture(picture), InvalidInput);
+  }
+
+  TEST_CASE("the view is three diameters about the opening, what is outside is not written") {
+    const BlocksPicture picture = small_picture();
+    const ViewRect view = view_around_opening(picture);
+    CHECK(view.low.isApprox(Vec2(-6, -6)));
+    CHECK(view.high.isApprox(Vec2(6, 6)));
+    CHECK(view_of_everything(picture).contains({8, 8}));
+    BlocksPicture larger = picture;
+    for (int k = 0; k < 500; ++k) {
+      const double x = 100 + k;
+      larger.blocks.push_back({{{x, 0}, {x + 1, 0}, {x, 1}}, 0.0});
+    }
+    larger.view = view;
+    // The overview alone grows: less than 40 bytes a block.
+    CHECK(draw_blocks_picture(larger).size() < draw_blocks_picture(picture).size() + 500 * 40);
+  }
+
+  TEST_CASE("one loosened block does not use up the scale of colours") {
+    std::vector<PictureBlock> blocks(200, PictureBlock{{}, 0.009});
+    CHECK_FALSE(detail::DisplacementScale(blocks).is_cut());
+    CHECK(detail::DisplacementScale(blocks).top() == doctest::Approx(0.01));  // round, in mm too
+    blocks[7].displacement = 2;
+    CHECK(detail::DisplacementScale(blocks).is_cut());
+    CHECK(detail::DisplacementScale(blocks).top() == doctest::Approx(0.01));
+    blocks[7].is_fallen = true;
+    CHECK_FALSE(detail::DisplacementScale(blocks).is_cut());
+  }
+}
+
+TEST_SUITE("io/interaction_picture") {
+  TEST_CASE("computed values, failures and the row without bolts are shown") {
+    const std::string text = draw_interaction_picture(small_diagram());
+    CHECK(xml_fault(text) == "");
+    for (const std::string part :
+         {">20.4<", ">4.20<", ">no bolts<", ">7.5°<", "blocks fall", "% of a", "t / D"}) {
+      CAPTURE(part);
+      CHECK(contains(text, part));
+    }
+    CHECK_FALSE(contains(text, "nan"));
+    CHECK_FALSE(contains(text, "not computed"));  // the only gap is a failure
+  }
+
+  TEST_CASE("grids from two by two, without values, or without contours are drawn") {
+    InteractionPicture picture = small_diagram();
+    picture.thicknesses = {0, 0.1};
+    picture.spacings = {{"15°", 15.0}, {"no bolts", {}}};
+    picture.failed.resize(0, 0);
+    picture.convergence = Eigen::Matrix2d::Constant(0.01);
+    CHECK(xml_fault(draw_interaction_picture(picture)) == "");
+    picture.convergence.setConstant(not_a_number);
+    const std::string empty = draw_interaction_picture(picture);
+    CHECK(xml_fault(empty) == "");
+    CHECK(contains(empty, "not computed"));
+    picture.convergence.setZero();
+    CHECK(xml_fault(draw_interaction_picture(picture)) == "");
+  }
+
+  TEST_CASE("tables that do not fit their axes are refused") {
+    InteractionPicture picture = small_diagram();
+    picture.thicknesses = {0, 0.1, 0.1};
+    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    picture = small_diagram();
+    picture.spacings[1].value = {};
+    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    picture = small_diagram();
+    picture.convergence.resize(2, 3);
+    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    picture = small_diagram();
+    picture.diameter = 0;
+    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+  }
+}

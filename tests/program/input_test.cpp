@@ -1,0 +1,863 @@
+// SPDX-License-Identifier: MIT
+#include "input.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace voussoir::program;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double degrees(double angle) { return angle * std::numbers::pi / 180; }
+
+// A file with every table; the lines are numbered because the messages below name them.
+const std::string good =
+    /*  1 */
+    "title = \"Prüfung\"\n"
+    /*  2 */
+    "[model]\n"
+    /*  3 */
+    "width = \"70 m\"\n"
+    /*  4 */
+    "below_invert = \"30 m\"\n"
+    /*  5 */
+    "[tunnel]\n"
+    /*  6 */
+    "shape = \"circle\"\n"
+    /*  7 */
+    "diameter = \"10 m\"\n"
+    /*  8 */
+    "cover = \"20 m\"\n"
+    /*  9 */
+    "[rock]\n"
+    /* 10 */
+    "density = \"2700 kg/m^3\"\n"
+    /* 11 */
+    "[stress]\n"
+    /* 12 */
+    "K0 = 1\n"
+    /* 13 */
+    "[[joint_set]]\n"
+    /* 14 */
+    "dip = \"75 deg\"\n"
+    /* 15 */
+    "dip_direction = \"E\"\n"
+    /* 16 */
+    "intensity = \"1 /m^2\"\n"
+    /* 17 */
+    "[joint]\n"
+    /* 18 */
+    "kn = \"5 GPa/m\"\n"
+    /* 19 */
+    "ks = \"0.5 GPa/m\"\n"
+    /* 20 */
+    "friction = \"35 deg\"\n"
+    /* 21 */
+    "[blocks]\n"
+    /* 22 */
+    "min_inscribed_radius = \"0.25 m\"\n"
+    /* 23 */
+    "[support.bolts]\n"
+    /* 24 */
+    "length = \"4 m\"\n"
+    /* 25 */
+    "spacing = \"15 deg\"\n"
+    /* 26 */
+    "stiffness = \"0.2 GN/m\"\n"
+    /* 27 */
+    "[support.lining]\n"
+    /* 28 */
+    "thickness = \"10 cm\"\n"
+    /* 29 */
+    "E = \"25 GPa\"\n"
+    /* 30 */
+    "interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n"
+    /* 31 */
+    "[[stage]]\n"
+    /* 32 */
+    "wall_traction = \"40 %\"\n"
+    /* 33 */
+    "install = [\"bolts\"]\n"
+    /* 34 */
+    "[[stage]]\n"
+    /* 35 */
+    "wall_traction = \"0 %\"\n"
+    /* 36 */
+    "install = [\"lining\"]\n"
+    /* 37 */
+    "[run]\n"
+    /* 38 */
+    "method = \"two-level\"\n"
+    /* 39 */
+    "[diagram]\n"
+    /* 40 */
+    "spacing = [\"9 deg\", \"none\"]\n"
+    /* 41 */ "thickness = [\"0 cm\", \"10 cm\"]\n";
+
+Input read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return read_input_text(text, "test.toml", "/site", overrides);
+}
+
+/// The errors of a text that is not accepted; none if it is.
+std::vector<InputError> errors_of(const std::string& text,
+                                  const std::vector<std::string>& overrides = {}) {
+  try {
+    (void)read(text, overrides);
+  } catch (const InputErrors& errors) {
+    return errors.errors();
+  }
+  return {};
+}
+
+/// `good` with its one occurrence of `from` replaced; every test that changes nothing would lie.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = good;
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(text.find(from, at + 1) == std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string all(const std::vector<InputError>& errors) {
+  std::string text;
+  for (const InputError& error : errors) text += error.text();
+  return text;
+}
+
+struct Bad {
+  std::string from, to;
+  int line;  ///< that the message names; 0: none
+  std::string message;
+  std::string accepted;
+};
+
+/// Each gives exactly one error, that one.
+void check_refused(const std::vector<Bad>& cases) {
+  for (const Bad& bad : cases) {
+    CAPTURE(bad.from);
+    CAPTURE(bad.to);
+    const std::vector<InputError> errors = errors_of(with(bad.from, bad.to));
+    const std::string shown = all(errors);
+    CAPTURE(shown);
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].file == "test.toml");
+    CHECK(errors[0].line == bad.line);
+    CHECK(contains(errors[0].message, bad.message));
+    CHECK(contains(errors[0].accepted, bad.accepted));
+  }
+}
+
+}  // namespace
+
+TEST_SUITE("program/input") {
+  TEST_CASE("the design case of the paper reads to its numbers in SI") {
+    const std::filesystem::path file =
+        std::filesystem::path(VOUSSOIR_TEST_EXAMPLES) / "paper" / "tunnel.toml";
+    const Input input = read_input(file);
+    CHECK(contains(input.title, "Boon"));
+    CHECK(input.model.width == 70);
+    CHECK(input.model.below_invert == 30);
+    CHECK(input.model.seed == 1);
+    CHECK(input.model.gravity == 9.81);
+    CHECK(input.model.origin == Point{0, 0});
+    CHECK(input.tunnel.shape == TunnelShape::circle);
+    CHECK(input.tunnel.diameter == 10);
+    CHECK(input.tunnel.cover == 20);
+    CHECK(input.tunnel.facets == 72);
+    CHECK(input.domain_top() == 25);
+    CHECK(input.domain_bottom() == -35);
+    CHECK(input.rock.density == 2700);
+    // The paper prints 662 kPa at the centre.
+    CHECK(std::lround(input.rock.density * input.model.gravity * input.domain_top() / 1000) == 662);
+    CHECK(input.stress.K0 == 1);
+    CHECK(input.stress.surcharge == 0);
+
+    REQUIRE(input.joint_sets.size() == 3);
+    const double dips[] = {75, 25, 25};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const JointSetInput& set = input.joint_sets[i];
+      CHECK(set.dip == degrees(dips[i]));
+      CHECK(set.dip_direction == (i < 2 ? DipDirection::east : DipDirection::west));
+      CHECK(set.sd == degrees(1));
+      CHECK(set.intensity == 1.0);
+      CHECK_FALSE(set.spacing.has_value());
+      CHECK(set.extent == 1);
+    }
+    CHECK(input.joint_sets[2].name == "J3");
+    CHECK(input.joints_file.empty());
+    CHECK(input.joint.normal_stiffness == 5e9);
+    CHECK(input.joint.shear_stiffness == 5e8);
+    CHECK(input.joint.friction_angle == degrees(35));
+    CHECK(input.blocks.min_inscribed_radius == 0.25);
+    CHECK(input.blocks.max_elongation == 5);
+    CHECK(input.blocks.min_wall_area == 0.074);
+
+    REQUIRE(input.bolts.has_value());
+    const BoltsInput& bolts = *input.bolts;
+    CHECK(bolts.length == 4);
+    CHECK(bolts.spacing.is_angle);
+    CHECK(bolts.spacing.value == degrees(15));
+    CHECK(bolts.arc.from == 0);
+    CHECK(bolts.arc.to == degrees(180));
+    CHECK(bolts.out_of_plane == 1);
+    CHECK(bolts.diameter == 0.028);
+    CHECK(bolts.stiffness == 2e8);
+    CHECK(bolts.pretension == 0);
+    CHECK_FALSE(bolts.yield_force.has_value());
+    CHECK(bolts.rupture_force == 5e5);
+    CHECK(bolts.anchors == BoltAnchors::lorig);
+    CHECK(bolts.anchor_offset == doctest::Approx(0.0336));
+    CHECK(bolts.law == BoltLaw::axial);
+
+    REQUIRE(input.lining.has_value());
+    const LiningInput& lining = *input.lining;
+    CHECK(lining.thickness == 0.1);
+    CHECK(lining.young_modulus == 25e9);
+    CHECK(lining.poisson_ratio == 0.2);
+    CHECK(lining.beam == LiningBeam::euler_bernoulli);
+    CHECK(lining.interface_normal_stiffness == 1e9);
+    CHECK(lining.interface_shear_stiffness == 1e9);
+    CHECK(lining.interface_friction_angle == degrees(30));
+    CHECK(lining.nodes == 72);
+    CHECK_FALSE(lining.arc.has_value());
+
+    REQUIRE(input.stages.size() == 1);
+    CHECK(input.stages[0].name == "excavation and support");
+    CHECK(input.stages[0].wall_traction == 0);
+    CHECK(input.stages[0].install_bolts);
+    CHECK(input.stages[0].install_lining);
+    CHECK(input.run.method == RunMethod::two_level);
+    CHECK(input.run.tolerance == 1e-3);
+    CHECK(input.run.displacement_limit == 0.2);
+
+    REQUIRE(input.diagram.has_value());
+    const double spacings[] = {9, 11.25, 15, 18, 22.5};
+    REQUIRE(input.diagram->spacing.size() == 6);
+    for (std::size_t i = 0; i < 5; ++i) {
+      REQUIRE(input.diagram->spacing[i].has_value());
+      CHECK(input.diagram->spacing[i]->is_angle);
+      CHECK(input.diagram->spacing[i]->value == degrees(spacings[i]));
+    }
+    CHECK_FALSE(input.diagram->spacing[5].has_value());
+    CHECK(input.diagram->thickness == std::vector<double>{0, 0.05, 0.1, 0.15, 0.2, 0.3});
+
+    const SizeEstimate size = estimate_size(input);
+    CHECK(size.joints == 12600);  // 3 sets x 1 /m^2 x 70 m x 60 m
+    // Generated masses of this case hold about 5 800 blocks.
+    CHECK(size.blocks > 4000);
+    CHECK(size.blocks < 12000);
+  }
+
+  TEST_CASE("what is left out has its default") {
+    const Input input = read(good);
+    CHECK(input.title == "Prüfung");
+    CHECK(input.model.seed == 1);
+    CHECK(input.joint_sets.at(0).name == "set 1");
+    CHECK(input.joint_sets.at(0).sd == 0);
+    CHECK(input.joint_sets.at(0).extent == infinity);
+    CHECK(input.blocks.max_elongation == infinity);
+    CHECK(input.bolts.value().arc.to == degrees(180));
+    CHECK_FALSE(input.bolts.value().rupture_force.has_value());
+    CHECK(input.lining.value().nodes == 72);
+    REQUIRE(input.stages.size() == 2);
+    CHECK(input.stages[0].name == "stage 1");
+    CHECK(input.stages[0].wall_traction == 0.4);
+    CHECK(input.stages[0].install_bolts);
+    CHECK_FALSE(input.stages[0].install_lining);
+    CHECK(input.stages[1].install_lining);
+    CHECK_FALSE(input.run.max_steps.has_value());
+    CHECK(read(with("cover = \"20 m\"", "cover = \"20 m\"\nfacets = 36")).lining.value().nodes ==
+          36);
+  }
+
+  TEST_CASE("every optional key arrives where it belongs") {
+    CHECK(read(good, {"model.seed=7", "model.gravity=1.62 m/s^2"}).model.seed == 7);
+    CHECK(read(good, {"model.gravity=1.62 m/s^2"}).model.gravity == 1.62);
+    CHECK(read(good, {R"(model.origin=["1000000 m", "-2.5 m"])"}).model.origin == Point{1e6, -2.5});
+    CHECK(read(good, {"stress.surcharge=20 kPa"}).stress.surcharge == 20e3);
+    CHECK(read(good, {"blocks.min_wall_area=100 cm^2"}).blocks.min_wall_area == 0.01);
+    const Input sets = read(
+        good, {"joint_set[0].name=bedding", "joint_set[0].sd=2 deg", "joint_set[0].extent=inf"});
+    CHECK(sets.joint_sets.at(0).name == "bedding");
+    CHECK(sets.joint_sets.at(0).sd == degrees(2));
+    CHECK(sets.joint_sets.at(0).extent == infinity);
+    CHECK(read(with("intensity = \"1 /m^2\"", "spacing = \"1.2 m\"")).joint_sets.at(0).spacing ==
+          1.2);
+    const BoltsInput bolts =
+        read(good, {"support.bolts.spacing=1.3 m", "support.bolts.arc=[\"-180 deg\", \"180 deg\"]",
+                    "support.bolts.out_of_plane=1.5 m", "support.bolts.diameter=25 mm",
+                    "support.bolts.pretension=50 kN", "support.bolts.yield_force=200 kN",
+                    "support.bolts.rupture_force=300 kN", "support.bolts.anchor_offset=4 cm",
+                    "support.bolts.law=axial-shear", "support.bolts.shear_stiffness=20 MN/m"})
+            .bolts.value();
+    CHECK_FALSE(bolts.spacing.is_angle);
+    CHECK(bolts.spacing.value == 1.3);
+    CHECK(bolts.arc.from == degrees(-180));
+    CHECK(bolts.out_of_plane == 1.5);
+    CHECK(bolts.diameter == 0.025);
+    CHECK(bolts.pretension == 5e4);
+    CHECK(bolts.yield_force == 2e5);
+    CHECK(bolts.rupture_force == 3e5);
+    CHECK(bolts.anchor_offset == 0.04);
+    CHECK(bolts.law == BoltLaw::axial_shear);
+    CHECK(bolts.shear_stiffness == 2e7);
+    CHECK(read(good, {"support.bolts.anchors=garga-wang"}).bolts.value().anchors ==
+          BoltAnchors::garga_wang);
+    CHECK(read(good, {"support.bolts.anchors=joint-face"}).bolts.value().anchors ==
+          BoltAnchors::joint_face);
+    const LiningInput lining =
+        read(good, {"support.lining.nu=0.25", "support.lining.beam=timoshenko",
+                    "support.lining.nodes=90", "support.lining.interface.ks=0.3 GPa/m",
+                    "support.lining.arc=[\"-30 deg\", \"210 deg\"]"})
+            .lining.value();
+    CHECK(lining.poisson_ratio == 0.25);
+    CHECK(lining.beam == LiningBeam::timoshenko);
+    CHECK(lining.nodes == 90);
+    CHECK(lining.interface_shear_stiffness == 0.3e9);
+    CHECK(lining.interface_normal_stiffness == 1e9);
+    CHECK(lining.arc.value().to == degrees(210));
+    const RunInput run =
+        read(good, {"run.method=explicit", "run.damping=0.5", "run.ramp_steps=0",
+                    "run.max_steps=100000", "run.tolerance=1e-4", "run.displacement_limit=10 cm"})
+            .run;
+    CHECK(run.method == RunMethod::explicit_);
+    CHECK(run.damping == 0.5);
+    CHECK(run.ramp_steps == 0);
+    CHECK(run.max_steps == 100000);
+    CHECK(run.tolerance == 1e-4);
+    CHECK(run.displacement_limit == 0.1);
+    CHECK(read(good, {"run.method=relaxation"}).run.method == RunMethod::relaxation);
+    CHECK(read(good, {"stage[0].name=top heading"}).stages.at(0).name == "top heading");
+    const DiagramInput diagram =
+        read(good, {R"(diagram.spacing=["1 m", "1.5 m"])"}).diagram.value();
+    CHECK_FALSE(diagram.spacing.at(1).value().is_angle);
+    CHECK(diagram.spacing.at(1).value().value == 1.5);
+  }
+
+  TEST_CASE("the file of joints is looked for beside the input file") {
+    CHECK(read(with("[joint]\n", "[joints]\nfile = \"traces.csv\"\n[joint]\n")).joints_file ==
+          std::filesystem::path("/site/traces.csv"));
+    CHECK(read(with("[joint]\n", "[joints]\nfile = \"/data/Klüfte.csv\"\n[joint]\n")).joints_file ==
+          std::filesystem::path(u8"/data/Klüfte.csv"));
+  }
+
+  TEST_CASE("a horseshoe and a polygon have their extents; a clockwise polygon is turned round") {
+    const Input horseshoe =
+        read(with("shape = \"circle\"\ndiameter = \"10 m\"",
+                  "shape = \"horseshoe\"\nwidth = \"8 m\"\nwall_height = \"3 m\""));
+    CHECK(horseshoe.tunnel.half_width() == 4);
+    CHECK(horseshoe.tunnel.crown() == 4);
+    CHECK(horseshoe.tunnel.invert() == -3);
+    CHECK(horseshoe.domain_top() == 24);
+    CHECK(horseshoe.domain_bottom() == -33);
+
+    const std::string clockwise =
+        R"(vertices = [["-2 m", "-2 m"], ["-2 m", "2 m"], ["0 m", "4 m"], ["2 m", "2 m"], ["2 m", "-2 m"]])";
+    const Input polygon =
+        read(with("shape = \"circle\"\ndiameter = \"10 m\"", "shape = \"polygon\"\n" + clockwise));
+    CHECK(polygon.tunnel.vertices ==
+          std::vector<Point>{{2, -2}, {2, 2}, {0, 4}, {-2, 2}, {-2, -2}});
+    CHECK(polygon.tunnel.half_width() == 2);
+    CHECK(polygon.tunnel.crown() == 4);
+    CHECK(polygon.tunnel.invert() == -2);
+  }
+
+  TEST_CASE("a value of the wrong form or range is refused with its line and what is accepted") {
+    check_refused({
+        {"title = \"Prüfung\"", "title = 5", 1, "title = 5 is a bare number, not a text", "a text"},
+        {"title = \"Prüfung\"", "schema = 2", 1, "schema = 2 is outside", "a whole number, 1"},
+        {"width = \"70 m\"", "width = 70", 3, "model.width = 70 has no unit", "above 0; a length"},
+        {"width = \"70 m\"", "width = \"70\"", 3, "model.width = \"70\" has no unit", "\"4 m\""},
+        {"width = \"70 m\"", "width = \"70 kg\"", 3, "is a mass, not a length", "a length"},
+        {"width = \"70 m\"", "width = \"-70 m\"", 3, "outside the accepted range", "above 0"},
+        {"width = \"70 m\"", "width = \"0 m\"", 3, "outside the accepted range", "above 0"},
+        {"width = \"70 m\"", "width = nan", 3, "model.width = nan is not finite", "a length"},
+        {"width = \"70 m\"", "width = inf", 3, "is not finite", "a length"},
+        {"width = \"70 m\"", "width = \"nan m\"", 3, "is not a number", "a length"},
+        {"width = \"70 m\"", "width = \"inf m\"", 3, "is not finite", "a length"},
+        {"width = \"70 m\"", "width = true", 3, "is true or false", "a length"},
+        {"width = \"70 m\"", "width = 2015-01-01", 3, "is a date", "a length"},
+        {"width = \"70 m\"", "width = [\"70 m\"]", 3, "is a list", "a length"},
+        {"width = \"70 m\"", "width.m = 70", 3, "model.width is a table", "a length"},
+        {"width = \"70 m\"", "width = \"70 m\"\nseed = -1", 4, "model.seed = -1", "0 or more"},
+        {"width = \"70 m\"", "width = \"70 m\"\nseed = 1.5", 4, "is not a whole number",
+         "0 or more"},
+        {"width = \"70 m\"", "width = \"70 m\"\nseed = \"1\"", 4, "is a text", "a whole number"},
+        {"width = \"70 m\"", "width = \"70 m\"\ngravity = \"0 m/s^2\"", 4, "model.gravity",
+         "above 0"},
+        {"width = \"70 m\"", "width = \"70 m\"\norigin = [\"1 m\"]", 4, "has 1 entry",
+         "two lengths"},
+        {"width = \"70 m\"", "width = \"70 m\"\norigin = [\"1 m\", 2]", 4, "model.origin[1] = 2",
+         "a length"},
+        {"shape = \"circle\"", "shape = \"cirlce\"", 6, "did you mean \"circle\"?",
+         "\"horseshoe\""},
+        {"cover = \"20 m\"", "cover = \"0 m\"", 8, "tunnel.cover", "above 0"},
+        {"cover = \"20 m\"", "cover = \"20 m\"\nfacets = 11", 9, "tunnel.facets", "from 12 to 720"},
+        {"cover = \"20 m\"", "cover = \"20 m\"\nfacets = 721", 9, "tunnel.facets",
+         "from 12 to 720"},
+        {"density = \"2700 kg/m^3\"", "density = \"2700 kg\"", 10, "is a mass, not a density",
+         "2700 kg/m^3"},
+        {"K0 = 1", "K0 = -0.1", 12, "stress.K0 = -0.1 is outside", "a bare number from 0 to 10"},
+        {"K0 = 1", "K0 = 10.5", 12, "stress.K0", "from 0 to 10"},
+        {"K0 = 1", "K0 = \"1\"", 12, "is a text, not a bare number", "without quotes"},
+        {"K0 = 1", "K0 = nan", 12, "is not finite", "a bare number"},
+        {"K0 = 1", "K0 = 1\nsurcharge = \"-1 kPa\"", 13, "stress.surcharge", "0 or more"},
+        {"dip = \"75 deg\"", "dip = \"91 deg\"", 14, "joint_set[0].dip", "from 0 to 90 deg"},
+        {"dip = \"75 deg\"", "dip = 75", 14, "joint_set[0].dip = 75 has no unit", "35 deg"},
+        {"dip_direction = \"E\"", "dip_direction = \"N\"", 15, "joint_set[0].dip_direction",
+         "\"E\", \"W\""},
+        {"intensity = \"1 /m^2\"", "intensity = \"0 /m^2\"", 16, "joint_set[0].intensity",
+         "above 0 and at most"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1e5 /m^2\"", 16, "joint_set[0].intensity",
+         "10000 /m^2"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m\"", 16, "is a quantity in m^-1",
+         "a number per area"},
+        {"intensity = \"1 /m^2\"", "spacing = \"0 m\"", 16, "joint_set[0].spacing", "above 0"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nextent = \"0 m\"", 17, "extent",
+         "or \"inf\""},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nextent = \"-inf\"", 17, "extent",
+         "inf"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nsd = \"46 deg\"", 17, "sd", "45 deg"},
+        {"kn = \"5 GPa/m\"", "kn = 5e9", 18, "joint.kn = 5e9 has no unit", "\"5 GPa/m\""},
+        {"kn = \"5 GPa/m\"", "kn = \"5 GPA/m\"", 18, "unknown unit `GPA`, did you mean `GPa`?",
+         "\"5 GPa/m\""},
+        {"kn = \"5 GPa/m\"", "kn = \"5 GPa\"", 18, "is a stress, not a stiffness per area",
+         "GPa/m"},
+        {"ks = \"0.5 GPa/m\"", "ks = \"0 GPa/m\"", 19, "joint.ks", "above 0"},
+        {"friction = \"35 deg\"", "friction = \"90 deg\"", 20, "joint.friction",
+         "from 0 to below 90 deg"},
+        {"friction = \"35 deg\"", "friction = \"35 %\"", 20, "is a fraction, not an angle", "deg"},
+        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"0 m\"", 22, "blocks.min",
+         "above 0"},
+        {"[blocks]\n", "[blocks]\nmax_elongation = 1.5\n", 22, "max_elongation", "2 or more"},
+        {"[blocks]\n", "[blocks]\nmin_wall_area = \"-1 m^2\"\n", 22, "min_wall_area", "0 or more"},
+        {"spacing = \"15 deg\"", "spacing = 15", 25, "support.bolts.spacing = 15 has no unit",
+         "\"1.3 m\""},
+        {"spacing = \"15 deg\"", "spacing = \"15 kN\"", 25, "is neither an angle nor a length",
+         "\"15 deg\""},
+        {"spacing = \"15 deg\"", "spacing = \"0 deg\"", 25, "outside the accepted range",
+         "above 0"},
+        {"spacing = \"15 deg\"", "spacing = \"15 degs\"", 25, "unknown unit `degs`", "\"15 deg\""},
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"180 deg\", \"0 deg\"]", 25,
+         "does not rise", "two angles"},
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"-90 deg\", \"300 deg\"]", 25,
+         "spans more than 360 deg", "at most 360 deg apart"},
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"0 deg\", \"361 deg\"]", 25,
+         "support.bolts.arc[1] = \"361 deg\"", "360 deg"},
+        {"length = \"4 m\"", "length = \"4 m\"\nout_of_plane = \"0 m\"", 25, "out_of_plane",
+         "above 0"},
+        {"length = \"4 m\"", "length = \"4 m\"\ndiameter = \"0 mm\"", 25, "diameter", "above 0"},
+        {"length = \"4 m\"", "length = \"4 m\"\npretension = \"-1 kN\"", 25, "pretension",
+         "0 or more"},
+        {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"0 kN\"", 25, "yield_force",
+         "above 0"},
+        {"length = \"4 m\"", "length = \"4 m\"\nrupture_force = \"0 kN\"", 25, "rupture_force",
+         "above 0"},
+        {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"lorigs\"", 25,
+         "did you mean \"lorig\"?", "\"garga-wang\""},
+        {"length = \"4 m\"", "length = \"4 m\"\nlaw = \"shear\"", 25, "support.bolts.law",
+         "\"axial-shear\""},
+        {"length = \"4 m\"", "length = \"4 m\"\nanchor_offset = \"0 m\"", 25, "anchor_offset",
+         "above 0"},
+        {"stiffness = \"0.2 GN/m\"", "stiffness = \"0 GN/m\"", 26, "support.bolts.stiffness",
+         "above 0"},
+        {"thickness = \"10 cm\"", "thickness = \"0 cm\"", 28, "support.lining.thickness",
+         "above 0"},
+        {"E = \"25 GPa\"", "E = \"25 GN\"", 29, "is a force, not a stress", "25 GPa"},
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnu = 0.5", 30, "support.lining.nu",
+         "above -1 and below 0.5"},
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnodes = 7", 30, "nodes", "from 8 to 2000"},
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nbeam = \"euler\"", 30, "beam", "\"euler-bernoulli\""},
+        {"kn = \"1 GPa/m\"", "kn = 1e9", 30, "support.lining.interface.kn = 1e9 has no unit",
+         "GPa/m"},
+        {"wall_traction = \"40 %\"", "wall_traction = 0.4", 32,
+         "stage[0].wall_traction = 0.4 has no unit", "from 0 to 100 %"},
+        {"wall_traction = \"40 %\"", "wall_traction = \"101 %\"", 32, "stage[0].wall_traction",
+         "from 0 to 100 %"},
+        {"install = [\"bolts\"]", "install = \"bolts\"", 33, "is a text, not a list", "\"lining\""},
+        {"install = [\"bolts\"]", "install = [\"bolt\"]", 33, "did you mean \"bolts\"?",
+         "\"bolts\", \"lining\""},
+        {"install = [\"bolts\"]", "install = [\"bolts\", \"bolts\"]", 33, "in the list twice",
+         "once"},
+        {"method = \"two-level\"", "method = \"newton\"", 38, "run.method", "\"relaxation\""},
+        {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-08 to 0.1"},
+        {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
+         "above 0"},
+        {"method = \"two-level\"", "max_steps = 0", 38, "run.max_steps", "1 or more"},
+        {"method = \"two-level\"", "method = \"explicit\"\ndamping = 1", 39, "run.damping",
+         "from 0 to 0.95"},
+        {"method = \"two-level\"", "method = \"explicit\"\nramp_steps = -1", 39, "ramp_steps",
+         "from 0"},
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\"]", 40, "has 1 entry", "2 to 100"},
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"none\", \"9 deg\"]", 40,
+         "diagram.spacing[0] = \"none\" is not the last", "\"none\" last"},
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"9 deg\"]", 40,
+         "is not above the entry before it", "a rising list"},
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"1 m\"]", 40,
+         "mixes angles and lengths", "all lengths"},
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"10 cm\", \"5 cm\"]", 41,
+         "diagram.thickness[1] = \"5 cm\" is not above", "a rising list"},
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"-5 cm\", \"5 cm\"]", 41,
+         "diagram.thickness[0]", "0 or more"},
+    });
+  }
+
+  TEST_CASE("a missing key is reported at its table, a missing table at the file") {
+    check_refused({
+        {"width = \"70 m\"\n", "", 2, "model.width is missing", "above 0; a length"},
+        {"below_invert = \"30 m\"\n", "", 2, "model.below_invert is missing", "a length"},
+        {"shape = \"circle\"\ndiameter = \"10 m\"\n", "", 5, "tunnel.shape is missing",
+         "\"circle\""},
+        {"diameter = \"10 m\"\n", "", 5, "tunnel.diameter is missing", "a length"},
+        {"cover = \"20 m\"\n", "", 5, "tunnel.cover is missing", "a length"},
+        {"shape = \"circle\"\ndiameter = \"10 m\"\n", "shape = \"horseshoe\"\nwidth = \"8 m\"\n", 5,
+         "tunnel.wall_height is missing", "a length"},
+        {"shape = \"circle\"\ndiameter = \"10 m\"\n", "shape = \"polygon\"\n", 5,
+         "tunnel.vertices is missing", "3 to 2000 points"},
+        {"[rock]\ndensity = \"2700 kg/m^3\"\n", "", 0, "[rock] is missing",
+         "a table [rock] with density"},
+        {"K0 = 1\n", "", 11, "stress.K0 is missing", "a bare number"},
+        {"dip = \"75 deg\"\n", "", 13, "joint_set[0].dip is missing", "an angle"},
+        {"dip_direction = \"E\"\n", "", 13, "joint_set[0].dip_direction is missing",
+         "\"E\", \"W\""},
+        {"intensity = \"1 /m^2\"\n", "", 13, "joint_set[0].intensity is missing, and so is spacing",
+         "either intensity"},
+        {"kn = \"5 GPa/m\"\n", "", 17, "joint.kn is missing", "GPa/m"},
+        {"min_inscribed_radius = \"0.25 m\"\n", "", 21, "blocks.min_inscribed_radius is missing",
+         "a length"},
+        {"length = \"4 m\"\n", "", 23, "support.bolts.length is missing", "a length"},
+        {"spacing = \"15 deg\"\n", "", 23, "support.bolts.spacing is missing",
+         "an angle or a length"},
+        {"stiffness = \"0.2 GN/m\"\n", "law = \"axial-shear\"\nstiffness = \"0.2 GN/m\"\n", 23,
+         "support.bolts.shear_stiffness is missing", "GN/m"},
+        {"E = \"25 GPa\"\n", "", 27, "support.lining.E is missing", "25 GPa"},
+        {"interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n", "", 0,
+         "[support.lining.interface] is missing", "with kn, friction"},
+        {", friction = \"30 deg\" }", " }", 30, "support.lining.interface.friction is missing",
+         "deg"},
+        {"wall_traction = \"40 %\"\n", "", 31, "stage[0].wall_traction is missing", "40 %"},
+        {"spacing = [\"9 deg\", \"none\"]\n", "", 39, "diagram.spacing is missing",
+         "bolt spacings"},
+        {"[joint]\n", "[joints]\n[joint]\n", 17, "joints.file is missing", "relative to the input"},
+        {"[joint]\n", "[joints]\nfile = \"\"\n[joint]\n", 18, "is empty", "a file name"},
+    });
+  }
+
+  TEST_CASE("an unknown key is refused, with the key that was probably meant") {
+    check_refused({
+        {"[rock]\n", "[rock]\ndensty = \"2700 kg/m^3\"\n", 10,
+         "unknown key `densty` in [rock], did you mean `density`?", "density"},
+        {"[rock]\n", "[rock]\nK0 = 1\n", 10, "did you mean `stress.K0`?", "density"},
+        {"[rock]\n", "[rock]\nzzz = 1\n", 10, "unknown key `zzz` in [rock]", "density"},
+        {"[rock]\n", "[rock]\n\"a b.c\" = 1\n", 10, "unknown key `\"a b.c\"`", "density"},
+        {"[run]\n", "[rum]\n", 37, "unknown key `rum`, did you mean `run`?", "stress"},
+        {"dip = \"75 deg\"\n", "dip = \"75 deg\"\ntrace_length = \"1 m\"\n", 15,
+         "unknown key `trace_length` in [joint_set[0]]", "extent"},
+        {"friction = \"30 deg\" }", "friction = \"30 deg\", cohesion = \"1 kPa\" }", 30,
+         "unknown key `cohesion` in [support.lining.interface]", "ks"},
+        {"[run]\n", "[support.cable]\n[run]\n", 37, "unknown key `cable` in [support]", "bolts"},
+    });
+  }
+
+  TEST_CASE("a key that belongs to another choice is refused") {
+    check_refused({
+        {"cover = \"20 m\"\n", "cover = \"20 m\"\nwall_height = \"3 m\"\n", 9,
+         "tunnel.wall_height belongs to shape = \"horseshoe\" only", "leave it out"},
+        {"method = \"two-level\"", "method = \"two-level\"\ndamping = 0.5", 39,
+         "run.damping belongs to method = \"explicit\" only", "leave it out"},
+        {"length = \"4 m\"", "length = \"4 m\"\nshear_stiffness = \"1 MN/m\"", 25,
+         "belongs to law = \"axial-shear\" only", "leave it out"},
+        {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"garga-wang\"\nanchor_offset = \"3 cm\"",
+         26, "belongs to anchors = \"lorig\" only", "leave it out"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nspacing = \"2 m\"", 17,
+         "joint_set[0].spacing = \"2 m\" is given besides intensity", "one of"},
+    });
+  }
+
+  TEST_CASE("tables and lists of tables are told apart") {
+    check_refused({
+        {"[rock]\n", "[[rock]]\n", 9, "rock is a list, not one table", "one table [rock]"},
+        {"[rock]\ndensity = \"2700 kg/m^3\"\n", "", 0, "[rock] is missing", ""},
+        {"[[joint_set]]\n", "[joint_set]\n", 13, "joint_set is one table", "[[joint_set]]"},
+        {"title = \"Prüfung\"\n", "title = \"Prüfung\"\njoints = 5\n", 2,
+         "joints = 5, not one table", "[joints]"},
+    });
+  }
+
+  TEST_CASE("parts that do not fit together are refused") {
+    const std::string circle = "shape = \"circle\"\ndiameter = \"10 m\"";
+    const auto polygon = [](const std::string& points) {
+      return "shape = \"polygon\"\nvertices = " + points;
+    };
+    check_refused({
+        {"width = \"70 m\"", "width = \"10 m\"", 3, "leaves no ground beside the opening",
+         "above 10 m"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["35 m","-3 m"], ["0 m","3 m"]])"), 3,
+         "leaves no ground beside the opening", "above 70 m"},
+        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"5 m\"", 22,
+         "larger than the opening", "below 5 m"},
+        {"thickness = \"10 cm\"", "thickness = \"5 m\"", 28, "fills the opening", "below 5 m"},
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"6 m\"]", 41,
+         "fills the opening", "below 5 m"},
+        // 1000 /m^2 x 70 m x 60 m
+        {"intensity = \"1 /m^2\"", "intensity = \"1000 /m^2\"", 13, "about 4200000 joints",
+         "at most 1000000"},
+        {"length = \"4 m\"", "length = \"4 m\"\npretension = \"3 kN\"\nrupture_force = \"2 kN\"",
+         25, "pretension = \"3 kN\" is above rupture_force", "at most 2 kN"},
+        {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"3 kN\"\nrupture_force = \"2 kN\"",
+         25, "is above rupture_force", "at most 2 kN"},
+        {"wall_traction = \"0 %\"", "wall_traction = \"10 %\"", 35,
+         "leaves traction on the wall at the end", "\"0 %\""},
+        {"[[stage]]\nwall_traction = \"0 %\"",
+         "[[stage]]\nwall_traction = \"50 %\"\n[[stage]]\nwall_traction = \"0 %\"", 35,
+         "is above that of the stage before", "at most 40 %"},
+        {"install = [\"lining\"]", "install = [\"lining\", \"bolts\"]", 36, "names bolts again",
+         "once"},
+        {"install = [\"bolts\"]\n", "", 23, "support.bolts is in no stage",
+         "install = [\"bolts\"]"},
+        {"install = [\"lining\"]\n", "", 27, "support.lining is in no stage", "install"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"]])"), 7, "has 2 entries", "points"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"], ["0 m"]])"), 7, "tunnel.vertices[2]",
+         "two lengths"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["3 m","3 m"], ["3 m","-3 m"], ["-3 m","3 m"]])"), 7,
+         "crosses itself: the sides from vertex 0 and from vertex 2", "do not cross"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"], ["3 m","-3 m"], ["0 m","3 m"]])"), 7,
+         "repeats vertex 1 as vertex 2", "points"},
+        {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"], ["1 m","-3 m"], ["0 m","3 m"]])"), 7,
+         "folds back on itself at vertex 1", "points"},
+        {circle, polygon(R"([["-3 m","0 m"], ["0 m","0 m"], ["3 m","0 m"]])"), 7,
+         "folds back on itself", "points"},
+        {circle, polygon(R"([["7 m","-3 m"], ["13 m","-3 m"], ["10 m","3 m"]])"), 7,
+         "does not contain the tunnel centre", "around the tunnel centre"},
+    });
+    // Through-going joints cross: 100 /m^2 of them would leave nothing but crumbs.
+    const auto many =
+        errors_of(with("min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"1 mm\""),
+                  {"joint_set[0].intensity=50 /m^2", "joint_set[1].dip=10 deg",
+                   "joint_set[1].dip_direction=W", "joint_set[1].intensity=50 /m^2"});
+    REQUIRE(many.size() == 1);
+    CHECK(contains(many[0].message, "blocks"));
+    CHECK(contains(many[0].accepted, "min_inscribed_radius"));
+  }
+
+  TEST_CASE("support that no table describes is neither installed nor varied") {
+    std::string text = good;
+    text.erase(text.find("[support.bolts]"),
+               text.find("[support.lining]") - text.find("[support.bolts]"));
+    const auto errors = errors_of(text);
+    REQUIRE(errors.size() == 2);
+    CHECK(contains(errors[0].message, "names bolts, which the file does not describe"));
+    CHECK(errors[0].line == 29);
+    CHECK(contains(errors[1].message, "varies bolts, which the file does not describe"));
+    CHECK(errors[1].line == 36);
+  }
+
+  TEST_CASE("what is no TOML is refused in the same form") {
+    check_refused({
+        {"kn = \"5 GPa/m\"\n", "kn = \"5 GPa/m\"\nkn = \"6 GPa/m\"\n", 19, "'kn'", "once"},
+        {"[rock]\n", "[model]\n", 9, "'model'", "once"},
+        {"width = \"70 m\"", "width = 70 m", 3, "saw 'm'", "stand in quotes"},
+        {"K0 = 1", "K0 = 1,5", 12, "saw ','", "quotes"},
+        {"K0 = 1", "K0 =", 12, "expected value", ""},
+        {"[stress]", "[stress", 11, "expected ']'", ""},
+        {"width = \"70 m\"", "width = \"70 m", 3, "string", "TOML"},
+        {"title = \"Prüfung\"",
+         "title = \"Pr\xfc"
+         "fung\"",
+         1, "utf-8", ""},  // Latin-1
+    });
+  }
+
+  TEST_CASE("a file that holds no input says so") {
+    const auto only = [](const std::string& text) {
+      const auto errors = errors_of(text);
+      REQUIRE(errors.size() == 1);
+      return errors[0].message;
+    };
+    CHECK(contains(only(""), "test.toml is empty"));
+    CHECK(contains(only("# nothing yet\n\n"), "holds no keys"));
+    CHECK(contains(only("\xef\xbb\xbf"), "is empty"));
+    CHECK(contains(only(std::string("\x7f"
+                                    "ELF\0\0",
+                                    6)),
+                   "is not a text file"));
+    CHECK(contains(only(std::string("\xff\xfe"
+                                    "a\0",
+                                    4)),
+                   "UTF-16"));
+    for (const auto& file :
+         {std::filesystem::path("no such file.toml"), std::filesystem::temp_directory_path()}) {
+      CHECK_THROWS_AS(read_input(file), InputErrors);
+    }
+  }
+
+  TEST_CASE("all errors of a file are reported at once, in the order of its lines") {
+    std::string text = with("kn = \"5 GPa/m\"", "kn = 5e9");
+    const auto change = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    change("density", "densty");
+    change("K0 = 1", "K0 = 11");
+    change("width = \"70 m\"\n", "");
+    change("wall_traction = \"0 %\"", "wall_traction = \"200 %\"");
+    const auto errors = errors_of(text);
+    const std::string shown = all(errors);
+    CAPTURE(shown);
+    REQUIRE(errors.size() == 6);
+    CHECK(errors[0].key == "model.width");
+    CHECK(errors[1].key == "rock.density");  // missing
+    CHECK(errors[2].key == "rock.densty");   // unknown
+    CHECK(errors[3].key == "stress.K0");
+    CHECK(errors[4].key == "joint.kn");
+    CHECK(errors[5].key == "stage[1].wall_traction");
+    CHECK(std::is_sorted(errors.begin(), errors.end(),
+                         [](const auto& a, const auto& b) { return a.line < b.line; }));
+    try {
+      (void)read(text);
+    } catch (const InputErrors& all_errors) {
+      CHECK(contains(all_errors.what(), "6 errors in the input"));
+    }
+  }
+
+  TEST_CASE("a message shows the line and puts the caret under the value") {
+    const auto errors = errors_of(with("kn = \"5 GPa/m\"", "\tkn = 5e9  # ä"));
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].text() ==
+          "error: joint.kn = 5e9 has no unit\n"
+          "   --> test.toml:18:7\n"
+          "   |\n"
+          "18 | \tkn = 5e9  # ä\n"
+          "   | \t     ^^^\n"
+          "   = accepted: above 0; a stiffness per area, such as \"5 GPa/m\", \"5000 MPa/m\" or "
+          "\"5e9 Pa/m\"\n");
+    // Columns count characters, not bytes.
+    const auto wide = errors_of(
+        with("kn = \"1 GPa/m\", friction = \"30 deg\"", "kn = \"1 GPä/m\", friction = 30"));
+    REQUIRE(wide.size() == 2);
+    CHECK(wide[0].column == 20);
+    CHECK(wide[0].width == 9);
+    CHECK(wide[1].column == 42);
+    // An escape in the file must not reach the terminal.
+    const auto escape = errors_of("a = \x1b[31m\n");
+    REQUIRE(escape.size() == 1);
+    CHECK(escape[0].text().find('\x1b') == std::string::npos);
+  }
+
+  TEST_CASE("line ends of Windows and a byte order mark change nothing") {
+    std::string windows = "\xef\xbb\xbf";
+    for (const char c : with("kn = \"5 GPa/m\"", "kn = 5e9")) {
+      if (c == '\n') windows += '\r';
+      windows += c;
+    }
+    const auto errors = errors_of(windows);
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].line == 18);
+    CHECK(errors[0].column == 6);
+    CHECK(errors[0].source_line == "kn = 5e9");
+    windows.replace(windows.find("5e9"), 3, "\"5 GPa/m\"");
+    CHECK(read(windows).title == "Prüfung");
+    CHECK(errors_of("\xef\xbb\xbfx = 1\n").back().column == 1);
+  }
+
+  TEST_CASE("overrides replace, add and count from the last") {
+    CHECK(read(good, {"joint.kn=6 GPa/m"}).joint.normal_stiffness == 6e9);
+    CHECK(read(good, {"joint.kn=\"6 GPa/m\""}).joint.normal_stiffness == 6e9);
+    CHECK(read(good, {" joint.kn = 6 GPa/m "}).joint.normal_stiffness == 6e9);
+    CHECK(read(good, {"joint.kn=6 GPa/m", "joint.kn=7 GPa/m"}).joint.normal_stiffness == 7e9);
+    CHECK(read(good, {"stress.K0=0.5"}).stress.K0 == 0.5);
+    CHECK(read(good, {"title=a = b # c"}).title == "a = b # c");
+    CHECK(read(good, {"title=Stüble"}).title == "Stüble");
+    CHECK(read(good, {"joint_set[0].dip=60 deg"}).joint_sets.at(0).dip == degrees(60));
+    CHECK(read(good, {"joint_set[1].dip=60 deg", "joint_set[1].dip_direction=W",
+                      "joint_set[1].spacing=2 m"})
+              .joint_sets.size() == 2);
+    CHECK(read(good, {"diagram.thickness[1]=20 cm"}).diagram.value().thickness.at(1) == 0.2);
+    CHECK(read(good, {"support.lining.interface={ kn = \"2 GPa/m\", friction = \"30 deg\" }"})
+              .lining.value()
+              .interface_normal_stiffness == 2e9);
+
+    // A table that the file does not have.
+    std::string bare = good.substr(0, good.find("[support.bolts]"));
+    CHECK_FALSE(read(bare).bolts.has_value());
+    const Input added = read(bare, {"support.bolts.length=3 m", "support.bolts.spacing=1 m",
+                                    "support.bolts.stiffness=0.1 GN/m"});
+    CHECK(added.bolts.value().length == 3);
+    CHECK(added.stages.at(0).install_bolts);
+    CHECK_FALSE(added.stages.at(0).install_lining);
+  }
+
+  TEST_CASE("errors of overrides name the override") {
+    struct Case {
+      std::string text, message;
+    };
+    for (const Case& c : std::vector<Case>{
+             {"joint.kn=5e9", "joint.kn = 5e9 has no unit"},
+             {"joint.kn=", "joint.kn = \"\" is empty"},
+             {"joint.nk=5 GPa/m", "unknown key `nk` in [joint]"},
+             {"joints_set[0].dip=5 deg", "did you mean `joint_set`?"},
+             {"joint_set[0].dip=95 deg", "joint_set[0].dip = 95 deg is outside the accepted range"},
+             {"joint_set[2].dip=5 deg", "joint_set has 1 entry"},
+             {"joint_set[x].dip=5 deg", "is not a key"},
+             {"joint_set.dip=5 deg", "joint_set is no table"},
+             {"title.x=5", "title is no table"},
+             {"model[0]=5", "model is no array"},
+             {"model", "override without `=`"},
+             {"=5", "is not a key"},
+             {"a..b=5", "is not a key"},
+             {"run.method=fast", "run.method = fast is not one of its words"},
+             {"support.lining.interface={ kn = 1 }", "interface.kn = 1 has no unit"},
+             {"model.seed=1\nx = 2", "model.seed = 1?x = 2 is a text"}}) {
+      CAPTURE(c.text);
+      const auto errors = errors_of(good, {"run.tolerance=1e-2", c.text});
+      const std::string shown = all(errors);
+      CAPTURE(shown);
+      REQUIRE_FALSE(errors.empty());
+      CHECK(contains(errors[0].message, c.message));
+      CHECK(errors[0].override_text == c.text);
+      CHECK(errors[0].line == 0);
+      CHECK(contains(shown, "--> --set "));
+    }
+    // What is missing in a table that an override began is that override's fault.
+    const auto begun =
+        errors_of(good.substr(0, good.find("[support.bolts]")), {"support.lining.thickness=10 cm"});
+    REQUIRE(begun.size() == 2);
+    CHECK(contains(begun[1].message + begun[0].message, "support.lining.E is missing"));
+  }
+
+  TEST_CASE("a damaged file is read or refused, never anything else") {
+    int read_well = 0, refused = 0;
+    const auto attempt = [&](const std::string& text) {
+      try {
+        (void)read(text);
+        ++read_well;
+      } catch (const InputErrors&) {
+        ++refused;
+      }
+    };
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      attempt(good.substr(0, i));
+      for (const char c : {'"', '[', '=', '.', '9', '-', ' ', '\xc3', '\x01'}) {
+        std::string text = good;
+        text[i] = c;
+        attempt(text);
+      }
+      attempt(std::string(good).erase(i, 1));
+    }
+    CHECK(read_well > 0);
+    CHECK(refused > 0);
+  }
+}
