@@ -133,9 +133,8 @@ struct LiningInput {
 
 /// [[stage]] One step of the construction, in the order of the file.
 struct StageInput {
-  std::string name;  ///< default "stage 1", "stage 2", ...
-  double wall_traction =
-      0;  ///< left on the wall at the end of the stage / in-situ traction, 0 to 1
+  std::string name;             ///< default "stage 1", "stage 2", ...
+  double wall_traction = 0;     ///< left on the wall at the end / in-situ traction [-], 0 to 1
   bool install_bolts = false;   ///< at the start of the stage
   bool install_lining = false;  ///< at the start of the stage
 };
@@ -164,8 +163,7 @@ struct Input {
   RockInput rock;
   StressInput stress;
   std::vector<JointSetInput> joint_sets;
-  std::filesystem::path
-      joints_file;  ///< of measured traces, resolved; empty: none; not opened here
+  std::filesystem::path joints_file;  ///< measured traces, resolved, not opened; empty: none
   JointInput joint;
   BlocksInput blocks;
   std::optional<BoltsInput> bolts;

@@ -675,6 +675,11 @@ TEST_SUITE("program/input") {
         {"K0 = 1", "K0 =", 12, "expected value", ""},
         {"[stress]", "[stress", 11, "expected ']'", ""},
         {"width = \"70 m\"", "width = \"70 m", 3, "string", "TOML"},
+        {"K0 = 1", "K0 = \u201c1\u201d", 12, "`\u201c` outside of quotes", "plain quotes"},
+        {"K0 = 1", "K0 = 9\"1\"", 12, "a quote where none can be", "key ="},
+        {"[stress]", "[=]", 11, "saw '='", ""},
+        {"[stress]", "[[.a]]", 11, "saw '.'", ""},
+        {"title = \"Prüfung\"", "title = \"\"\"a\nb\"\"\"", 1, "several lines", "one line"},
         {"title = \"Prüfung\"",
          "title = \"Pr\xfc"
          "fung\"",
@@ -757,6 +762,21 @@ TEST_SUITE("program/input") {
     CHECK(escape[0].text().find('\x1b') == std::string::npos);
   }
 
+  TEST_CASE("quotes, brackets and letters in comments and texts are no fault") {
+    CHECK(read(with("K0 = 1", "K0 = 1  # \u201c1\u201d, 'it's [=")).stress.K0 == 1);
+    CHECK(read(with("\"Prüfung\"", R"("a \"ü\" [= # \\")")).title == R"(a "ü" [= # \)");
+    CHECK(read(with("\"Prüfung\"", R"('a "ü" [= \')")).title == R"(a "ü" [= \)");
+    CHECK(read(with("[stress]", " [ \"stress\" ] # ä")).stress.K0 == 1);
+    CHECK(read(with("[\"0 cm\", \"10 cm\"]", "[ # ä\n\"0 cm\",\n\"10 cm\"\n]"))
+              .diagram.value()
+              .thickness.size() == 2);
+    // A line that starts with a bracket inside a list is no table header.
+    CHECK(read(with("shape = \"circle\"\ndiameter = \"10 m\"",
+                    "shape = \"polygon\"\nvertices = [\n[\"-2 m\", \"-2 m\"],\n[# foot\n\"2 m\", "
+                    "\"-2 m\"],\n[\"0 m\", \"3 m\"]\n]"))
+              .tunnel.vertices.size() == 3);
+  }
+
   TEST_CASE("line ends of Windows and a byte order mark change nothing") {
     std::string windows = "\xef\xbb\xbf";
     for (const char c : with("kn = \"5 GPa/m\"", "kn = 5e9")) {
@@ -781,6 +801,7 @@ TEST_SUITE("program/input") {
     CHECK(read(good, {"stress.K0=0.5"}).stress.K0 == 0.5);
     CHECK(read(good, {"title=a = b # c"}).title == "a = b # c");
     CHECK(read(good, {"title=Stüble"}).title == "Stüble");
+    CHECK(read(good, {"title=\"Stüble\" (süd)"}).title == "\"Stüble\" (süd)");
     CHECK(read(good, {"joint_set[0].dip=60 deg"}).joint_sets.at(0).dip == degrees(60));
     CHECK(read(good, {"joint_set[1].dip=60 deg", "joint_set[1].dip_direction=W",
                       "joint_set[1].spacing=2 m"})
@@ -850,7 +871,8 @@ TEST_SUITE("program/input") {
     };
     for (std::size_t i = 0; i < good.size(); ++i) {
       attempt(good.substr(0, i));
-      for (const char c : {'"', '[', '=', '.', '9', '-', ' ', '\xc3', '\x01'}) {
+      for (const char c :
+           {'"', '\'', '\\', '[', ']', '{', '=', '.', '#', '9', '-', ' ', '\n', '\xc3', '\x01'}) {
         std::string text = good;
         text[i] = c;
         attempt(text);

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "analysis.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <mutex>
+#include <numbers>
+
+namespace voussoir::program {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string number(double value, const char* format = "%.3g") {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
+  Acceptance acceptance;
+  acceptance.error_estimate = input.run.tolerance;
+  acceptance.displacement_limit = input.run.displacement_limit;
+  // A quarter of the opening's own area: more than any spalling, less than any cave.
+  acceptance.collapse_measure = 0.25 * opening.area();
+  return acceptance;
+}
+
+/// The rock of an input, excavated but not yet moved.
+struct Excavated {
+  Tunnel tunnel;
+  SimplePolygon opening;
+  double in_situ_unbalance;
+};
+
+Excavated excavate(const Input& input) {
+  const SimplePolygon opening = opening_of(input);
+  const CoulombJoint joint({.joint_normal_stiffness = input.joint.normal_stiffness,
+                            .joint_shear_stiffness = input.joint.shear_stiffness,
+                            .friction_angle = input.joint.friction_angle});
+  Tunnel tunnel(rock_of(input), joint,
+                {.density = input.rock.density,
+                 .k0 = input.stress.K0,
+                 .surcharge = input.stress.surcharge,
+                 .gravity = input.model.gravity});
+  Eigen::VectorXd f;
+  tunnel.system().forces(tunnel.system().displacement, f);
+  const double unbalance = tunnel.system().unbalance_over_weight(f);
+  tunnel.excavate(opening, input.blocks.min_wall_area);
+  return {std::move(tunnel), opening, unbalance};
+}
+
+std::vector<Segment> install_bolts(Tunnel& tunnel, const Input& input, const BoltSpacing& spacing,
+                                   const SimplePolygon& opening) {
+  const BoltsInput& bolts = *input.bolts;
+  const auto bars = bolt_bars({.length = bolts.length,
+                               .angular_spacing = spacing.is_angle ? spacing.value : 0.0,
+                               .wall_spacing = spacing.is_angle ? 0.0 : spacing.value,
+                               .from = bolts.arc.from,
+                               .to = bolts.arc.to},
+                              opening);
+  const AxialShearBolt law = bolt_of(bolts);
+  const ChosenAnchors anchors = anchors_of(bolts);
+  for (const Segment& bar : bars) tunnel.install_bolt(bar, law, bolts.out_of_plane, anchors);
+  return bars;
+}
+
+void install_lining(Tunnel& tunnel, const Input& input, double thickness) {
+  const LiningInput& lining = *input.lining;
+  LiningRing ring{.nodes = lining.nodes};
+  if (lining.arc) {
+    ring.from = lining.arc->from;
+    ring.to = lining.arc->to;
+  }
+  tunnel.install_lining(lining_frame(tunnel.mass(), ring), section_of(lining, thickness),
+                        CoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
+                                      .joint_shear_stiffness = lining.interface_shear_stiffness,
+                                      .friction_angle = lining.interface_friction_angle}));
+}
+
+/// Builds in stages. `spacing` none: no bolts; `thickness` 0: no lining.
+std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimplePolygon& opening,
+                               const std::optional<BoltSpacing>& spacing, double thickness,
+                               const Report& report, std::vector<Segment>& bars) {
+  std::vector<StageResult> results;
+  for (const StageInput& stage : input.stages) {
+    if (stage.install_bolts && spacing) bars = install_bolts(tunnel, input, *spacing, opening);
+    if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
+    const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
+    StageResult result{stage.name, stage.wall_traction, {}, {}};
+    result.report = tunnel.equilibrium(stage.wall_traction, method_of(input),
+                                       acceptance_of(input, opening), progress);
+    result.convergence = convergence(tunnel);
+    results.push_back(result);
+    if (result.report.verdict != Verdict::stable) break;
+  }
+  return results;
+}
+
+std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
+  const RockMass<Planar>& mass = run.tunnel.mass();
+  if (mass.slicing.coincident > 0)
+    warn(std::to_string(mass.slicing.coincident) +
+         " times a joint only touched a block or ran along an existing joint: merged, no cut made");
+  if (mass.carving.dropped_pieces > 0)
+    warn(std::to_string(mass.carving.dropped_pieces) + " pieces at the wall below " +
+         number(input.blocks.min_wall_area) + " m2 were dropped, " +
+         number(mass.carving.dropped_measure) + " m2 in all");
+  const double needed = run.tunnel.in_situ().required_friction_angle();
+  if (needed > input.joint.friction_angle)
+    warn("in situ: with K0 = " + number(input.stress.K0) + " some joint orientations need " +
+         number(needed * 180 / std::numbers::pi) + " deg of friction; joints that cannot carry the " +
+         "in-situ shear slip at the first equilibrium");
+  if (input.run.displacement_limit > 0 && run.last().largest_displacement > 0.02)
+    warn("blocks moved up to " + number(1e3 * run.last().largest_displacement) +
+         " mm; contacts are those of the initial position, which is good to about 20 mm");
+  std::vector<char> holds(run.bars.size(), 0);
+  for (const CrossingForce& c : bolt_forces(run.tunnel)) holds[static_cast<std::size_t>(c.bolt)] = 1;
+  int idle = 0;
+  for (const char h : holds) idle += h == 0;
+  if (idle > 0)
+    warn(std::to_string(idle) + " of " + std::to_string(holds.size()) +
+         " bolts cross no joint and hold nothing");
+  if (input.lining && run.tunnel.first_lining_node() >= 0) {
+    const double node_spacing = run.opening.perimeter() / input.lining->nodes;
+    const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
+                                                2 * input.tunnel.half_width());
+    if (node_spacing > joint_spacing)
+      warn("lining nodes are " + number(node_spacing) + " m apart, joints " + number(joint_spacing) +
+           " m: take more nodes");
+  }
+  return warnings;
+}
+
+}  // namespace
+
+double RunResult::fallen_measure() const {
+  double sum = 0;
+  for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
+  return sum;
+}
+
+SimplePolygon opening_of(const Input& input) {
+  const TunnelInput& t = input.tunnel;
+  switch (t.shape) {
+    case TunnelShape::circle: return circular_opening(t.diameter, t.facets);
+    case TunnelShape::horseshoe: return horseshoe_opening(t.width, t.wall_height, t.facets);
+    case TunnelShape::polygon: {
+      std::vector<Vec2> vertices;
+      for (const Point& p : t.vertices) vertices.emplace_back(p[0], p[1]);
+      return SimplePolygon(std::move(vertices));
+    }
+  }
+  throw std::logic_error("unknown tunnel shape");
+}
+
+RockMass<Planar> rock_of(const Input& input) {
+  Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
+                                   input.model.below_invert);
+  domain.site_origin = Vec2(input.model.origin[0], input.model.origin[1]);
+  std::vector<JointSet> sets;
+  for (const JointSetInput& s : input.joint_sets)
+    sets.push_back({s.name, s.dip,
+                    s.dip_direction == DipDirection::east ? voussoir::DipDirection::east
+                                                          : voussoir::DipDirection::west,
+                    s.sd, s.intensity.value_or(0.0), s.spacing.value_or(0.0), s.extent});
+  std::vector<Joint> joints;
+  if (!input.joints_file.empty()) {
+    // Mapped joints come first: what was seen takes precedence over what was drawn at random.
+    std::ifstream file(input.joints_file, std::ios::binary);
+    if (!file)
+      throw InvalidInput("joints.file: cannot open " + input.joints_file.string());
+    joints = read_traces(file, input.joints_file.string(), domain.site_origin);
+  }
+  const auto random = joint_network(sets, domain, input.model.seed);
+  joints.insert(joints.end(), random.begin(), random.end());
+  return slice(domain, joints, {input.blocks.min_inscribed_radius, input.blocks.max_elongation});
+}
+
+RunResult run_tunnel(const Input& input, const Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  report("blocks", -1.0);
+  Excavated excavated = excavate(input);
+  RunResult run{std::move(excavated.tunnel), excavated.opening, {}, {}, 0, {}, 0, 0};
+  run.in_situ_unbalance = excavated.in_situ_unbalance;
+  run.generation_seconds = seconds_since(start);
+  const auto search = std::chrono::steady_clock::now();
+  const std::optional<BoltSpacing> spacing =
+      input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
+  run.stages = build(run.tunnel, input, run.opening, spacing,
+                     input.lining ? input.lining->thickness : 0.0, report, run.bars);
+  run.equilibrium_seconds = seconds_since(search);
+  run.warnings = warnings_of(input, run);
+  return run;
+}
+
+DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  report("blocks", -1.0);
+  const Excavated excavated = excavate(input);
+  const DiagramInput& axes = *input.diagram;
+  const std::size_t count = axes.spacing.size() * axes.thickness.size();
+  std::atomic<bool> go_on{true};
+  std::mutex guard;
+  const Report quiet = [&](const std::string&, double) { return go_on.load(); };
+  const auto done = [&](std::size_t finished) {
+    const std::scoped_lock lock(guard);
+    if (!report("diagram", static_cast<double>(finished) / static_cast<double>(count)))
+      go_on = false;
+  };
+  const auto tunnel_at = [&](std::size_t i, std::size_t j) {
+    DiagramPoint point{};
+    if (!go_on) return point;
+    Tunnel tunnel = excavated.tunnel;
+    std::vector<Segment> bars;
+    const auto stages = build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j],
+                              quiet, bars);
+    point.report = stages.back().report;
+    for (std::size_t k = 0; k + 1 < stages.size(); ++k)
+      point.report.fallen_measure += stages[k].report.fallen_measure;
+    point.crown_convergence = stages.back().convergence.crown;
+    const std::vector<double> forces = largest_bolt_forces(tunnel);
+    for (const double force : forces) {
+      point.largest_bolt_force = std::max(point.largest_bolt_force, force);
+      point.mean_bolt_force += force / static_cast<double>(forces.size());
+    }
+    for (const LiningForce& at : lining_forces(tunnel)) {
+      point.largest_thrust = std::max(point.largest_thrust, at.thrust);
+      point.largest_moment = std::max(point.largest_moment, std::abs(at.moment));
+    }
+    return point;
+  };
+  DiagramResult result;
+  result.blocks = excavated.tunnel.mass().bodies.size();
+  result.points =
+      interaction_diagram(axes.spacing.size(), axes.thickness.size(), threads, tunnel_at, done);
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "input.hpp"
+#include "models.hpp"
+
+/// From a checked input to results: the analyses behind the verbs of the program.
+namespace voussoir::program {
+
+/// A stage and what came of it.
+struct StageResult {
+  std::string name;
+  double wall_traction;  ///< part of the in-situ traction left at its end [-]
+  EquilibriumReport report;
+  Convergence convergence;  ///< at its end [m]
+};
+
+/// A finished run.
+struct RunResult {
+  Tunnel tunnel;
+  SimplePolygon opening;
+  std::vector<Segment> bars;  ///< of the bolts
+  std::vector<StageResult> stages;
+  double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
+  std::vector<std::string> warnings;
+  double generation_seconds = 0, equilibrium_seconds = 0;
+
+  [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
+  /// That of the last stage; a stage that does not end stable ends the run.
+  [[nodiscard]] Verdict verdict() const { return last().verdict; }
+  [[nodiscard]] double fallen_measure() const;  ///< over all stages [m^2]
+};
+
+/// A finished interaction diagram.
+struct DiagramResult {
+  std::vector<DiagramPoint> points;  ///< spacing by spacing, thickness running faster
+  std::size_t blocks = 0;
+  double seconds = 0;
+};
+
+/// What is being done and how far it is, 0 to 1, or a negative number where that is unknown.
+/// Returns false to stop.
+using Report = std::function<bool(const std::string& what, double fraction)>;
+
+[[nodiscard]] SimplePolygon opening_of(const Input& input);
+
+/// Slices the rock of an input: random sets and mapped traces, together.
+/// @throws InvalidInput  the file of traces cannot be read
+[[nodiscard]] RockMass<Planar> rock_of(const Input& input);
+
+/// @throws InvalidInput, NumericalFault
+[[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
+
+/// @pre    input.diagram
+/// @throws InvalidInput, NumericalFault
+[[nodiscard]] DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report);
+
+}  // namespace voussoir::program

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "models.hpp"
+
+#include <limits>
+
+namespace voussoir::program {
+
+ChosenAnchors anchors_of(const BoltsInput& bolts) {
+  switch (bolts.anchors) {
+    case BoltAnchors::lorig: return ChosenAnchors(LorigAnchors{bolts.anchor_offset});
+    case BoltAnchors::garga_wang: return ChosenAnchors(GargaWangAnchors{});
+    case BoltAnchors::joint_face: return ChosenAnchors(JointFaceAnchors{});
+  }
+  throw std::logic_error("unknown bolt anchors");
+}
+
+AxialShearBolt bolt_of(const BoltsInput& bolts) {
+  AxialBolt::Params axial{.axial_stiffness = bolts.stiffness, .pretension = bolts.pretension};
+  if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
+  if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;
+  const double shear = bolts.law == BoltLaw::axial_shear ? bolts.shear_stiffness : 0.0;
+  return AxialShearBolt({.axial = axial, .shear_stiffness = shear});
+}
+
+LiningSection section_of(const LiningInput& lining, double thickness) {
+  LiningSection section =
+      LiningSection::rectangular(thickness, lining.young_modulus, lining.poisson_ratio);
+  if (lining.beam == LiningBeam::euler_bernoulli)
+    section.shear_stiffness = std::numeric_limits<double>::infinity();
+  return section;
+}
+
+ChosenMethod method_of(const Input& input) {
+  const RunInput& run = input.run;
+  switch (run.method) {
+    case RunMethod::two_level: {
+      TwoLevel::Params params;
+      if (run.max_steps) params.fallback.max_steps = static_cast<int>(*run.max_steps);
+      return ChosenMethod(TwoLevel(params));
+    }
+    case RunMethod::relaxation: {
+      Relaxation::Params params;
+      if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
+      return ChosenMethod(Relaxation(params));
+    }
+    case RunMethod::explicit_: {
+      Explicit::Params params;
+      params.damping = run.damping;
+      params.ramp_steps = run.ramp_steps;
+      params.gravity = input.model.gravity;
+      if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
+      return ChosenMethod(Explicit(params));
+    }
+  }
+  throw std::logic_error("unknown equilibrium method");
+}
+
+std::string composition_of(const Input& input) {
+  std::string text = std::string(Planar::name) + ", " + CutContacts::name + ", " + CoulombJoint::name;
+  if (input.bolts) {
+    switch (input.bolts->anchors) {
+      case BoltAnchors::lorig: text.append(", ").append(LorigAnchors::name); break;
+      case BoltAnchors::garga_wang: text.append(", ").append(GargaWangAnchors::name); break;
+      case BoltAnchors::joint_face: text.append(", ").append(JointFaceAnchors::name); break;
+    }
+    text.append(", ").append(input.bolts->law == BoltLaw::axial ? AxialBolt::name
+                                                                : AxialShearBolt::name);
+  }
+  if (input.lining)
+    text.append(", ").append(input.lining->beam == LiningBeam::euler_bernoulli
+                                 ? EulerBernoulliBeam::name
+                                 : TimoshenkoBeam::name);
+  switch (input.run.method) {
+    case RunMethod::two_level: return text + ", " + TwoLevel::name;
+    case RunMethod::relaxation: return text + ", " + Relaxation::name;
+    case RunMethod::explicit_: return text + ", " + Explicit::name;
+  }
+  return text;
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <voussoir/voussoir.hpp>
+
+#include "input.hpp"
+
+/// The physics of the program: what an input file may choose, as policies.
+///
+/// A program that knows its physics composes exactly that (see examples/minimal.cpp). This one
+/// learns it from a file, so the choices are made at run time inside policies of our own, and one
+/// solver type serves every input: `AxialShearBolt` without shear stiffness is the axial bolt, and
+/// `TimoshenkoBeam` with infinite shear stiffness is the Euler-Bernoulli beam.
+namespace voussoir::program {
+
+/// Any of the anchor placements.
+class ChosenAnchors {
+ public:
+  using role = roles::BoltAnchors;
+  static constexpr const char* name = "ChosenAnchors";
+  ChosenAnchors() = default;
+  template <class Anchors>
+  explicit ChosenAnchors(Anchors anchors) : anchors_(std::move(anchors)) {}
+  [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
+    return std::visit([&](const auto& anchors) { return anchors.distances(crossing); }, anchors_);
+  }
+
+ private:
+  std::variant<LorigAnchors, GargaWangAnchors, JointFaceAnchors> anchors_;
+};
+
+/// Any of the equilibrium methods.
+class ChosenMethod {
+ public:
+  using role = roles::Equilibrium;
+  static constexpr const char* name = "ChosenMethod";
+  ChosenMethod() = default;
+  template <class Method>
+  explicit ChosenMethod(Method method) : method_(std::move(method)) {}
+  template <class System>
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
+    return std::visit([&](const auto& method) { return method.find(system, context); }, method_);
+  }
+
+ private:
+  std::variant<TwoLevel, Relaxation, Explicit> method_;
+};
+
+using Tunnel =
+    Solver<Planar, CoulombJoint, ChosenAnchors, AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
+
+[[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
+[[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
+[[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
+[[nodiscard]] ChosenMethod method_of(const Input& input);
+
+/// What the file has chosen, by the names of the models.
+[[nodiscard]] std::string composition_of(const Input& input);
+
+}  // namespace voussoir::program

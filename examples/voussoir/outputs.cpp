@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include "outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <voussoir/core/version.hpp>
+#include <voussoir/io/blocks_picture.hpp>
+#include <voussoir/io/csv_table.hpp>
+#include <voussoir/io/interaction_picture.hpp>
+
+namespace voussoir::program {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+/// A joint counts as slipped from here on: one hundredth of a millimetre.
+constexpr double visible_slip = 1e-5;
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+double angle_of(const Vec2& p) {
+  const double angle = std::atan2(p.y(), p.x()) / degree;
+  return angle < -1e-9 ? angle + 360 : std::max(angle, 0.0);
+}
+
+double opening_diameter(const RunResult& run) {
+  double low = 0, high = 0;
+  for (const Vec2& v : run.opening.vertices()) {
+    low = std::min(low, v.x());
+    high = std::max(high, v.x());
+  }
+  return high - low;
+}
+
+struct Extremes {
+  double largest_bolt_force = 0, mean_bolt_force = 0;
+  double largest_thrust = 0, largest_moment = 0, mean_thrust = 0;
+};
+
+Extremes extremes_of(const RunResult& run) {
+  Extremes e;
+  const std::vector<double> bolts = largest_bolt_forces(run.tunnel);
+  for (const double f : bolts) {
+    e.largest_bolt_force = std::max(e.largest_bolt_force, f);
+    e.mean_bolt_force += f / static_cast<double>(bolts.size());
+  }
+  const auto lining = lining_forces(run.tunnel);
+  for (const LiningForce& at : lining) {
+    e.largest_thrust = std::max(e.largest_thrust, at.thrust);
+    e.largest_moment = std::max(e.largest_moment, std::abs(at.moment));
+    e.mean_thrust += at.thrust / static_cast<double>(lining.size());
+  }
+  return e;
+}
+
+nlohmann::json report_json(const EquilibriumReport& report) {
+  return {{"verdict", to_string(report.verdict)},
+          {"reason", report.reason},
+          {"error_estimate", report.error_estimate},
+          {"unbalance_over_weight", report.unbalance_over_weight},
+          {"largest_displacement_mm", 1e3 * report.largest_displacement},
+          {"relaxation_steps", report.steps},
+          {"elastic_solves", report.elastic_solves},
+          {"factorisations", report.factorisations},
+          {"fallen_bodies", report.fallen.size()},
+          {"fallen_area_m2", report.fallen_measure},
+          {"broken_bolt_springs", report.broken_bolts}};
+}
+
+nlohmann::json convergence_json(const Convergence& c) {
+  return {{"crown_mm", 1e3 * c.crown},
+          {"right_springing_mm", 1e3 * c.right_springing},
+          {"left_springing_mm", 1e3 * c.left_springing},
+          {"invert_mm", 1e3 * c.invert}};
+}
+
+std::string verdict_sentence(const RunResult& run) {
+  const EquilibriumReport& last = run.last();
+  std::string sentence = std::string("Verdict: ") + to_string(last.verdict);
+  if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
+    sentence += ", after " + text("%.2f", run.fallen_measure()) + " m² of rock fell";
+  if (last.verdict == Verdict::stable) {
+    sentence += ". Displacements are in error by at most about " +
+                text("%.2g", 100 * last.error_estimate) + " %; the worst block is out of balance by " +
+                text("%.2g", 100 * last.unbalance_over_weight) + " % of its weight.";
+  } else {
+    sentence += ": " + last.reason + ".";
+  }
+  return sentence;
+}
+
+}  // namespace
+
+std::string run_json(const Input& input, const RunResult& run) {
+  const Extremes e = extremes_of(run);
+  const RockMass<Planar>& mass = run.tunnel.mass();
+  const BlockSizes sizes = block_sizes(mass);
+  const double diameter = opening_diameter(run);
+  const double centre_stress = run.tunnel.in_situ().vertical(mass.domain.depth(Vec2::Zero()));
+  nlohmann::json stages = nlohmann::json::array();
+  for (const StageResult& stage : run.stages)
+    stages.push_back({{"name", stage.name},
+                      {"wall_traction", stage.wall_traction},
+                      {"equilibrium", report_json(stage.report)},
+                      {"convergence", convergence_json(stage.convergence)}});
+  nlohmann::json json = {
+      {"schema", 1},
+      {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
+      {"title", input.title},
+      {"models", composition_of(input)},
+      {"seed", input.model.seed},
+      {"verdict", to_string(run.verdict())},
+      {"error_estimate", run.last().error_estimate},
+      {"fallen_area_m2", run.fallen_measure()},
+      {"convergence", convergence_json(run.stages.back().convergence)},
+      {"stages", stages},
+      {"rock",
+       {{"joints", mass.slicing.joints},
+        {"bodies", sizes.count},
+        {"contacts", run.tunnel.system().joints.contacts().size()},
+        {"mean_block_area_m2", sizes.mean},
+        {"median_block_area_m2", sizes.median},
+        {"smallest_block_area_m2", sizes.smallest},
+        {"largest_block_area_m2", sizes.largest},
+        {"joint_spacing_m", radial_spacing(mass, Vec2::Zero(), 0.5 * diameter, diameter)},
+        {"cuts_refused_too_small", mass.slicing.refused_too_small},
+        {"cuts_refused_too_long", mass.slicing.refused_too_long},
+        {"joints_that_cut_nothing", mass.slicing.unused_joints},
+        {"cuts_merged_with_existing_joints", mass.slicing.coincident},
+        {"pieces_dropped_at_wall", mass.carving.dropped_pieces},
+        {"area_dropped_at_wall_m2", mass.carving.dropped_measure},
+        {"blocks_separated_by_the_opening", mass.carving.separated_bodies},
+        {"vertical_stress_at_centre_kPa", 1e-3 * centre_stress},
+        {"in_situ_unbalance_over_weight", run.in_situ_unbalance}}},
+      {"warnings", run.warnings},
+      {"time_s", {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (run.tunnel.bolt_count() > 0)
+    json["bolts"] = {{"count", run.tunnel.bolt_count()},
+                     {"largest_force_kN", 1e-3 * e.largest_bolt_force},
+                     {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
+                     {"mean_over_p0_D_and_spacing",
+                      e.mean_bolt_force / (centre_stress * diameter * input.bolts->out_of_plane)}};
+  if (run.tunnel.first_lining_node() >= 0)
+    json["lining"] = {{"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
+                      {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
+                      {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
+  return json.dump(2) + "\n";
+}
+
+std::string bolts_csv(const RunResult& run) {
+  CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
+                  "axial_force_kN", "extension_mm", "state"},
+                 8);
+  std::vector<int> crossing(run.bars.size(), 0);
+  for (const CrossingForce& c : bolt_forces(run.tunnel)) {
+    const auto k = static_cast<std::size_t>(c.bolt);
+    const Segment& bar = run.bars[k];
+    const Vec2 p = bar.at(c.position / bar.length());
+    table.add_row(c.bolt + 1, angle_of(bar.end - bar.start), ++crossing[k], c.position, p.x(), p.y(),
+                  1e-3 * c.force, 1e3 * c.extension,
+                  c.ruptured ? "ruptured" : (c.yielded ? "yielded" : "elastic"));
+  }
+  return table.text();
+}
+
+std::string lining_csv(const RunResult& run) {
+  CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
+                  "moment_kNm_per_m", "convergence_mm"},
+                 8);
+  int node = 0;
+  for (const LiningForce& at : lining_forces(run.tunnel))
+    table.add_row(++node, angle_of(at.position), at.position.x(), at.position.y(), 1e-3 * at.thrust,
+                  1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence);
+  return table.text();
+}
+
+std::string blocks_svg(const Input& input, const RunResult& run) {
+  const Tunnel& tunnel = run.tunnel;
+  const auto& system = tunnel.system();
+  BlocksPicture picture;
+  const Convergence c = run.stages.back().convergence;
+  const Extremes e = extremes_of(run);
+  picture.header.title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
+  picture.header.lines = {verdict_sentence(run)};
+  picture.header.key_numbers = {{"crown convergence", text("%.2f mm", 1e3 * c.crown)},
+                                {"blocks", std::to_string(tunnel.mass().bodies.size())}};
+  if (tunnel.bolt_count() > 0)
+    picture.header.key_numbers.push_back(
+        {"largest bolt force", text("%.0f kN", 1e-3 * e.largest_bolt_force)});
+  if (tunnel.first_lining_node() >= 0) {
+    picture.header.key_numbers.push_back(
+        {"largest thrust", text("%.0f kN/m", 1e-3 * e.largest_thrust)});
+    picture.header.key_numbers.push_back(
+        {"largest moment", text("%.1f kN m/m", 1e-3 * e.largest_moment)});
+  }
+  for (std::size_t b = 0; b < tunnel.mass().bodies.size(); ++b) {
+    const int body = static_cast<int>(b);
+    const bool fallen = !system.body(body).movable;
+    const double moved = system.displacement.segment<2>(3 * body).norm();
+    for (const ConvexPolygon& part : tunnel.mass().bodies[b].parts)
+      picture.blocks.push_back({part.vertices(), moved, fallen});
+  }
+  struct Seen {
+    bool open = true, slipped = false;
+    double half_length = 0;
+  };
+  std::vector<Seen> seen(system.joints.contacts().size());
+  const auto* first = system.joints.contacts().data();
+  system.joints.visit(system.displacement.data(),
+                      [&](const auto& contact, const auto& point, const auto&, const auto& force) {
+                        Seen& s = seen[static_cast<std::size_t>(&contact - first)];
+                        s.open = s.open && !(force.normal > 0);
+                        s.slipped = s.slipped || point.state.plastic_slip.norm() > visible_slip;
+                        s.half_length = std::max(s.half_length, std::sqrt(3.0) * point.offset.norm());
+                      });
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if (!seen[k].open && !seen[k].slipped) continue;
+    const auto& contact = system.joints.contacts()[k];
+    const Vec2 centre = system.body(contact.a).centre + contact.arm_a;
+    const Vec2 half = seen[k].half_length * perpendicular(contact.normal);
+    picture.joints.push_back({centre - half, centre + half,
+                              seen[k].open ? PictureJoint::State::opened
+                                           : PictureJoint::State::slipped});
+  }
+  picture.outline = run.opening.vertices();
+  picture.ground_surface = tunnel.mass().domain.surface();
+  for (const Segment& bar : run.bars) picture.bolts.push_back({bar.start, bar.end, {}});
+  for (const CrossingForce& at : bolt_forces(tunnel)) {
+    PictureBolt& bolt = picture.bolts[static_cast<std::size_t>(at.bolt)];
+    const Segment bar{bolt.head, bolt.tip};
+    bolt.crossings.push_back({bar.at(at.position / bar.length()), at.force,
+                              at.ruptured ? PictureCrossing::State::ruptured
+                                          : (at.yielded ? PictureCrossing::State::yielded
+                                                        : PictureCrossing::State::elastic)});
+  }
+  const auto lining = lining_forces(tunnel);
+  if (!lining.empty()) {
+    PictureLining drawn;
+    drawn.thickness = input.lining->thickness;
+    drawn.is_ring = system.frames.size() == lining.size();
+    for (std::size_t k = 0; k < lining.size(); ++k) {
+      // Across the line through the neighbours: right for corners as for circles.
+      const std::size_t n = lining.size();
+      const Vec2& before = lining[drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)].position;
+      const Vec2& after = lining[drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)].position;
+      drawn.nodes.push_back({lining[k].position, -perpendicular(after - before).normalized(),
+                             lining[k].thrust, lining[k].moment});
+    }
+    picture.lining = drawn;
+  }
+  return draw_blocks_picture(picture);
+}
+
+namespace {
+
+std::string spacing_label(const std::optional<BoltSpacing>& spacing) {
+  if (!spacing) return "no bolts";
+  return spacing->is_angle ? text("%g°", spacing->value / degree) : text("%g m", spacing->value);
+}
+
+}  // namespace
+
+std::string interaction_csv(const Input& input, const DiagramResult& diagram) {
+  const DiagramInput& axes = *input.diagram;
+  const bool angular = axes.spacing.front() && axes.spacing.front()->is_angle;
+  CsvTable table({angular ? "bolt_spacing_deg" : "bolt_spacing_m", "lining_thickness_cm", "verdict",
+                  "failed", "crown_convergence_mm", "crown_convergence_percent_of_radius",
+                  "fallen_area_m2", "largest_bolt_force_kN", "mean_bolt_force_kN",
+                  "largest_thrust_kN_per_m", "largest_moment_kNm_per_m", "error_estimate",
+                  "unbalance_over_weight"},
+                 6);
+  const double radius = input.tunnel.half_width();
+  for (const DiagramPoint& p : diagram.points) {
+    const auto& spacing = axes.spacing[p.spacing];
+    const std::string label =
+        spacing ? text("%g", spacing->value / (spacing->is_angle ? degree : 1.0)) : "none";
+    table.add_row(label, 1e2 * axes.thickness[p.thickness], to_string(p.report.verdict), p.failed(),
+                  1e3 * p.crown_convergence, 1e2 * p.crown_convergence / radius,
+                  p.report.fallen_measure, 1e-3 * p.largest_bolt_force, 1e-3 * p.mean_bolt_force,
+                  1e-3 * p.largest_thrust, 1e-3 * p.largest_moment, p.report.error_estimate,
+                  p.report.unbalance_over_weight);
+  }
+  return table.text();
+}
+
+std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
+  const DiagramInput& axes = *input.diagram;
+  InteractionPicture picture;
+  double worst = 0;
+  std::size_t failed = 0;
+  const auto columns = static_cast<Eigen::Index>(axes.thickness.size());
+  const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
+  picture.convergence.resize(columns, rows);
+  picture.failed.resize(columns, rows);
+  for (const DiagramPoint& p : diagram.points) {
+    const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
+    // Where rock fell but a crown remains, its convergence still belongs to the surface; a
+    // collapse has none.
+    const bool standing = p.report.verdict == Verdict::stable;
+    picture.convergence(i, j) =
+        standing ? p.crown_convergence : std::numeric_limits<double>::quiet_NaN();
+    picture.failed(i, j) = p.failed();
+    failed += p.failed();
+    if (standing) worst = std::max(worst, p.report.error_estimate);
+  }
+  picture.header.title =
+      "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
+  picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
+                          std::to_string(diagram.points.size()) + " tunnels in " +
+                          std::to_string(diagram.blocks) + " blocks (seed " +
+                          std::to_string(input.model.seed) + "). Displacement error at most about " +
+                          text("%.2g", 100 * worst) + " %. Red circles: rock falls."};
+  picture.header.key_numbers = {
+      {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
+      {"tunnels that lose rock", std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
+  picture.diameter = 2 * input.tunnel.half_width();
+  picture.thicknesses = axes.thickness;
+  for (const auto& spacing : axes.spacing)
+    picture.spacings.push_back(
+        {spacing_label(spacing), spacing ? std::optional(spacing->value) : std::nullopt});
+  picture.spacing_axis = "bolt spacing";
+  return draw_interaction_picture(picture);
+}
+
+std::string run_summary(const Input& input, const RunResult& run) {
+  const Extremes e = extremes_of(run);
+  const Convergence c = run.stages.back().convergence;
+  const EquilibriumReport& last = run.last();
+  std::string out = "models   " + composition_of(input) + "\n";
+  out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
+         std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
+         std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
+  for (const StageResult& stage : run.stages)
+    out += "stage    " + stage.name + text(": %g %% of the wall traction left; ", 100 * stage.wall_traction) +
+           to_string(stage.report.verdict) + text(", crown %.2f mm\n", 1e3 * stage.convergence.crown);
+  out += std::string("verdict  ") + to_string(last.verdict) + ": " + last.reason + "\n";
+  out += "         error estimate " + text("%.1e", last.error_estimate) + ", worst unbalance " +
+         text("%.1e", last.unbalance_over_weight) + " of a block's weight, " +
+         text("%.2f s\n", run.equilibrium_seconds);
+  if (run.fallen_measure() > 0)
+    out += "fallen   " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
+  out += "wall     crown " + text("%.2f", 1e3 * c.crown) + " mm, springings " +
+         text("%.2f", 1e3 * c.right_springing) + " and " + text("%.2f", 1e3 * c.left_springing) +
+         " mm, invert " + text("%.2f mm\n", 1e3 * c.invert);
+  if (run.tunnel.bolt_count() > 0)
+    out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
+           text("%.0f kN", 1e-3 * e.largest_bolt_force) +
+           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
+  if (run.tunnel.first_lining_node() >= 0)
+    out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
+           text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
+           text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);
+  for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";
+  return out;
+}
+
+std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
+  const DiagramInput& axes = *input.diagram;
+  std::string out = "crown convergence [mm] of " + std::to_string(diagram.points.size()) +
+                    " tunnels in " + std::to_string(diagram.blocks) + " blocks" +
+                    text(", computed in %.1f s; R: rock falls, C: collapse, ?: undecided\n\n",
+                         diagram.seconds);
+  out += "spacing \\ lining";
+  for (const double t : axes.thickness) out += text("%9.3g cm", 1e2 * t);
+  out += "\n";
+  for (std::size_t i = 0; i < axes.spacing.size(); ++i) {
+    std::string label = spacing_label(axes.spacing[i]);
+    if (axes.spacing[i] && axes.spacing[i]->is_angle)
+      label = text("%g deg", axes.spacing[i]->value / degree);
+    label.resize(16, ' ');
+    out += label;
+    for (std::size_t j = 0; j < axes.thickness.size(); ++j) {
+      const DiagramPoint& p = diagram.points[i * axes.thickness.size() + j];
+      const char* mark = p.report.verdict == Verdict::collapsing  ? " C"
+                         : p.report.verdict == Verdict::undecided ? " ?"
+                         : p.failed()                             ? " R"
+                                                                  : "  ";
+      out += text("%10.2f", 1e3 * p.crown_convergence) + mark;
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace voussoir::program

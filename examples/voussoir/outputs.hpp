@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+#include <voussoir/io/atomic_file.hpp>
+
+#include "analysis.hpp"
+
+/// What the program writes: tables, JSON and pictures, units in every name.
+namespace voussoir::program {
+
+/// Everything about a run that is a number or a sentence (schema 1).
+[[nodiscard]] std::string run_json(const Input& input, const RunResult& run);
+/// One row per bolt and joint crossed.
+[[nodiscard]] std::string bolts_csv(const RunResult& run);
+/// One row per lining node.
+[[nodiscard]] std::string lining_csv(const RunResult& run);
+/// The rock around the tunnel with its supports.
+[[nodiscard]] std::string blocks_svg(const Input& input, const RunResult& run);
+
+/// One row per tunnel of the diagram.
+[[nodiscard]] std::string interaction_csv(const Input& input, const DiagramResult& diagram);
+[[nodiscard]] std::string interaction_svg(const Input& input, const DiagramResult& diagram);
+
+/// The results in a few lines for a terminal.
+[[nodiscard]] std::string run_summary(const Input& input, const RunResult& run);
+[[nodiscard]] std::string diagram_summary(const Input& input, const DiagramResult& diagram);
+
+}  // namespace voussoir::program

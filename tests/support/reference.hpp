@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Values that were derived away from this code: tests/data/reference-values.csv.
+namespace voussoir_test {
+
+/// The fields of one line of comma-separated text; a field in double quotes may hold commas.
+[[nodiscard]] inline std::vector<std::string> csv_fields(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+/// The value of a row of the table, in the unit given there; 12 significant digits.
+/// @throws std::runtime_error  no such row, or the table cannot be read: a test must not pass then
+[[nodiscard]] inline double reference(const std::string& id) {
+  static const std::map<std::string, double> values = [] {
+    const std::string path = std::string(VOUSSOIR_TEST_DATA) + "/reference-values.csv";
+    std::ifstream file(path);
+    std::map<std::string, double> table;
+    std::string line;
+    std::getline(file, line);  // the header
+    constexpr std::size_t value_column = 3;
+    while (std::getline(file, line)) {
+      const auto fields = csv_fields(line);
+      if (fields.size() <= value_column) throw std::runtime_error(path + ": short line " + line);
+      char* end = nullptr;
+      const double value = std::strtod(fields[value_column].c_str(), &end);
+      if (end == fields[value_column].c_str() || *end != '\0') continue;  // a row that holds text
+      if (!table.emplace(fields[0], value).second)
+        throw std::runtime_error(path + ": id given twice: " + fields[0]);
+    }
+    if (table.empty()) throw std::runtime_error(path + ": cannot be read");
+    return table;
+  }();
+  const auto found = values.find(id);
+  if (found == values.end()) throw std::runtime_error("no reference value with id " + id);
+  return found->second;
+}
+
+}  // namespace voussoir_test
