@@ -57,7 +57,7 @@ struct PictureLining {
 /// All that `draw_blocks_picture` shows.
 struct BlocksPicture {
   PictureHeader header;  ///< title, verdict in words, key numbers
-  std::vector<PictureBlock> blocks;
+  std::vector<PictureBlock> blocks;  ///< or convex parts of blocks
   std::vector<PictureJoint> joints;
   std::vector<Vec2> outline;             ///< of the opening, closed, first point not repeated [m]
   std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
@@ -67,8 +67,8 @@ struct BlocksPicture {
   std::optional<ViewRect> view;
 };
 
-/// All blocks, the opening and the ground surface.
-[[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
+/// All blocks, the opening and the ground surface, without a margin.
+[[nodiscard]] inline ViewRect extent_of_everything(const BlocksPicture& picture) {
   std::vector<Vec2> points = picture.outline;
   for (const PictureBlock& block : picture.blocks) {
     if (block.is_fallen) continue;  // may be anywhere
@@ -86,6 +86,12 @@ struct BlocksPicture {
   if (picture.ground_surface && !points.empty()) {
     rect.high.y() = std::max(rect.high.y(), *picture.ground_surface);
   }
+  return rect;
+}
+
+/// The same with a margin, to be drawn.
+[[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
+  const ViewRect rect = extent_of_everything(picture);
   return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
 }
 

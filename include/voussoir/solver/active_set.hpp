@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include <voussoir/solver/block_lu.hpp>
 #include <voussoir/solver/system.hpp>
 
 namespace voussoir {
@@ -23,13 +28,17 @@ class ActiveSet {
   /// @param threshold  a body is active if its unbalance over its weight exceeds this
   /// @param rings      how many generations of neighbours to add
   ActiveSet(System& system, const Eigen::VectorXd& f, double threshold, int rings)
-      : system_(&system), active_(static_cast<std::size_t>(system.body_count()), 0) {
-    const double lightest = system.lightest_weight();
+      : system_(&system), active_(static_cast<std::size_t>(system.body_count()), 0),
+        number_(active_.size(), -1) {
+    lightest_ = system.lightest_weight();
     for (int b = 0; b < system.body_count(); ++b)
-      active_[static_cast<std::size_t>(b)] = system.unbalance_of(f, b, lightest) > threshold;
+      active_[static_cast<std::size_t>(b)] = system.unbalance_of(f, b, lightest_) > threshold;
     for (int ring = 0; ring < rings; ++ring) grow();
     for (int b = 0; b < system.body_count(); ++b)
-      if (active(b) && system.body(b).movable) bodies_.push_back(b);
+      if (active(b) && system.body(b).movable) {
+        number_[static_cast<std::size_t>(b)] = static_cast<int>(bodies_.size());
+        bodies_.push_back(b);
+      }
     collect(system.joints.contacts(), joints_);
     collect(system.boundary.contacts(), boundary_);
     collect(system.interface.contacts(), interface_);
@@ -41,21 +50,114 @@ class ActiveSet {
 
   [[nodiscard]] const std::vector<int>& bodies() const { return bodies_; }
 
-  /// Out-of-balance forces on the active bodies at displacement `u`, history frozen; the entries of
-  /// other bodies are left without meaning.
+  /// Out-of-balance forces on the active bodies at displacement `u`; the entries of other bodies are
+  /// left without meaning.
+  template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
     for (const int b : bodies_)
       f.segment<dof>(dof * b) = system_->load.template segment<dof>(dof * b) +
                                 system_->wall_fraction *
                                     system_->wall_load.template segment<dof>(dof * b);
-    system_->joints.add_forces(joints_, u.data(), f.data());
-    system_->boundary.add_forces(boundary_, u.data(), f.data());
-    system_->interface.add_forces(interface_, u.data(), f.data());
+    system_->joints.template add_forces<History>(joints_, u.data(), f.data());
+    system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
+    system_->interface.template add_forces<History>(interface_, u.data(), f.data());
     for (const std::size_t k : bolts_) {
-      const auto& bolt = system_->bolts[k];
-      bolt.add_force(system_->bolt_laws[static_cast<std::size_t>(bolt.law)], u.data(), f.data());
+      auto& bolt = system_->bolts[k];
+      const auto& law = system_->bolt_laws[static_cast<std::size_t>(bolt.law)];
+      bolt.add_force(law, u.data(), f.data());
+      if constexpr (std::is_same_v<History, Committing>) law.commit(bolt.span_at(u.data()), bolt.state);
     }
     for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
+  }
+
+  /// Largest unbalance over weight of an active body.
+  [[nodiscard]] double worst_unbalance(const Eigen::VectorXd& f) const {
+    double worst = 0;
+    for (const int b : bodies_) worst = std::max(worst, system_->unbalance_of(f, b, lightest_));
+    return worst;
+  }
+  /// Sum of the squared unbalances over weight: what the Newton steps bring down.
+  [[nodiscard]] double squared_unbalance(const Eigen::VectorXd& f) const {
+    double sum = 0;
+    for (const int b : bodies_) {
+      const double one = system_->unbalance_of(f, b, lightest_);
+      sum += one * one;
+    }
+    return sum;
+  }
+  /// Largest translation of an active body [m].
+  [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
+    double squared = 0;
+    for (const int b : bodies_)
+      squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
+    return std::sqrt(squared);
+  }
+
+  /// Solves (tangent + anchor) du = f on the active bodies, all others held.
+  ///
+  /// @param reach  every body is anchored by a spring that yields its weight at this displacement
+  ///               of its own [m]: nothing beside a joint's stiffness, but it keeps a block that
+  ///               nothing else holds from going to infinity in one step
+  /// @return  the step, in the order of `bodies`; may be not finite where the tangent is singular
+  [[nodiscard]] Eigen::VectorXd newton_step(const Eigen::VectorXd& u, const Eigen::VectorXd& f,
+                                            const Eigen::VectorXd& reach) const {
+    using Block = typename TangentMatrix<dof>::Block;
+    struct Coupling {
+      int i, j;
+      Block forward, backward;
+    };
+    TangentMatrix<dof> matrix;
+    for (const int b : bodies_) {
+      const auto& body = system_->body(b);
+      const double spring = (body.weight > 0 ? body.weight : lightest_) / reach[b];
+      Block anchor = spring * Block::Identity();
+      anchor.template bottomRightCorner<dof - dim, dof - dim>() *= body.gyration * body.gyration;
+      matrix.diagonal.push_back(anchor);
+    }
+    std::vector<Coupling> couplings;
+    couplings.reserve(joints_.size() + interface_.size());
+    const auto sink = [&](int a, int b, const Block& aa, const Block& ab, const Block& ba,
+                          const Block& bb) {
+      const int i = number_[static_cast<std::size_t>(a)], j = number_[static_cast<std::size_t>(b)];
+      if (i >= 0) matrix.diagonal[static_cast<std::size_t>(i)] += aa;
+      if (j >= 0) matrix.diagonal[static_cast<std::size_t>(j)] += bb;
+      if (i < 0 || j < 0) return;
+      if (i > j) {
+        couplings.push_back({i, j, ab, ba});
+      } else {
+        couplings.push_back({j, i, ba, ab});
+      }
+    };
+    system_->joints.add_tangent(joints_, u.data(), sink);
+    system_->boundary.add_tangent(boundary_, u.data(), sink);
+    system_->interface.add_tangent(interface_, u.data(), sink);
+    for (const std::size_t k : bolts_) {
+      const auto& bolt = system_->bolts[k];
+      bolt.add_tangent(system_->bolt_laws[static_cast<std::size_t>(bolt.law)], u.data(), sink);
+    }
+    for (const std::size_t k : frames_)
+      system_->frames[k].add_stiffness(
+          [&](int a, int b, const Block& aa, const Block& ab, const Block& bb) {
+            sink(a, b, aa, ab, Block(ab.transpose()), bb);
+          });
+    std::sort(couplings.begin(), couplings.end(), [](const Coupling& x, const Coupling& y) {
+      return x.j != y.j ? x.j < y.j : x.i < y.i;
+    });
+    for (const Coupling& c : couplings) {
+      if (matrix.pairs.empty() || matrix.pairs.back() != std::pair(c.i, c.j)) {
+        matrix.pairs.emplace_back(c.i, c.j);
+        matrix.forward.push_back(c.forward);
+        matrix.backward.push_back(c.backward);
+      } else {
+        matrix.forward.back() += c.forward;
+        matrix.backward.back() += c.backward;
+      }
+    }
+    Eigen::VectorXd step(dof * static_cast<Eigen::Index>(bodies_.size()));
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+      step.segment<dof>(dof * static_cast<Eigen::Index>(k)) = f.segment<dof>(dof * bodies_[k]);
+    BlockLU<dof>(matrix).solve_in_place(step);
+    return step;
   }
 
  private:
@@ -80,7 +182,9 @@ class ActiveSet {
   }
 
   System* system_;
+  double lightest_ = 0;
   std::vector<char> active_;
+  std::vector<int> number_;  ///< among the active bodies, -1: held
   std::vector<int> bodies_, joints_, boundary_, interface_;
   std::vector<std::size_t> bolts_, frames_;
 };

@@ -3,15 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
-
-#include <voussoir/core/errors.hpp>
+#include <Eigen/Core>
 
 namespace voussoir {
 
@@ -53,11 +48,15 @@ class BlockMatrix {
     entries_.resize(kept);
   }
 
-  /// Calls visit(row, column, block) for every block below the diagonal.
-  template <class Visit>
-  void for_each_below(Visit&& visit) const {
-    for (const Entry& e : entries_) visit(e.row, e.column, e.block);
+  /// Coupled bodies (row, column), row > column, each once; valid after `compress`.
+  [[nodiscard]] std::vector<std::pair<int, int>> pairs() const {
+    std::vector<std::pair<int, int>> all;
+    all.reserve(entries_.size());
+    for (const Entry& e : entries_) all.emplace_back(e.row, e.column);
+    return all;
   }
+  /// The block of pair k.
+  [[nodiscard]] const Block& below(int k) const { return entries_[static_cast<std::size_t>(k)].block; }
 
   /// Sum of the absolute values in every row: Gershgorin's bound on the eigenvalues.
   [[nodiscard]] Eigen::VectorXd absolute_row_sums() const {
@@ -69,23 +68,6 @@ class BlockMatrix {
       sums.segment<Dof>(Dof * e.column) += e.block.cwiseAbs().colwise().sum().transpose();
     }
     return sums;
-  }
-
-  /// Order of elimination that keeps the factor sparse (approximate minimum degree on bodies, not
-  /// on single unknowns: a graph with Dof^2 fewer edges, and the same answer).
-  [[nodiscard]] std::vector<int> elimination_order() const {
-    Eigen::SparseMatrix<double> graph(size(), size());
-    std::vector<Eigen::Triplet<double>> pattern;
-    pattern.reserve(2 * entries_.size() + diagonal_.size());
-    for (int i = 0; i < size(); ++i) pattern.emplace_back(i, i, 1.0);
-    for (const Entry& e : entries_) {
-      pattern.emplace_back(e.row, e.column, 1.0);
-      pattern.emplace_back(e.column, e.row, 1.0);
-    }
-    graph.setFromTriplets(pattern.begin(), pattern.end());
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-    Eigen::AMDOrdering<int>()(graph, order);
-    return {order.indices().data(), order.indices().data() + size()};
   }
 
  private:

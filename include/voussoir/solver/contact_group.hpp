@@ -103,8 +103,9 @@ class ContactGroup {
     for (const Contact& c : contacts_) add_force<History>(c, u, f);
   }
   /// The same for the contacts with these numbers only.
+  template <class History>
   void add_forces(std::span<const int> which, const double* u, double* f) {
-    for (const int k : which) add_force<Frozen>(contacts_[static_cast<std::size_t>(k)], u, f);
+    for (const int k : which) add_force<History>(contacts_[static_cast<std::size_t>(k)], u, f);
   }
 
   /// Brings the history up to date with displacement `u`.
@@ -138,6 +139,50 @@ class ContactGroup {
         }
       }
       sink(c.a, c.b, aa, ab, bb);
+    }
+  }
+
+  /// Hands the tangent stiffness at displacement `u` of the contacts with these numbers to
+  /// `sink(a, b, aa, ab, ba, bb)`: the negative derivative of the forces, history frozen.
+  ///
+  /// Laws give forces, not derivatives: they are differenced here. They are piecewise linear or
+  /// nearly so, hence the result is exact to rounding away from kinks and their mean at a kink.
+  template <class Sink>
+  void add_tangent(std::span<const int> which, const double* u, Sink&& sink) const {
+    using Block = Eigen::Matrix<double, dof, dof>;
+    using Rows = Eigen::Matrix<double, dof, dim>;
+    constexpr double step = 1e-9;
+    for (const int number : which) {
+      const Contact& c = contacts_[static_cast<std::size_t>(number)];
+      Stress<dim> axes;  // columns: normal, tangents
+      axes << c.normal, tangent_basis(c.normal);
+      Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
+      for (int k = c.first; k < c.last; ++k) {
+        const Point& p = points_[static_cast<std::size_t>(k)];
+        const Vec<dim> offset = tangent_basis(c.normal) * p.offset;
+        const PointMotion<dim> motion = motion_at(c, offset, u);
+        Stress<dim> stiffness;
+        for (int l = 0; l < dim; ++l) {
+          PointLoad<dim> more{p.weight, p.initial, motion}, less = more;
+          (l == 0 ? more.motion.opening : more.motion.slip[l - 1]) += step;
+          (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
+          const PointForce<dim> up = law_.force(more, p.state), down = law_.force(less, p.state);
+          stiffness(0, l) = (down.normal - up.normal) / (2 * step);
+          stiffness.template block<dim - 1, 1>(1, l) = (down.tangential - up.tangential) / (2 * step);
+        }
+        Rows a, b;
+        for (int l = 0; l < dim; ++l) {
+          const Vec<dim> axis = axes.col(l);
+          a.col(l) << axis, moment_of(Vec<dim>(c.arm_a + offset), axis);
+          b.col(l) << axis, moment_of(Vec<dim>(c.arm_b + offset), axis);
+        }
+        const Rows sa = a * stiffness, sb = b * stiffness;
+        aa += sa * a.transpose();
+        ab -= sa * b.transpose();
+        ba -= sb * a.transpose();
+        bb += sb * b.transpose();
+      }
+      sink(c.a, c.b, aa, ab, ba, bb);
     }
   }
 

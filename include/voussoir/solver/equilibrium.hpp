@@ -31,7 +31,7 @@ enum class Verdict {
 struct Acceptance {
   double error_estimate = 1e-3;       ///< largest elastic correction / largest displacement [-]
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
-  double displacement_limit = 0.2;    ///< a body that moved further has fallen [m]
+  double displacement_limit = 0.1;    ///< a body that moved further has fallen [m]
   double collapse_measure = 20;       ///< more fallen rock than this is a collapse [m^2], [m^3]
 };
 

@@ -90,11 +90,7 @@ class Explicit {
       if (!fallen.empty()) {
         for (const int b : fallen) velocity.template segment<dof>(dof * b).setZero();
         detail::drop(system, fallen, context, report);
-        if (report.fallen_measure > accept.collapse_measure) {
-          report.verdict = Verdict::collapsing;
-          report.reason = detail::collapse_sentence(report, accept);
-          break;
-        }
+        if (detail::has_collapsed(report, accept)) break;
         mass = masses(system);
         step = stable_step(system, mass);
         continue;

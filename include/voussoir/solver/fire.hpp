@@ -21,7 +21,6 @@ class Fire {
     double largest_step = 0.8;   ///< in critical steps; 0.95 and mixing 0.2 need 10 times the work
     double first_step = 0.4;
     double mixing = 0.1;
-    double separate_step = 0.7;  ///< in critical steps, for bodies on their own
     int patience = 5;            ///< downhill steps before the time step grows
   };
 
@@ -67,25 +66,6 @@ class Fire {
         velocity_[k] = keep * velocity_[k] + push * inverse_mass_[k] * f[k];
         u[k] += step_ * velocity_[k];
       }
-  }
-
-  /// Moves every body on its own account: one that would run uphill stops, the others run on.
-  ///
-  /// With one common stop, a block that slides slowly never gathers speed because some other block
-  /// always rattles. Better near the end, when few bodies are still moving; worse while the whole
-  /// region does.
-  template <int Dof>
-  void advance_separately(const std::vector<int>& bodies, const Eigen::VectorXd& f,
-                          Eigen::VectorXd& u) {
-    const double step = params_.separate_step;
-    for (const int b : bodies) {
-      double power = 0;
-      for (int k = Dof * b; k < Dof * (b + 1); ++k) power += f[k] * velocity_[k];
-      for (int k = Dof * b; k < Dof * (b + 1); ++k) {
-        velocity_[k] = (power < 0 ? 0.0 : velocity_[k]) + step * inverse_mass_[k] * f[k];
-        u[k] += step * velocity_[k];
-      }
-    }
   }
 
  private:

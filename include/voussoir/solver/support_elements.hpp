@@ -33,17 +33,39 @@ struct BoltSpring {
     add_force_at<dim>(f + dof * a, arm_a, pull);
     add_force_at<dim>(f + dof * b, arm_b, -pull);
   }
+  using Block = Eigen::Matrix<double, dof, dof>;
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
-    Eigen::Matrix<double, dof, dim> to_a, to_b;
-    for (int k = 0; k < dim; ++k) {
-      to_a.col(k) << Vec<dim>::Unit(k), moment_of(arm_a, Vec<dim>(Vec<dim>::Unit(k)));
-      to_b.col(k) << Vec<dim>::Unit(k), moment_of(arm_b, Vec<dim>(Vec<dim>::Unit(k)));
-    }
     const Stress<dim> k = share * spring.stiffness(span);
-    using Block = Eigen::Matrix<double, dof, dof>;
+    const Lever to_a = lever(arm_a), to_b = lever(arm_b);
     sink(a, b, Block(to_a * k * to_a.transpose()), Block(-to_a * k * to_b.transpose()),
          Block(to_b * k * to_b.transpose()));
+  }
+  /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent).
+  template <class Sink>
+  void add_tangent(const Law& spring, const double* u, Sink&& sink) const {
+    constexpr double step = 1e-8;
+    Stress<dim> k;
+    for (int l = 0; l < dim; ++l) {
+      BoltSpan<dim> more = span_at(u), less = more;
+      more.motion[l] += step;
+      less.motion[l] -= step;
+      k.col(l) = share * (spring.force(more, state).pull - spring.force(less, state).pull) / (2 * step);
+    }
+    const Lever to_a = lever(arm_a), to_b = lever(arm_b);
+    sink(a, b, Block(to_a * k * to_a.transpose()), Block(-to_a * k * to_b.transpose()),
+         Block(-to_b * k * to_a.transpose()), Block(to_b * k * to_b.transpose()));
+  }
+
+ private:
+  using Lever = Eigen::Matrix<double, dof, dim>;
+  [[nodiscard]] static Lever lever(const Vec<dim>& arm) {
+    Lever l;
+    for (int k = 0; k < dim; ++k) {
+      const Vec<dim> axis = Vec<dim>::Unit(k);
+      l.col(k) << axis, moment_of(arm, axis);
+    }
+    return l;
   }
 };
 

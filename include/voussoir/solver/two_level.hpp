@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <voussoir/core/errors.hpp>
@@ -17,40 +16,45 @@
 
 namespace voussoir {
 
-/// The default way to equilibrium: short relaxations corrected by elastic solves.
+/// The default way to equilibrium: local searches corrected by global elastic solves.
 ///
 ///   factor K (all contacts closed and sticking);  u += K^-1 F(u)
-///   repeat  FIRE for a burst of steps, history frozen;  d = K^-1 F(u);  estimate = max|d| / max|u|
+///   repeat  local search on the bodies out of balance, all others held, history frozen
+///           d = K^-1 F(u);  estimate = max|d| / max|u|
 ///           accept if the estimate, the unbalance of every block and the displacements pass
 ///           u += d
 ///   commit slip
 ///
-/// FIRE settles what is local (slip, opened joints), the elastic solve what is long-ranged, and its
-/// correction d measures the error of the displacements. The history is frozen during the search,
-/// so the answer does not depend on the path the search took.
+/// The local search settles slip and openings: a burst of FIRE and, once the estimate is small,
+/// anchored Newton steps with the unsymmetric tangent. The elastic solve settles what is
+/// long-ranged, and its correction d measures the error of the displacements. The history is frozen
+/// during the search, so the answer does not depend on the path the search took.
 ///
 /// d is blind to mechanisms: a key block that falls has a tiny elastic correction. Hence the test
-/// on every block's unbalance, and `Relaxation` as a fallback that finds out which blocks fall; the
-/// search then starts again from the initial state without them.
+/// on every block's unbalance. A block that nothing holds runs away under the Newton steps until it
+/// passes the displacement limit, is removed, and the search goes on without it. Where many blocks
+/// fall at once `Relaxation` finds out which, and the search starts anew without them.
 class TwoLevel {
  public:
   using role = roles::Equilibrium;
   static constexpr const char* name = "TwoLevel";
 
   struct Params {
-    int burst_steps = 60;      ///< relaxation steps between elastic solves
-    int burst_bodies = 2400;   ///< bursts on fewer bodies than this are longer, up to 20 times
-    int rings = 2;             ///< generations of neighbours relaxed with a body out of balance
-    int separate_below = 1000; ///< up to so many bodies each one stops on its own account
-    int max_bursts = 30;       ///< then the slip is followed step by step
+    int burst_steps = 60;      ///< FIRE steps in a local search
+    int newton_steps = 8;      ///< at most, in a local search
+    double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
+    int rings = 2;             ///< generations of neighbours searched with a body out of balance
+    int max_bursts = 14;       ///< local searches without a fall or an end before the fallback
     int max_restarts = 8;      ///< searches without the blocks that fell in the one before
     Fire::Params fire{};
     Relaxation::Params fallback{};
   };
   TwoLevel() = default;
+  /// @throws InvalidInput  a parameter out of range
   explicit TwoLevel(const Params& params) : params_(params), fallback_(params.fallback) {
     require(params.burst_steps > 0, "burst_steps", params.burst_steps, "> 0");
     require(params.max_bursts > 0, "max_bursts", params.max_bursts, "> 0");
+    require(params.max_restarts >= 0, "max_restarts", params.max_restarts, ">= 0");
   }
 
   template <class System>
@@ -59,50 +63,45 @@ class TwoLevel {
     const Acceptance& accept = context.acceptance;
     detail::drop(system, system.unsupported(), context, report);
     const System start = system;  // where a search without the fallen blocks begins
-    std::vector<int> gone;
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
-      if (search(system, context, report)) break;
-      if (!report.reason.empty()) break;  // stopped by the user
-      const EquilibriumReport fall = fallback_.find(system, context);
+      if (search(system, context, report) != Outcome::open) break;
+      // The fallback only has to tell what falls: blocks at a tenth of their weight do not.
+      SearchContext follow = context;
+      follow.acceptance.unbalance_over_weight = std::max(0.1, accept.unbalance_over_weight);
+      follow.acceptance.collapse_measure = accept.collapse_measure - report.fallen_measure;
+      const EquilibriumReport fall = fallback_.find(system, follow);
       report.steps += fall.steps;
       report.fallen.insert(report.fallen.end(), fall.fallen.begin(), fall.fallen.end());
       report.fallen_measure += fall.fallen_measure;
       report.largest_displacement = fall.largest_displacement;
       report.unbalance_over_weight = fall.unbalance_over_weight;
-      if (fall.verdict == Verdict::collapsing || report.fallen_measure > accept.collapse_measure) {
-        report.verdict = Verdict::collapsing;
-        report.reason = detail::collapse_sentence(report, accept);
-        break;
-      }
+      if (detail::has_collapsed(report, accept)) break;
       if (fall.verdict == Verdict::undecided) {
         report.reason = "falling blocks were followed without end: " + fall.reason;
         break;
       }
-      gone.insert(gone.end(), fall.fallen.begin(), fall.fallen.end());
       if (fall.fallen.empty()) {
-        // Nothing fell: the relaxed state is an equilibrium reached on a longer path.
-        report.verdict = Verdict::stable;
-        report.error_estimate = estimate_at(system, report);
-        report.reason = "equilibrium found by following the slip step by step";
-        if (!(report.error_estimate < accept.error_estimate)) {
-          report.verdict = Verdict::undecided;
-          report.reason = "the error estimate stays above its limit";
-        }
+        // Nothing fell: go on from the slip that the relaxation has committed.
+        if (search(system, context, report) == Outcome::open)
+          report.reason = "neither an equilibrium nor falling blocks were found";
         break;
       }
       system = start;
-      system.remove(gone);
+      system.remove(report.fallen);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
-      report.reason = "blocks keep falling after " + std::to_string(params_.max_restarts) + " restarts";
+      report.reason =
+          "blocks keep falling after " + std::to_string(params_.max_restarts) + " restarts";
     for (const auto& bolt : system.bolts) report.broken_bolts += bolt.state.ruptured;
     return report;
   }
 
  private:
-  /// One search with the present bodies. @return true if it ended in a verdict
+  enum class Outcome { decided, open };
+
+  /// One search with the present bodies; `decided` with a verdict or a reason to stop.
   template <class System>
-  bool search(System& system, const SearchContext& context, EquilibriumReport& report) const {
+  Outcome search(System& system, const SearchContext& context, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     system.wall_fraction = context.wall_fraction;
     std::optional<BlockCholesky<System::dof>> factor;
@@ -121,17 +120,15 @@ class TwoLevel {
     factor->solve_in_place(d);
     ++report.elastic_solves;
     u += d;
+    report.error_estimate = 1;
+    Eigen::VectorXd reach = Eigen::VectorXd::Constant(system.body_count(), 0.02);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      const double moved = relax(system, *fire, accept, burst <= 2, f, report);
-      if (moved > accept.displacement_limit) {
-        const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-        detail::drop(system, fallen, context, report);
-        if (report.fallen_measure > accept.collapse_measure) {
-          report.verdict = Verdict::collapsing;
-          report.reason = detail::collapse_sentence(report, accept);
-          return true;
-        }
+      if (settle_locally(system, *fire, accept, reach, f, report) > accept.displacement_limit) {
+        detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
+                     report);
+        if (detail::has_collapsed(report, accept)) return Outcome::decided;
         prepare();
+        burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
       system.forces(u, f);
       d = f;
@@ -139,70 +136,108 @@ class TwoLevel {
       ++report.elastic_solves;
       report.largest_displacement = System::largest_translation(u);
       const double correction = System::largest_translation(d);
-      report.error_estimate =
-          correction > 0 ? correction / report.largest_displacement : 0.0;
+      report.error_estimate = correction > 0 ? correction / report.largest_displacement : 0.0;
       report.unbalance_over_weight = system.unbalance_over_weight(f);
       if (!std::isfinite(report.error_estimate))
-        throw NumericalFault("two-level search: displacements are not finite in burst " +
+        throw NumericalFault("two-level search: displacements are not finite in search " +
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
         if (system.commit() > 0) continue;  // a bolt broke: look again without it
         report.verdict = Verdict::stable;
         report.reason = "error estimate, unbalance and displacements are within their limits";
-        return true;
+        return Outcome::decided;
       }
       if (context.progress && !context.progress(progress_of(report, accept, burst))) {
         report.reason = "stopped by the user";
-        return false;
+        return Outcome::decided;
       }
       correct(system, u, d, f, trial);
     }
-    return false;
+    return Outcome::open;
   }
 
-  /// Relaxes the bodies that are out of balance, all others held.
-  /// @return  the largest translation among them, or 0 if all went by without a body falling [m]
+  /// Settles the bodies that are out of balance, all others held.
+  ///
+  /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far one
+  /// that nothing holds may move in a step. It grows while steps succeed; when one fails it shrinks
+  /// for the bodies that ran into something, and the others fall on.
+  /// @return  the largest translation among the bodies [m]
   template <class System>
-  double relax(System& system, Fire& fire, const Acceptance& accept, bool opening_burst,
-               Eigen::VectorXd& f, EquilibriumReport& report) const {
-    constexpr int check_every = 20;
+  double settle_locally(System& system, Fire& fire, const Acceptance& accept, Eigen::VectorXd& reach,
+                        Eigen::VectorXd& f, EquilibriumReport& report) const {
+    constexpr int dim = System::dim, dof = System::dof;
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
     ++report.steps;
     ActiveSet<System> active(system, f, 0.1 * accept.unbalance_over_weight, params_.rings);
     const std::vector<int>& bodies = active.bodies();
-    const auto count = static_cast<int>(bodies.size());
-    // Few bodies are cheap: give them the work of a burst on many.
-    const int steps = opening_burst ? params_.burst_steps
-                                    : std::clamp(params_.burst_steps * params_.burst_bodies /
-                                                     std::max(count, 1),
-                                                 params_.burst_steps, 20 * params_.burst_steps);
-    const double lightest = system.lightest_weight();
     fire.rest();
-    for (int step = 0; step < steps; ++step) {
-      if (step > 0) {
+    for (int step = 0; step < params_.burst_steps; ++step) {
+      fire.template advance<dof>(bodies, f, u);
+      active.forces(u, f);
+      ++report.steps;
+    }
+    if (!(report.error_estimate < params_.newton_below)) return active.largest_translation(u);
+    double now = active.squared_unbalance(f);
+    Eigen::VectorXd before, worse;
+    for (int k = 0; k < params_.newton_steps; ++k) {
+      if (active.worst_unbalance(f) < 0.1 * accept.unbalance_over_weight) break;
+      const Eigen::VectorXd step = active.newton_step(u, f, reach);
+      before = u;
+      double part = step.allFinite() ? 1.0 : 0.0, next = now;
+      for (; part > 0.2; part *= 0.5) {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+          Eigen::Matrix<double, dof, 1> move =
+              part * step.template segment<dof>(dof * static_cast<Eigen::Index>(b));
+          // Nobody goes further than half the displacement limit at a time.
+          const double length = move.template head<dim>().norm();
+          if (length > 0.5 * accept.displacement_limit) move *= 0.5 * accept.displacement_limit / length;
+          u.template segment<dof>(dof * bodies[b]) =
+              before.template segment<dof>(dof * bodies[b]) + move;
+        }
         active.forces(u, f);
         ++report.steps;
+        next = active.squared_unbalance(f);
+        if (next <= 1.02 * now) break;
       }
-      if (step % check_every == check_every - 1) {
-        double worst = 0, far = 0;
-        for (const int b : bodies) {
-          worst = std::max(worst, system.unbalance_of(f, b, lightest));
-          far = std::max(far, u.template segment<System::dim>(System::dof * b).norm());
-        }
-        if (far > accept.displacement_limit || worst < 0.2 * accept.unbalance_over_weight) return far;
+      if (part < 0.2) {
+        worse = f;
+        u = before;
+        active.forces(u, f);
+        hold_back(system, bodies, f, worse, reach);
+        continue;
       }
-      if (count > params_.separate_below) {
-        fire.template advance<System::dof>(bodies, f, u);
-      } else {
-        fire.template advance_separately<System::dof>(bodies, f, u);
-      }
+      now = next;
+      if (part == 1.0)
+        for (const int b : bodies) reach[b] = std::min(4 * reach[b], accept.displacement_limit);
+      if (active.largest_translation(u) > accept.displacement_limit) break;
     }
-    return 0;
+    return active.largest_translation(u);
   }
 
-  /// Adds the elastic correction, halved while it would make the scaled residual four times larger.
+  /// After a step that failed: shortens the reach of the bodies whose balance it has spoilt, or of all
+  /// if none stands out. `f` forces before the step, `worse` after it.
+  template <class System>
+  static void hold_back(const System& system, const std::vector<int>& bodies,
+                        const Eigen::VectorXd& f, const Eigen::VectorXd& worse,
+                        Eigen::VectorXd& reach) {
+    constexpr double shortest = 1e-6;
+    const double lightest = system.lightest_weight();
+    bool found = false;
+    for (const bool everybody : {false, true}) {
+      if (found) return;
+      for (const int b : bodies) {
+        if (!everybody && !(system.unbalance_of(worse, b, lightest) >
+                            2 * system.unbalance_of(f, b, lightest) + 0.3))
+          continue;
+        reach[b] = std::max(0.1 * reach[b], shortest);
+        found = true;
+      }
+    }
+  }
+
+  /// Adds the elastic correction, halved while it would make the residual four times larger.
   template <class System>
   static void correct(System& system, Eigen::VectorXd& u, const Eigen::VectorXd& d,
                       Eigen::VectorXd& f, Eigen::VectorXd& trial) {
@@ -215,18 +250,6 @@ class TwoLevel {
         return;
       }
     }
-  }
-
-  template <class System>
-  [[nodiscard]] static double estimate_at(System& system, EquilibriumReport& report) {
-    const BlockCholesky<System::dof> factor(system.elastic_stiffness());
-    ++report.factorisations;
-    ++report.elastic_solves;
-    Eigen::VectorXd d;
-    system.forces(system.displacement, d);
-    factor.solve_in_place(d);
-    const double moved = System::largest_translation(system.displacement);
-    return moved > 0 ? System::largest_translation(d) / moved : 0.0;
   }
 
   /// How far the estimate has come down, on a logarithmic scale; never quite there.

@@ -44,10 +44,13 @@ struct DiagramPoint {
     const std::function<void(std::size_t)>& done = {}) {
   std::vector<DiagramPoint> points(spacings * thicknesses);
   std::atomic<std::size_t> finished{0};
-  parallel_for(points.size(), threads, [&](std::size_t k) {
-    points[k] = run(k / thicknesses, k % thicknesses);
-    points[k].spacing = k / thicknesses;
-    points[k].thickness = k % thicknesses;
+  parallel_for(points.size(), threads, [&](std::size_t job) {
+    // The least supported tunnels take longest: first, so that they do not keep others waiting.
+    const std::size_t i = spacings - 1 - job / thicknesses, j = job % thicknesses;
+    DiagramPoint& point = points[i * thicknesses + j];
+    point = run(i, j);
+    point.spacing = i;
+    point.thickness = j;
     const std::size_t now = ++finished;
     if (done) done(now);
   });

@@ -33,10 +33,9 @@ inline void draw_overview(SvgCanvas& canvas, const ViewRect& frame, const Blocks
                    {.stroke = "black", .stroke_width = 1.4, .dash = "5 3"});
   canvas.end_layer();
   canvas.rectangle(drawing, {.stroke = "#111"});
+  const ViewRect extent = extent_of_everything(picture);
   canvas.text({frame.low.x(), drawing.high.y() + 17},
-              readable_text(everything.width(), 2) + " m × " +
-                  readable_text(everything.height(), 2) + " m, " +
-                  std::to_string(picture.blocks.size()) + " blocks");
+              readable_text(extent.width(), 2) + " m × " + readable_text(extent.height(), 2) + " m");
 }
 
 /// Beside the rock: diagrams of the support, and the whole model in the room that is left.

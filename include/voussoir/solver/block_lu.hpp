@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <voussoir/solver/block_elimination.hpp>
+
+namespace voussoir {
+
+/// Sparse block matrix of symmetric pattern and unsymmetric values: a tangent with sliding joints.
+template <int Dof>
+struct TangentMatrix {
+  using Block = Eigen::Matrix<double, Dof, Dof>;
+  std::vector<Block> diagonal;
+  std::vector<std::pair<int, int>> pairs;  ///< coupled bodies (i, j), each pair once
+  std::vector<Block> forward, backward;    ///< blocks (i, j) and (j, i)
+};
+
+/// Factor A = L U by blocks, and solves with it. Pivots are the diagonal blocks in the order of
+/// elimination: no pivoting between bodies, so the caller must check what comes out.
+template <int Dof>
+class BlockLU {
+ public:
+  using Block = Eigen::Matrix<double, Dof, Dof>;
+
+  explicit BlockLU(const TangentMatrix<Dof>& matrix)
+      : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs) {
+    const std::size_t n = pattern_.size();
+    rows_.resize(pattern_.block_count());
+    lower_.resize(pattern_.block_count());
+    upper_.resize(pattern_.block_count());
+    inverse_.resize(n);
+    std::vector<std::size_t> end(n);
+    for (std::size_t k = 0; k < n; ++k) end[k] = pattern_.begin(k);
+    std::vector<Block> left(n, Block::Zero()), top(n, Block::Zero());
+    BlockElimination::RowWalk walk(pattern_);
+    for (std::size_t i = 0; i < n; ++i) {
+      Block pivot = matrix.diagonal[static_cast<std::size_t>(pattern_.original(i))];
+      walk(
+          i,
+          [&](const BlockElimination::Place& place) {
+            const auto pair = static_cast<std::size_t>(place.pair);
+            const auto column = static_cast<std::size_t>(place.column);
+            left[column] = place.flipped ? matrix.backward[pair] : matrix.forward[pair];
+            top[column] = place.flipped ? matrix.forward[pair] : matrix.backward[pair];
+          },
+          [&](std::size_t j) {
+            const Block lij = left[j] * inverse_[j], uji = top[j];
+            left[j].setZero();
+            top[j].setZero();
+            for (std::size_t p = pattern_.begin(j); p < end[j]; ++p) {
+              const auto k = static_cast<std::size_t>(rows_[p]);
+              left[k].noalias() -= lij * upper_[p];
+              top[k].noalias() -= lower_[p] * uji;
+            }
+            pivot.noalias() -= lij * uji;
+            rows_[end[j]] = static_cast<int>(i);
+            lower_[end[j]] = lij;
+            upper_[end[j]++] = uji;
+          });
+      inverse_[i] = pivot.inverse();
+    }
+  }
+
+  /// Solves A x = b in place.
+  void solve_in_place(Eigen::VectorXd& x) const {
+    const std::size_t n = inverse_.size();
+    Eigen::VectorXd y(x.size());
+    for (std::size_t k = 0; k < n; ++k)
+      y.template segment<Dof>(at(k)) = x.template segment<Dof>(Dof * pattern_.original(k));
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
+        y.template segment<Dof>(Dof * rows_[p]).noalias() -=
+            lower_[p] * y.template segment<Dof>(at(j));
+    for (std::size_t j = n; j-- > 0;) {
+      Eigen::Matrix<double, Dof, 1> v = y.template segment<Dof>(at(j));
+      for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
+        v.noalias() -= upper_[p] * y.template segment<Dof>(Dof * rows_[p]);
+      y.template segment<Dof>(at(j)) = inverse_[j] * v;
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      x.template segment<Dof>(Dof * pattern_.original(k)) = y.template segment<Dof>(at(k));
+  }
+
+ private:
+  [[nodiscard]] static Eigen::Index at(std::size_t k) { return Dof * static_cast<Eigen::Index>(k); }
+
+  BlockElimination pattern_;
+  std::vector<int> rows_;
+  std::vector<Block> lower_, upper_;  ///< column by column of L, row by row of U
+  std::vector<Block> inverse_;        ///< of the pivots
+};
+
+}  // namespace voussoir
