@@ -49,6 +49,7 @@ struct EquilibriumReport {
   std::vector<int> fallen;           ///< bodies removed because they fell, in this search
   double fallen_measure = 0;         ///< [m^2] or [m^3]
   int broken_bolts = 0;              ///< bolt springs that ruptured
+  bool stopped = false;              ///< the caller asked to stop
 };
 
 /// Called now and then: a fraction between 0 and 1 of the work done, or a negative number where it

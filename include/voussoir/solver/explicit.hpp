@@ -84,6 +84,7 @@ class Explicit {
       if (context.progress &&
           !context.progress(ramping ? done : -1.0)) {
         report.reason = "stopped by the user";
+        report.stopped = true;
         break;
       }
       const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);

@@ -114,6 +114,7 @@ class Relaxation {
       }
       if (context.progress && !context.progress(-1.0)) {
         report.reason = "stopped by the user";
+        report.stopped = true;
         break;
       }
       ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);

@@ -33,7 +33,8 @@ namespace voussoir {
 /// d is blind to mechanisms: a key block that falls has a tiny elastic correction. Hence the test
 /// on every block's unbalance. A block that nothing holds runs away under the Newton steps until it
 /// passes the displacement limit, is removed, and the search goes on without it. Where many blocks
-/// fall at once `Relaxation` finds out which, and the search starts anew without them.
+/// fall at once `Relaxation` finds out which, and the search starts anew without them. Falls are
+/// judged in increments of the unloading: in a single one marginal blocks are lost that stay.
 class TwoLevel {
  public:
   using role = roles::Equilibrium;
@@ -45,6 +46,7 @@ class TwoLevel {
     double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
     int rings = 2;             ///< generations of neighbours searched with a body out of balance
     int max_bursts = 14;       ///< local searches without a fall or an end before the fallback
+    int increments = 5;        ///< of the unloading, where blocks fall in one step
     int max_restarts = 8;      ///< searches without the blocks that fell in the one before
     Fire::Params fire{};
     Relaxation::Params fallback{};
@@ -59,12 +61,44 @@ class TwoLevel {
 
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
+    const System start = system;
+    const double from = start.wall_fraction, to = context.wall_fraction;
+    const bool unloading = from != to && params_.increments > 1;
+    EquilibriumReport report = find_in_one_step(system, context, unloading);
+    if (!unloading || report.stopped || report.verdict == Verdict::stable) return report;
+    // Something fell, or no end was found. The elastic start of one large step opens joints that a
+    // gradual unloading keeps closed, so only what falls then has fallen. Most falls when little
+    // traction is left: the increments shrink with it.
+    EquilibriumReport whole;
+    add(whole, report);
+    whole.fallen.clear();
+    whole.fallen_measure = 0;
+    system = start;
+    for (int k = 1; k <= params_.increments; ++k) {
+      SearchContext part = context;
+      part.wall_fraction = k == params_.increments ? to : to + (from - to) * std::pow(0.4, k);
+      part.acceptance.collapse_measure -= whole.fallen_measure;
+      add(whole, find_in_one_step(system, part, false));
+      if (whole.verdict != Verdict::stable) break;
+    }
+    if (whole.verdict == Verdict::stable && !whole.fallen.empty())
+      whole.reason = "within all limits after loose blocks had fallen";
+    return whole;
+  }
+
+ private:
+  enum class Outcome { decided, open };
+
+  template <class System>
+  [[nodiscard]] EquilibriumReport find_in_one_step(System& system, const SearchContext& context,
+                                                   bool give_up_at_a_fall) const {
     EquilibriumReport report;
     const Acceptance& accept = context.acceptance;
     detail::drop(system, system.unsupported(), context, report);
     const System start = system;  // where a search without the fallen blocks begins
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
-      if (search(system, context, report) != Outcome::open) break;
+      if (search(system, context, give_up_at_a_fall, report) != Outcome::open) break;
+      if (give_up_at_a_fall) break;
       // The fallback only has to tell what falls: blocks at a tenth of their weight do not.
       SearchContext follow = context;
       follow.acceptance.unbalance_over_weight = std::max(0.1, accept.unbalance_over_weight);
@@ -82,7 +116,7 @@ class TwoLevel {
       }
       if (fall.fallen.empty()) {
         // Nothing fell: go on from the slip that the relaxation has committed.
-        if (search(system, context, report) == Outcome::open)
+        if (search(system, context, false, report) == Outcome::open)
           report.reason = "neither an equilibrium nor falling blocks were found";
         break;
       }
@@ -96,12 +130,21 @@ class TwoLevel {
     return report;
   }
 
- private:
-  enum class Outcome { decided, open };
+  /// Adds what an increment did; its state replaces that of the one before.
+  static void add(EquilibriumReport& whole, const EquilibriumReport& part) {
+    EquilibriumReport sum = part;
+    sum.steps += whole.steps;
+    sum.elastic_solves += whole.elastic_solves;
+    sum.factorisations += whole.factorisations;
+    sum.fallen.insert(sum.fallen.begin(), whole.fallen.begin(), whole.fallen.end());
+    sum.fallen_measure += whole.fallen_measure;
+    whole = sum;
+  }
 
   /// One search with the present bodies; `decided` with a verdict or a reason to stop.
   template <class System>
-  Outcome search(System& system, const SearchContext& context, EquilibriumReport& report) const {
+  Outcome search(System& system, const SearchContext& context, bool give_up_at_a_fall,
+                 EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     system.wall_fraction = context.wall_fraction;
     std::optional<BlockCholesky<System::dof>> factor;
@@ -124,6 +167,7 @@ class TwoLevel {
     Eigen::VectorXd reach = Eigen::VectorXd::Constant(system.body_count(), 0.02);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
       if (settle_locally(system, *fire, accept, reach, f, report) > accept.displacement_limit) {
+        if (give_up_at_a_fall) return Outcome::open;
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
         if (detail::has_collapsed(report, accept)) return Outcome::decided;
@@ -150,6 +194,7 @@ class TwoLevel {
       }
       if (context.progress && !context.progress(progress_of(report, accept, burst))) {
         report.reason = "stopped by the user";
+        report.stopped = true;
         return Outcome::decided;
       }
       correct(system, u, d, f, trial);
