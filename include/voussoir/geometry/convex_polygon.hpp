@@ -78,6 +78,21 @@ class ConvexPolygon {
     return parts;
   }
 
+  /// Replaces every vertex by `place(vertex)`, which must not move it by more than a rounding, and
+  /// drops faces whose ends have become one vertex.
+  /// @return  number of faces dropped
+  template <class Place>
+  std::size_t move_vertices(Place&& place) {
+    for (Vec2& vertex : vertices_) vertex = place(vertex);
+    const std::size_t before = size();
+    for (std::size_t k = size(); k-- > 0;)
+      if (size() > 3 && vertices_[k] == vertices_[k + 1 == size() ? 0 : k + 1]) {
+        vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(k));
+        cuts_.erase(cuts_.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+    return before - size();
+  }
+
   /// Longest distance between two vertices [m].
   [[nodiscard]] double diameter() const {
     double squared = 0;

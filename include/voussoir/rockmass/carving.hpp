@@ -11,6 +11,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/rockmass/welding.hpp>
 
 namespace voussoir {
 
@@ -147,6 +148,7 @@ namespace detail {
     }
   }
   if (kept.empty()) throw InvalidInput("opening: no rock is left around it");
+  weld(kept, tolerance);
   mass.bodies = std::move(kept);
   mass.openings.push_back(opening);
   return mass;

@@ -39,6 +39,7 @@ struct SlicingReport {
   std::size_t coincident = 0;         ///< cuts not made: the joint runs along an existing face
   std::size_t refused_too_small = 0;  ///< cuts refused: a child's inscribed radius
   std::size_t refused_too_long = 0;   ///< cuts refused: a child's elongation
+  std::size_t vanished_faces = 0;     ///< faces shorter than the tolerance, welded away
 };
 
 /// What carving an opening did.

@@ -11,6 +11,7 @@
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/rockmass/welding.hpp>
 
 namespace voussoir {
 
@@ -113,6 +114,7 @@ class Slicer {
         mass.bodies.push_back(std::move(body));
       }
     }
+    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_);
     return mass;
   }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
@@ -24,8 +23,8 @@ struct OedometerResult {
 };
 
 struct OedometerParams {
-  Side loaded = Side::top;     ///< where the platen presses; the side opposite is the base
-  double platen_strain = 1e-4; ///< motion of the platen / length of the sample [-], > 0
+  Side loaded = Side::top;          ///< where the platen presses; the side opposite is the base
+  double platen_strain = 1e-4;      ///< motion of the platen / length of the sample [-], > 0
   double wall_stiffness_ratio = 1;  ///< platen, base and walls / k_n of the joints [-], > 0
 };
 
@@ -37,15 +36,17 @@ struct OedometerParams {
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 5.1, eqs (10)-(12). They load the mass in a time
 /// stepping run; here it is one linear solve. Assumed: rigid blocks and the elastic stiffness of
-/// every joint, that is, no joint opens or slips, at any stress. The moduli therefore depend neither
-/// on the stress level nor on friction (the paper's G rises by 0.4 % from 35 to 89 degrees).
+/// every joint, that is, no joint opens or slips, at any stress. The moduli therefore depend
+/// neither on the stress level nor on friction (the paper's G rises by 0.4 % from 35 to 89
+/// degrees).
 ///
-/// eps_1 is the motion of the platen less the closure sigma_1 / k of its contacts and of those of the
-/// base, over the length of the sample; the walls give way by sigma_3 / k, 1 % of eps_1 in 70 m.
+/// eps_1 is the motion of the platen less the closure sigma_1 / k of its contacts and of those of
+/// the base, over the length of the sample; the walls give way by sigma_3 / k, 1 % of eps_1 in 70
+/// m.
 ///
-/// The blocks along a flat wall are held better than those inside. G of the paper's joint sets, 0.6 m
-/// apart on a scanline, pressed vertically in samples 35, 70, 140 and 210 m wide, is 0.567, 0.554,
-/// 0.543 and 0.536 GPa; with walls 1000 times as stiff 0.596, 0.569, 0.550 and 0.541.
+/// The blocks along a flat wall are held better than those inside. G of the paper's joint sets, 0.6
+/// m apart on a scanline, pressed vertically in samples 35, 70, 140 and 210 m wide, is 0.567,
+/// 0.554, 0.543 and 0.536 GPa; with walls 1000 times as stiff 0.596, 0.569, 0.550 and 0.541.
 ///
 /// @throws InvalidInput    no bodies, an opening was carved, or a parameter out of range
 /// @throws NumericalFault  some body can move without resistance
@@ -66,21 +67,20 @@ template <class Detector = CutContacts, class Geometry, class JointLaw>
   System<Geometry, JointLaw, AxialBolt> system(
       joint_law, wall_stiffness,
       CoulombJoint({.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0}));
-  for (const auto& body : mass.bodies)
-    system.add_body({body.properties.centroid, 0.0, 1.0, true});
+  for (const auto& body : mass.bodies) system.add_body({body.properties.centroid, 0.0, 1.0, true});
   const int ground = system.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
   const int platen = system.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
   for (const auto& c : Detector::find(mass)) {
     const auto points = c.facet.gauss_points();
     system.joints.add(c.a, c.b, c.facet, system.body(c.a).centre, system.body(c.b).centre, points);
   }
-  double platen_area = 0, lateral_area = 0;
   Vec<dim> outward = Vec<dim>::Zero();  // of the loaded side
   const auto boundary = boundary_facets(mass);
   for (const auto& f : boundary)
     if (f.side == params.loaded) outward += f.facet.area_vector();
-  platen_area = outward.norm();
+  const double platen_area = outward.norm();
   outward /= platen_area;
+  double lateral_area = 0;
   for (const auto& f : boundary) {
     const int wall = f.side == params.loaded ? platen : ground;
     const auto points = f.facet.gauss_points();
@@ -103,12 +103,13 @@ template <class Detector = CutContacts, class Geometry, class JointLaw>
   u = push;
 
   double axial = 0, lateral = 0;  // forces on the walls [N]
-  system.boundary.visit(u.data(), [&](const auto& contact, const auto&, const auto& load, const auto&) {
-    // Not the force of the law, which would end at an opening.
-    const double force = -wall_stiffness * load.weight * load.motion.opening;
-    if (contact.b == platen) axial += force;
-    if (std::abs(contact.normal.dot(outward)) < 0.5) lateral += force;
-  });
+  system.boundary.visit(u.data(),
+                        [&](const auto& contact, const auto&, const auto& load, const auto&) {
+                          // Not the force of the law, which would end at an opening.
+                          const double force = -wall_stiffness * load.weight * load.motion.opening;
+                          if (contact.b == platen) axial += force;
+                          if (std::abs(contact.normal.dot(outward)) < 0.5) lateral += force;
+                        });
   OedometerResult result{};
   result.stress_axial = axial / platen_area;
   result.stress_lateral = lateral / lateral_area;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -41,10 +40,10 @@ struct ThinLining {
 
 /// How ground and lining share the in-situ pressure.
 struct ThinLiningResponse {
-  double pressure;          ///< dp, between ground and lining [Pa]
-  double thrust;            ///< N, compression positive [N/m]
-  double convergence;       ///< of the tunnel wall after the lining was installed, inwards [m]
-  double lining_shortening; ///< inward movement of the ring itself [m]
+  double pressure;           ///< dp, between ground and lining [Pa]
+  double thrust;             ///< N, compression positive [N/m]
+  double convergence;        ///< of the tunnel wall after the lining was installed, inwards [m]
+  double lining_shortening;  ///< inward movement of the ring itself [m]
 };
 
 /// Elastic ground under an isotropic pressure pushes a lining that was installed before the ground
@@ -65,7 +64,8 @@ struct ThinLiningResponse {
 /// @param ground_pressure       p0 that is released after the lining is in place [Pa]
 /// @param ground_shear_modulus  G [Pa], > 0
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline ThinLiningResponse thin_lining(const ThinLining& lining, double ground_pressure,
+[[nodiscard]] inline ThinLiningResponse thin_lining(const ThinLining& lining,
+                                                    double ground_pressure,
                                                     double ground_shear_modulus) {
   lining.check();
   require(std::isfinite(ground_pressure), "ground_pressure", ground_pressure, "finite [Pa]");
@@ -77,7 +77,8 @@ struct ThinLiningResponse {
   ThinLiningResponse response{};
   response.pressure = ground_pressure * (ground / (ground + support));
   response.thrust = lining.chord_factor() * a * response.pressure;
-  response.convergence = support * response.pressure;  // = a (p0 - dp) / 2G without its cancellation
+  response.convergence =
+      support * response.pressure;  // = a (p0 - dp) / 2G without its cancellation
   response.lining_shortening = ring * response.pressure;
   return response;
 }
