@@ -19,9 +19,11 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/oedometer.hpp>
 #include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/solver/two_level.hpp>
+#include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>

@@ -242,7 +242,7 @@ TEST_SUITE("program/input") {
     CHECK(input.stages[0].install_lining);
     CHECK(input.run.method == RunMethod::two_level);
     CHECK(input.run.tolerance == 1e-3);
-    CHECK(input.run.displacement_limit == 0.2);
+    CHECK(input.run.displacement_limit == 0.1);
 
     REQUIRE(input.diagram.has_value());
     const double spacings[] = {9, 11.25, 15, 18, 22.5};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <voussoir/geometry/inscribed_ball.hpp>
+#include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// One supported tunnel to equilibrium, what it is made of, and its peers: one force evaluation is
+// the floor, explicit time stepping the other method, Eigen's sparse LDL^T the other factorisation.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <utility>
+#include <vector>
+#include <voussoir/solver/block_cholesky.hpp>
+#include <voussoir/solver/explicit.hpp>
+
+#include "design_case.hpp"
+
+namespace {
+
+using namespace voussoir_bench;
+using voussoir::BlockCholesky;
+using voussoir::EquilibriumReport;
+using voussoir::Explicit;
+using Matrix = Tunnel::SystemType::Matrix;
+
+/// The excavated design case, made once for each scale of the width.
+const Tunnel& unsupported(double scale) {
+  static std::vector<std::pair<double, Tunnel>> made;
+  for (const auto& [of, tunnel] : made)
+    if (of == scale) return tunnel;
+  return made.emplace_back(scale, excavated(scale)).second;
+}
+
+Tunnel design_case(double bolt_spacing, double thickness, double scale = 1) {
+  Tunnel tunnel = unsupported(scale);
+  support(tunnel, bolt_spacing * degree, thickness);
+  return tunnel;
+}
+
+void report_on(benchmark::State& state, const Tunnel& tunnel, const EquilibriumReport& report) {
+  state.counters["bodies"] = static_cast<double>(tunnel.system().movable_bodies().size());
+  state.counters["contacts"] = static_cast<double>(tunnel.system().joints.contacts().size());
+  state.counters["error_estimate"] = report.error_estimate;
+  state.counters["unbalance_over_weight"] = report.unbalance_over_weight;
+  state.counters["steps"] = report.steps;
+  state.counters["solves"] = report.elastic_solves;
+  state.counters["stable"] = report.verdict == voussoir::Verdict::stable;
+  state.counters["fallen_m2"] = report.fallen_measure;
+  state.counters["crown_mm"] = 1e3 * crown(tunnel);
+}
+
+/// From the excavated and supported, unmoved rock to the accepted equilibrium.
+void two_level(benchmark::State& state, double bolt_spacing, double thickness, double scale) {
+  const Tunnel before = design_case(bolt_spacing, thickness, scale);
+  Tunnel tunnel = before;
+  EquilibriumReport report;
+  for (auto _ : state) {
+    state.PauseTiming();
+    tunnel = before;
+    state.ResumeTiming();
+    report = equilibrium(tunnel);
+  }
+  report_on(state, tunnel, report);
+}
+BENCHMARK_CAPTURE(two_level, bolts_4m_15deg, 15, 0, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_level, bolts_4m_15deg_lining_10cm, 15, 0.1, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_level, bolts_4m_18deg, 18, 0, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_level, bolts_4m_15deg_4_times_wider, 15, 0, 4)->Unit(benchmark::kMillisecond);
+
+/// The same case and the same acceptance by local damping, 0.7, the wall traction taken away over
+/// 2000 steps. The design case stands, so the areas of fallen blocks are not needed.
+void explicit_stepping(benchmark::State& state, double bolt_spacing, double thickness) {
+  const Tunnel before = design_case(bolt_spacing, thickness);
+  Tunnel tunnel = before;
+  EquilibriumReport report;
+  for (auto _ : state) {
+    state.PauseTiming();
+    tunnel = before;
+    state.ResumeTiming();
+    report = Explicit({.damping = 0.7, .ramp_steps = 2000, .max_steps = 60000})
+                 .find(tunnel.system(), voussoir::SearchContext{});
+  }
+  report_on(state, tunnel, report);
+}
+BENCHMARK_CAPTURE(explicit_stepping, bolts_4m_15deg, 15, 0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(explicit_stepping, bolts_4m_15deg_lining_10cm, 15, 0.1)
+    ->Unit(benchmark::kMillisecond);
+
+/// All forces once, at the equilibrium: what one step of any method must cost at least.
+void force_evaluation(benchmark::State& state) {
+  Tunnel tunnel = design_case(15, 0.1);
+  equilibrium(tunnel);
+  auto& system = tunnel.system();
+  Eigen::VectorXd f;
+  for (auto _ : state) {
+    system.forces(system.displacement, f);
+    benchmark::DoNotOptimize(f.data());
+    benchmark::ClobberMemory();
+  }
+  state.counters["contacts"] = static_cast<double>(system.joints.contacts().size());
+  state.counters["time_per_contact"] = benchmark::Counter(
+      static_cast<double>(system.joints.contacts().size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(force_evaluation)->Unit(benchmark::kMicrosecond);
+
+// ---- the elastic factor: the same matrix, by blocks and by Eigen
+// ------------------------------------
+
+/// Lower triangle, number by number.
+Eigen::SparseMatrix<double> as_sparse(const Matrix& blocks) {
+  constexpr int dof = Tunnel::dof;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int i, int j, const Matrix::Block& block) {
+    for (int r = 0; r < dof; ++r)
+      for (int c = 0; c < dof; ++c)
+        if (i != j || r >= c) entries.emplace_back(dof * i + r, dof * j + c, block(r, c));
+  };
+  for (int i = 0; i < blocks.size(); ++i) add(i, i, blocks.diagonal(i));
+  int k = 0;
+  for (const auto& [i, j] : blocks.pairs()) add(i, j, blocks.below(k++));
+  Eigen::SparseMatrix<double> matrix(dof * blocks.size(), dof * blocks.size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+using EigenFactor =
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>>;
+
+/// Range: the width over 70 m.
+Tunnel supported(const benchmark::State& state) {
+  return design_case(15, 0.1, static_cast<double>(state.range(0)));
+}
+
+/// Order, analyse and factor, as a search does.
+void factor_by_blocks(benchmark::State& state) {
+  const Matrix matrix = supported(state).system().elastic_stiffness();
+  for (auto _ : state) {
+    const BlockCholesky<Tunnel::dof> factor(matrix);
+    benchmark::DoNotOptimize(factor.block_count());
+  }
+  constexpr double block_size = Tunnel::dof * Tunnel::dof;
+  const BlockCholesky<Tunnel::dof> factor(matrix);
+  state.counters["bodies"] = matrix.size();
+  state.counters["stored_numbers"] = block_size * static_cast<double>(factor.block_count());
+}
+BENCHMARK(factor_by_blocks)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+void factor_by_eigen(benchmark::State& state) {
+  const Matrix blocks = supported(state).system().elastic_stiffness();
+  const Eigen::SparseMatrix<double> matrix = as_sparse(blocks);
+  EigenFactor factor;
+  for (auto _ : state) {
+    factor.compute(matrix);
+    if (factor.info() != Eigen::Success) state.SkipWithError("not factored");
+  }
+  state.counters["bodies"] = blocks.size();
+  state.counters["stored_numbers"] =
+      static_cast<double>(factor.matrixL().nestedExpression().nonZeros() + matrix.rows());
+}
+BENCHMARK(factor_by_eigen)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+/// With the weights of the blocks as the load.
+void solve_by_blocks(benchmark::State& state) {
+  const Tunnel tunnel = supported(state);
+  const Matrix matrix = tunnel.system().elastic_stiffness();
+  const Eigen::VectorXd& load = tunnel.system().load;
+  const BlockCholesky<Tunnel::dof> factor(matrix);
+  Eigen::VectorXd x;
+  for (auto _ : state) {
+    x = load;
+    factor.solve_in_place(x);
+    benchmark::DoNotOptimize(x.data());
+  }
+  const Eigen::VectorXd y = EigenFactor(as_sparse(matrix)).solve(load);
+  state.counters["difference_to_eigen"] = (x - y).norm() / y.norm();
+}
+BENCHMARK(solve_by_blocks)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+void solve_by_eigen(benchmark::State& state) {
+  const Tunnel tunnel = supported(state);
+  const Eigen::VectorXd& load = tunnel.system().load;
+  const EigenFactor factor(as_sparse(tunnel.system().elastic_stiffness()));
+  Eigen::VectorXd x;
+  for (auto _ : state) {
+    x = factor.solve(load);
+    benchmark::DoNotOptimize(x.data());
+  }
+}
+BENCHMARK(solve_by_eigen)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,18 @@
+// expect: bolt law: add `BoltForce<Dim> force
+// SPDX-License-Identifier: MIT
+#include <voussoir/voussoir.hpp>
+
+namespace {
+struct Bolt {
+  using role = voussoir::roles::BoltLaw;
+  static constexpr const char* name = "Bolt";
+  struct State {};
+  template <int Dim>
+  bool commit(const voussoir::BoltSpan<Dim>&, State&) const;
+  template <int Dim>
+  voussoir::Stress<Dim> stiffness(const voussoir::BoltSpan<Dim>&) const;
+};
+}  // namespace
+
+using Broken = voussoir::Composition<Bolt>;
+static_assert(sizeof(Broken) > 0);

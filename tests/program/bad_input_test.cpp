@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// What cannot be computed is refused in words, and nothing is written.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "harness.hpp"
+
+namespace {
+
+using namespace voussoir_test;
+
+const std::string good = InputText{}.text();
+
+/// One fault and what the message must name.
+struct Fault {
+  std::string from, to;
+  std::vector<std::string> named;
+};
+
+/// Line of the file, from 1, on which `what` stands.
+std::string line_of(const std::string& text, const std::string& what) {
+  const auto at = text.begin() + static_cast<std::ptrdiff_t>(text.find(what));
+  return std::to_string(1 + std::count(text.begin(), at, '\n'));
+}
+
+}  // namespace
+
+TEST_SUITE("program/bad_input") {
+  TEST_CASE("a fault in the file: status 2, file, line, key, value and what is accepted") {
+    const Folder folder;
+    const std::string out = folder / "out";
+    // The results of an earlier run must survive.
+    REQUIRE(
+        run_program({"run", write_file(folder / "good.toml", good), "--out", out, "-q"}).status ==
+        0);
+    const auto before = contents(out);
+    const std::vector<Fault> faults = {
+        {"density = ", "densty = ", {"unknown key `densty`", "did you mean `density`"}},
+        {"density = \"2700 kg/m^3\"", "# none", {"rock.density is missing"}},
+        {"cover = ", "cover = \"9 m\"\ncover = ", {"cover", "given twice"}},
+        {"\"5 GPa/m\"", "5e9", {"joint.kn = 5e9 has no unit", "5 GPa/m"}},
+        {"\"5 GPa/m\"", "\"5 GPa\"", {"joint.kn", "5 GPa", "not a stiffness per area"}},
+        {"K0 = 1.0", "K0 = nan", {"stress.K0 = nan", "not finite", "0 to 10"}},
+        {"\"2700 kg/m^3\"", "\"-2700 kg/m^3\"", {"rock.density", "-2700", "above 0"}},
+        {"\"35 deg\"", "\"90 deg\"", {"joint.friction", "90 deg", "below 90 deg"}},
+        {"width = \"24 m\"", "width = \"4 m\"", {"model.width", "\"4 m\"", "above 4 m"}},
+        {"cover = \"8 m\"", "cover = \"0 m\"", {"tunnel.cover", "0 m", "above 0"}},
+        {"cover = \"8 m\"", "cover = \"-1 m\"", {"tunnel.cover", "-1 m", "above 0"}},
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnodes = 3", {"support.lining.nodes = 3", "8 to 2000"}},
+        {"shape = \"circle\"", "shape = \"oval\"", {"tunnel.shape", "oval", "circle"}},
+        {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},
+        {"\"0.2 m\"", "\"3 m\"", {"blocks.min_inscribed_radius", "3 m", "below 2 m"}},
+        {"seed = 3", "seed = -1", {"model.seed = -1", "0"}},
+    };
+    for (const Fault& fault : faults) {
+      CAPTURE(fault.to);
+      const std::string text = replaced(good, fault.from, fault.to);
+      const Outcome outcome =
+          run_program({"run", write_file(folder / "case.toml", text), "--out", out});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.out.empty());
+      CHECK(outcome.err.find("error: ") != std::string::npos);
+      CHECK(outcome.err.find("accepted: ") != std::string::npos);
+      for (const std::string& name : fault.named)
+        CHECK_MESSAGE(outcome.err.find(name) != std::string::npos, name);
+      // A missing key is shown at its table, a repeated one where it comes again.
+      std::string line = line_of(text, fault.to);
+      if (fault.to == "# none") line = line_of(text, "[rock]");
+      if (fault.to.find('\n') != std::string::npos) line = std::to_string(std::stoi(line) + 1);
+      CHECK(outcome.err.find("case.toml:" + line + ":") != std::string::npos);
+      CHECK(contents(out) == before);
+    }
+  }
+
+  TEST_CASE("a fault in --set names the override") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", good);
+    for (const std::string& fault :
+         {std::string("joint.friction=90 deg"), std::string("rock.density=nan"),
+          std::string("joint.kx=5 GPa/m"), std::string("nonsense")}) {
+      CAPTURE(fault);
+      const Outcome outcome = run_program({"run", file, "--out", folder / "out", "--set", fault});
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("--set " + fault) != std::string::npos);
+      CHECK(outcome.err.find("accepted: ") != std::string::npos);
+      CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    }
+  }
+
+  TEST_CASE("all faults are reported in one go") {
+    const Folder folder;
+    const std::string text =
+        replaced(replaced(good, "\"5 GPa/m\"", "5e9"), "\"35 deg\"", "\"95 deg\"");
+    const Outcome outcome =
+        run_program({"run", write_file(folder / "case.toml", text), "--out", folder / "out"});
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("joint.kn") != std::string::npos);
+    CHECK(outcome.err.find("joint.friction") != std::string::npos);
+    CHECK(outcome.err.find("2 errors") != std::string::npos);
+  }
+
+  TEST_CASE("a broken line in a file of joints is named with its number and what is accepted") {
+    const Folder folder;
+    InputText mapped;
+    mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
+    const std::string file = write_file(folder / "case.toml", mapped.text());
+    for (const std::string& line :
+         {std::string("1,2,3"), std::string("1,2,3,4,5,6"), std::string("1,2,3,x"),
+          std::string("1,2,nan,4"), std::string("1,2,1,2"), std::string("1,2,3,4,-1"),
+          std::string("1;2;3;4"), std::string("1,2,3,")}) {
+      CAPTURE(line);
+      write_file(folder / "traces.csv", "x1,y1,x2,y2\n0,3,0,9\n" + line + "\n1,1,2,2\n");
+      const Outcome outcome = run_program({"run", file, "--out", folder / "out"});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("traces.csv:3: ") != std::string::npos);
+      CHECK(outcome.err.find(line) != std::string::npos);
+      CHECK(outcome.err.find("accepted: x1,y1,x2,y2") != std::string::npos);
+      CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    }
+    std::filesystem::remove(folder / "traces.csv");
+    const Outcome missing = run_program({"run", file, "--out", folder / "out"});
+    CHECK(missing.status == 2);
+    CHECK(missing.err.find("joints.file") != std::string::npos);
+    CHECK(missing.err.find("traces.csv") != std::string::npos);
+  }
+
+  TEST_CASE("an input that is not there, is a folder or is no TOML is refused by name") {
+    const Folder folder;
+    const Outcome missing = run_program({"run", folder / "none.toml", "--out", folder / "out"});
+    CHECK(missing.status == 2);
+    CHECK(missing.err.find("none.toml") != std::string::npos);
+    CHECK(run_program({"run", folder / ".", "--out", folder / "out"}).status == 2);
+    for (const std::string& text :
+         {std::string(), std::string("[model\n"), std::string(200, '\0')}) {
+      const Outcome outcome =
+          run_program({"run", write_file(folder / "case.toml", text), "--out", folder / "out"});
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("case.toml") != std::string::npos);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  }
+
+  TEST_CASE("a diagram without its table says what to write") {
+    const Folder folder;
+    const Outcome outcome =
+        run_program({"diagram", write_file(folder / "case.toml", good), "--out", folder / "out"});
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("[diagram]") != std::string::npos);
+    CHECK(outcome.err.find("accepted: ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  }
+
+  TEST_CASE("a wrong command line is status 2 and points to --help") {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                      {"run"},
+                                                      {"walk"},
+                                                      {"run", "a.toml", "b.toml"},
+                                                      {"run", "a.toml", "--colour"},
+                                                      {"diagram", "a.toml", "--threads", "0"}}) {
+      const Outcome outcome = run_program(arguments);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("--help") != std::string::npos);
+    }
+    const Outcome help = run_program({"--help"});
+    CHECK(help.status == 0);
+    CHECK(help.out.find("Exit status") != std::string::npos);
+    CHECK(run_program({"--version"}).out.starts_with("voussoir "));
+  }
+
+  // Permissions do not stop root, which tests may be run as; a file or folder in the way does.
+  TEST_CASE(
+      "a folder that cannot be written is status 1, named, and nothing is left half-written") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", good);
+    const std::string in_the_way = write_file(folder / "taken", "mine");
+    for (const std::string& out : {in_the_way, in_the_way + "/below"}) {
+      const Outcome outcome = run_program({"run", file, "--out", out});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 1);
+      CHECK(outcome.err.find(out) != std::string::npos);
+      CHECK(read_file(in_the_way) == "mine");
+    }
+    // The last of the four files cannot be replaced: none of the others may appear.
+    std::filesystem::create_directories(folder / "out/blocks.svg");
+    const auto before = contents(folder / "out");
+    const Outcome outcome = run_program({"run", file, "--out", folder / "out"});
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("blocks.svg") != std::string::npos);
+    CHECK(outcome.out.find("written") == std::string::npos);
+    CHECK(contents(folder / "out") == before);
+  }
+}

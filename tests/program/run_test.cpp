@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+// From an input file to results, through the executable.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <voussoir/voussoir.hpp>
+
+#include "harness.hpp"
+#include "support/reference.hpp"
+
+namespace {
+
+using namespace voussoir_test;
+using Json = nlohmann::json;
+
+struct Results {
+  Outcome outcome;
+  Json json;
+  std::map<std::string, std::string> files;  ///< name -> content
+};
+
+/// Runs `text` into a folder of its own; every run must end well and leave the four files.
+Results results_of(const std::string& text, std::vector<std::string> more = {},
+                   const std::string& traces = "") {
+  const Folder folder;
+  const std::string out = folder / "out";
+  if (!traces.empty()) write_file(folder / "traces.csv", traces);
+  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out", out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Results results;
+  results.outcome = run_program(arguments);
+  INFO(results.outcome.out);
+  INFO(results.outcome.err);
+  REQUIRE(results.outcome.status == 0);
+  for (const auto& [path, content] : contents(out))
+    results.files[std::filesystem::path(path).filename().string()] = content;
+  REQUIRE(results.files.size() == 4);  // and nothing half-written beside them
+  results.json = Json::parse(results.files.at("run.json"));
+  CHECK(results.json.at("verdict") == "stable");
+  return results;
+}
+
+/// A table that was written: rows by the names of its columns.
+std::vector<std::map<std::string, std::string>> table(const std::string& text) {
+  std::istringstream in(text);
+  std::string line;
+  std::getline(in, line);
+  const auto header = csv_fields(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    const auto fields = csv_fields(line);
+    REQUIRE(fields.size() == header.size());
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < fields.size(); ++k) row[header[k]] = fields[k];
+  }
+  return rows;
+}
+
+std::string header(const std::string& text) { return text.substr(0, text.find_first_of("\r\n")); }
+
+double crown(const Results& r) { return r.json.at("convergence").at("crown_mm"); }
+double thrust(const Results& r) { return r.json.at("lining").at("mean_thrust_kN_per_m"); }
+
+const std::string supported = InputText{}.text();
+
+}  // namespace
+
+TEST_SUITE("program/run") {
+  TEST_CASE("a run writes numbers, tables and a picture that agree with each other") {
+    const Results r = results_of(supported);
+    CHECK(header(r.files.at("bolts.csv")) ==
+          "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state");
+    CHECK(header(r.files.at("lining.csv")) ==
+          "node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm");
+    CHECK(r.files.at("blocks.svg").starts_with("<"));
+    CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
+
+    // The tables are written with 8 digits, run.json with all.
+    double force = 0, thrust_sum = 0, moment = 0;
+    std::map<std::string, double> largest;
+    for (const auto& row : table(r.files.at("bolts.csv"))) {
+      const double f = std::stod(row.at("axial_force_kN"));
+      force = std::max(force, f);
+      largest[row.at("bolt")] = std::max(largest[row.at("bolt")], f);
+      CHECK(f >= 0);  // carries no compression
+      CHECK(f <= 200);
+      // 0.2 GN/m is 200 kN/mm.
+      if (f > 0) CHECK(std::abs(f - 200 * std::stod(row.at("extension_mm"))) < 1e-6 * f);
+      CHECK(row.at("state") == "elastic");
+    }
+    const auto nodes = table(r.files.at("lining.csv"));
+    for (const auto& row : nodes) {
+      thrust_sum += std::stod(row.at("thrust_kN_per_m"));
+      moment = std::max(moment, std::abs(std::stod(row.at("moment_kNm_per_m"))));
+      const double x = std::stod(row.at("x_m")), y = std::stod(row.at("y_m"));
+      // Nodes are the middles of the 24 chords of a circle of 2 m radius.
+      CHECK(std::abs(std::hypot(x, y) - 2 * std::cos(std::numbers::pi / 24)) < 1e-7);
+    }
+    const Json& bolts = r.json.at("bolts");
+    CHECK(bolts.at("count") == 7);  // 0, 30, ... 180 degrees
+    CHECK(std::abs(force - bolts.at("largest_force_kN").get<double>()) < 1e-6 * force);
+    double mean = 0;
+    for (const auto& [bolt, f] : largest) mean += f / 7;
+    CHECK(std::abs(mean - bolts.at("mean_of_largest_forces_kN").get<double>()) < 1e-6 * mean);
+    REQUIRE(nodes.size() == 24);
+    CHECK(std::abs(thrust_sum / 24 - thrust(r)) < 1e-6 * thrust(r));
+    CHECK(std::abs(moment - r.json.at("lining").at("largest_moment_kNm_per_m").get<double>()) <
+          1e-6 * moment);
+    // rho g (cover + D / 2) = 2700 * 9.81 * 10 Pa
+    CHECK(std::abs(r.json.at("rock").at("vertical_stress_at_centre_kPa").get<double>() - 264.87) <
+          1e-9);
+    CHECK(r.json.at("rock").at("in_situ_unbalance_over_weight") < 1e-9);
+    CHECK(r.json.at("error_estimate") < 1e-3);
+  }
+
+  TEST_CASE("the program computes what the same calls in C++ compute") {
+    using namespace voussoir;
+    constexpr double deg = std::numbers::pi / 180;
+    using Twin = Solver<Planar, CoulombJoint, LorigAnchors, EulerBernoulliBeam>;
+    const SimplePolygon opening = circular_opening(4, 24);
+    const Domain<2> ground = domain_around(opening, 24, 8, 8);
+    const std::vector sets = {JointSet{"a", 70 * deg, DipDirection::east, 1 * deg, 1, 0, 2},
+                              JointSet{"b", 20 * deg, DipDirection::west, 0, 1, 0, 2}};
+    const auto rock = slice(ground, joint_network(sets, ground, 3), {0.2, 5});
+    Twin tunnel(rock, CoulombJoint({5e9, 5e8, 35 * deg}), {.density = 2700, .k0 = 1});
+    tunnel.excavate(opening, 0.02);
+    const AxialBolt bolt({.axial_stiffness = 2e8, .rupture_force = 2e5});
+    for (const Segment& bar : bolt_bars({.length = 2, .angular_spacing = 30 * deg}, opening))
+      tunnel.install_bolt(bar, bolt);
+    tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 24}),
+                          LiningSection::rectangular(0.08, 25e9),
+                          CoulombJoint({1e9, 1e9, 30 * deg}));
+    REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
+
+    const Results r = results_of(supported);
+    CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
+    const Convergence c = convergence(tunnel);
+    // The program composes AxialShearBolt without shear and TimoshenkoBeam without shear
+    // deformation: equal but for roundings, which the search amplifies less than its tolerance.
+    CHECK(std::abs(crown(r) - 1e3 * c.crown) < 1e-6 * crown(r));
+    CHECK(std::abs(r.json.at("convergence").at("invert_mm").get<double>() - 1e3 * c.invert) <
+          1e-6 * crown(r));
+  }
+
+  TEST_CASE("the same seed gives the same bytes, another seed another rock") {
+    Results a = results_of(supported), b = results_of(supported);
+    a.json.erase("time_s");
+    b.json.erase("time_s");
+    CHECK(a.json == b.json);
+    for (const char* name : {"bolts.csv", "lining.csv", "blocks.svg"})
+      CHECK_MESSAGE(a.files.at(name) == b.files.at(name), name);
+    const Results other = results_of(supported, {"--set", "model.seed=4"});
+    CHECK(other.json.at("seed") == 4);
+    CHECK(other.files.at("bolts.csv") != a.files.at("bolts.csv"));
+  }
+
+  TEST_CASE("--set changes the result") {
+    const Results stiff = results_of(supported);
+    const Results soft = results_of(
+        supported, {"--set", "joint.kn=2.5 GPa/m", "--set", "joint.ks = \"0.25 GPa/m\""});
+    CHECK(crown(soft) > crown(stiff));
+    CHECK(thrust(soft) > thrust(stiff));
+  }
+
+  TEST_CASE("quiet prints nothing; a pipe gets no control characters") {
+    const Results quiet = results_of(supported, {"--quiet"});
+    CHECK(quiet.outcome.out.empty());
+    CHECK(quiet.outcome.err.empty());
+    const Results spoken = results_of(supported);
+    CHECK(spoken.outcome.err.empty());
+    CHECK(spoken.outcome.out.find("verdict  stable") != std::string::npos);
+    CHECK(std::none_of(spoken.outcome.out.begin(), spoken.outcome.out.end(), [](char c) {
+      return std::iscntrl(static_cast<unsigned char>(c)) != 0 && c != '\n';
+    }));
+  }
+
+  TEST_CASE("a diagram of two spacings and two thicknesses is a table and a picture") {
+    const Folder folder;
+    InputText input;
+    input.rest = "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"4 cm\", \"8 cm\"]\n";
+    const std::string file = write_file(folder / "case.toml", input.text());
+    const Outcome two = run_program({"diagram", file, "--out", folder / "two", "--threads", "2"});
+    INFO(two.err);
+    REQUIRE(two.status == 0);
+    CHECK(contents(folder / "two").size() == 2);
+    CHECK(read_file(folder / "two/interaction.svg").find("</svg>") != std::string::npos);
+    const auto rows = table(read_file(folder / "two/interaction.csv"));
+    REQUIRE(rows.size() == 4);
+    CHECK(rows[0].at("bolt_spacing_deg") == "30");
+    CHECK(rows[3].at("bolt_spacing_deg") == "none");
+    for (const auto& row : rows) CHECK(row.at("verdict") == "stable");
+    // A thicker lining and bolts both hold the crown back.
+    const auto crown_at = [&](std::size_t k) {
+      return std::stod(rows[k].at("crown_convergence_mm"));
+    };
+    CHECK(crown_at(1) < crown_at(0));
+    CHECK(crown_at(3) < crown_at(2));
+    CHECK(crown_at(0) <= crown_at(2));
+    // The tunnel of the file is one of the four; the table has 6 digits.
+    const Results single = results_of(supported);
+    CHECK(std::abs(crown_at(1) - crown(single)) < 1e-5 * crown(single));
+
+    const Outcome one =
+        run_program({"diagram", file, "--out", folder / "one", "--threads", "1", "-q"});
+    REQUIRE(one.status == 0);
+    CHECK(one.out.empty());
+    CHECK(read_file(folder / "one/interaction.csv") == read_file(folder / "two/interaction.csv"));
+    CHECK(read_file(folder / "one/interaction.svg") == read_file(folder / "two/interaction.svg"));
+  }
+
+  TEST_CASE(
+      "support installed after 40 % of the relaxation carries less and lets the wall in further") {
+    InputText staged;
+    staged.rest =
+        "[[stage]]\nname = \"excavation\"\nwall_traction = \"60 %\"\n"
+        "[[stage]]\nname = \"support\"\nwall_traction = \"0 %\"\ninstall = [\"bolts\", \"lining\"]\n";
+    const Results wished = results_of(supported), relaxed = results_of(staged.text());
+    REQUIRE(relaxed.json.at("stages").size() == 2);
+    CHECK(relaxed.json.at("stages")[0].at("name") == "excavation");
+    CHECK(relaxed.json.at("stages")[0].at("wall_traction") == 0.6);
+    CHECK(relaxed.json.at("stages")[0].at("convergence").at("crown_mm") > 0.0);
+    CHECK(relaxed.json.at("stages")[0].at("convergence").at("crown_mm") < crown(relaxed));
+    CHECK(crown(relaxed) > crown(wished));
+    CHECK(thrust(relaxed) < thrust(wished));
+    // Elastic rock would leave the lining 60 % of its load exactly; slip takes some more.
+    CHECK(thrust(relaxed) > 0.5 * thrust(wished));
+    CHECK(thrust(relaxed) < 0.7 * thrust(wished));
+  }
+
+  TEST_CASE("a horseshoe, a polygon and a partial lining run") {
+    InputText horseshoe, polygon, arch;
+    horseshoe.shape = "shape = \"horseshoe\"\nwidth = \"4 m\"\nwall_height = \"2 m\"\n";
+    const Results h = results_of(horseshoe.text());
+    CHECK(crown(h) > 0);
+    CHECK(h.json.at("lining").at("mean_thrust_kN_per_m") > 0);
+
+    polygon.shape =
+        "shape = \"polygon\"\nvertices = [[\"-2 m\", \"1 m\"], [\"0 m\", \"2.2 m\"], "
+        "[\"2 m\", \"1 m\"], [\"2 m\", \"-1.5 m\"], [\"-2 m\", \"-1.5 m\"]]\n";  // clockwise
+    const Results p = results_of(polygon.text(), {"--set", "support.bolts.spacing=1 m"});
+    CHECK(crown(p) > 0);
+    CHECK(p.json.at("bolts").at("count") >= 5);
+
+    arch.lining += "arc = [\"0 deg\", \"180 deg\"]\n";
+    const Results a = results_of(arch.text());
+    CHECK(table(a.files.at("lining.csv")).size() == 12);  // half of 24 nodes
+  }
+
+  TEST_CASE("without support there is neither a bolts nor a lining entry") {
+    InputText bare;
+    bare.bolts = bare.lining = "";
+    const Results r = results_of(bare.text());
+    CHECK_FALSE(r.json.contains("bolts"));
+    CHECK_FALSE(r.json.contains("lining"));
+    CHECK(table(r.files.at("bolts.csv")).empty());
+    CHECK(table(r.files.at("lining.csv")).empty());
+    CHECK(crown(r) > crown(results_of(supported)));
+  }
+
+  TEST_CASE(
+      "rock without joints is one block: it rises by the weight taken out, its bolts hold nothing") {
+    InputText massive;
+    massive.joints = "";
+    const Results r = results_of(massive.text());
+    CHECK(r.json.at("rock").at("bodies") == 1);
+    CHECK(r.json.at("rock").at("contacts") == 0);
+    // A 24-gon of 2 m radius, on 24 m of base springs; the crown is read on the two facets beside
+    // it, whose middles are 7.5 degrees off the vertical.
+    constexpr double deg = std::numbers::pi / 180;
+    const double removed = 12 * 2 * 2 * std::sin(15 * deg);
+    const double rise = 2700 * 9.81 * removed / (5e9 * 24);
+    CHECK(std::abs(crown(r) + 1e3 * rise * std::cos(7.5 * deg)) < 1e-6 * 1e3 * rise);
+    CHECK(table(r.files.at("bolts.csv")).empty());
+    CHECK(r.files.at("run.json").find("7 of 7 bolts cross no joint") != std::string::npos);
+  }
+
+  TEST_CASE("endless horizontal and vertical sets make a wall of rectangles") {
+    InputText masonry;
+    masonry.joints =
+        "[[joint_set]]\ndip = \"0 deg\"\ndip_direction = \"E\"\nspacing = \"1 m\"\n"
+        "[[joint_set]]\ndip = \"90 deg\"\ndip_direction = \"W\"\nspacing = \"1 m\"\n";
+    masonry.bolts = masonry.lining = "";
+    const Results r = results_of(masonry.text(), {"--set", "joint.friction=60 deg"});
+    // 24 m x 20 m cut at every metre, from a random first joint on.
+    CHECK(r.json.at("rock").at("median_block_area_m2") == doctest::Approx(1.0));
+    CHECK(r.json.at("rock").at("joints") >= 43);
+    CHECK(crown(r) > 0);
+  }
+
+  // Joints in a file: the tunnel is |z| < 2 m, the bolt runs from (0, 2) to (0, 4).
+  TEST_CASE("a bolt along a joint, through a crossing of joints and inside one block is ordinary") {
+    InputText mapped;
+    mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
+    mapped.bolts =
+        replaced(mapped.bolts, "\"30 deg\"", "\"90 deg\"") + "arc = [\"80 deg\", \"100 deg\"]\n";
+    struct Case {
+      std::string traces;
+      std::size_t crossings;
+    };
+    for (const auto& [traces, crossings] : {
+             Case{"x1,y1,x2,y2\n0,1,0,9\n-5,3,5,3\n", 1},        // along x = 0, past (0, 3)
+             Case{"-3,0,3,6\r\n\r\n3,0,-3,6,1\r\n", 1},          // from one wedge into the opposite
+             Case{"# one joint\n-5,-5,5,-5\n", 0},               // far below
+             Case{"-5,2.5,5,2.5\n-5,3,5,3\n-5,3.5,5,3.5\n", 3},  // three beds
+         }) {
+      CAPTURE(traces);
+      // Slabs right across the domain are longer than the limit of the other tests.
+      const Results r = results_of(mapped.text(), {"--set", "blocks.max_elongation=1000"}, traces);
+      CHECK(table(r.files.at("bolts.csv")).size() == crossings);
+      for (const auto& row : table(r.files.at("bolts.csv")))
+        CHECK(std::abs(std::stod(row.at("x_m"))) < 1e-9);
+    }
+  }
+
+  TEST_CASE("joints that coincide cut once, and those that cut nothing are counted") {
+    InputText mapped;
+    mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
+    const Results once = results_of(mapped.text(), {}, "-9,4,9,4\n");
+    const Results twice = results_of(mapped.text(), {}, "-9,4,9,4\n-9,4,9,4\n9,4,-5,4\n");
+    CHECK(once.json.at("rock").at("bodies") == 2);
+    CHECK(twice.json.at("rock").at("bodies") == 2);
+    CHECK(once.json.at("rock").at("joints_that_cut_nothing") == 0);
+    CHECK(twice.json.at("rock").at("joints_that_cut_nothing") == 2);
+    CHECK(crown(once) == crown(twice));
+  }
+
+  TEST_CASE("mapped joints are moved by the site coordinates of the tunnel") {
+    InputText mapped;
+    mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
+    const Results local = results_of(mapped.text(), {}, "-9,4,9,4\n-5,-6,7,6\n");
+    const Results site = results_of(
+        replaced(mapped.text(), "seed = 3", "seed = 3\norigin = [\"500000 m\", \"1200 m\"]"), {},
+        "499991,1204,500009,1204\n499995,1194,500007,1206\n");
+    CHECK(local.files.at("lining.csv") == site.files.at("lining.csv"));
+  }
+
+  TEST_CASE("the other methods find the same tunnel") {
+    const std::vector<std::string> coarse = {"--set", "blocks.min_inscribed_radius=0.35 m"};
+    const auto with = [&](const std::string& method) {
+      auto arguments = coarse;
+      arguments.insert(arguments.end(), {"--set", "run.method=" + method});
+      return results_of(supported, arguments);
+    };
+    const Results two_level = results_of(supported, coarse);
+    const Results relaxation = with("relaxation"), explicit_ = with("explicit");
+    CHECK(relaxation.json.at("models").get<std::string>().ends_with("Relaxation"));
+    CHECK(explicit_.json.at("models").get<std::string>().ends_with("Explicit"));
+    // Slip made on the way stays, so both overshoot a little.
+    CHECK(std::abs(crown(relaxation) - crown(two_level)) < 0.05 * crown(two_level));
+    CHECK(std::abs(crown(explicit_) - crown(two_level)) < 0.05 * crown(two_level));
+    CHECK(std::abs(thrust(explicit_) - thrust(two_level)) < 0.05 * thrust(two_level));
+  }
+
+  TEST_CASE("an interrupted run ends with status 130 and writes nothing") {
+    const Folder folder;
+    const std::string pipe_name = folder / "case.toml", out = folder / "out";
+    REQUIRE(mkfifo(pipe_name.c_str(), 0600) == 0);
+    // Explicit stepping without damping never comes to rest.
+    Running running({"run", pipe_name, "--out", out, "--set", "run.method=explicit", "--set",
+                     "run.damping=0", "--set", "run.max_steps=2000000000"});
+    // Opening waits until the program reads its input: from then on it listens to signals.
+    write_file(pipe_name, supported);
+    running.signal(SIGINT);
+    const Outcome outcome = running.wait();
+    CHECK(outcome.status == 130);
+    CHECK(outcome.out.empty());
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+
+  TEST_CASE("a step limit that is too low is reported as undecided, status 3, with its numbers") {
+    const Folder folder;
+    const Outcome outcome =
+        run_program({"run", write_file(folder / "case.toml", supported), "--out", folder / "out",
+                     "--set", "run.method=relaxation", "--set", "run.max_steps=1"});
+    CHECK(outcome.status == 3);
+    const Json json = Json::parse(read_file(folder / "out/run.json"));
+    CHECK(json.at("verdict") == "undecided");
+    CHECK(json.at("stages")
+              .back()
+              .at("equilibrium")
+              .at("reason")
+              .get<std::string>()
+              .find("step limit of 1") != std::string::npos);
+  }
+
+  TEST_CASE("a tunnel that collapses is a result: status 0, verdict and reason") {
+    const Folder folder;
+    InputText bare;
+    bare.bolts = bare.lining = "";
+    const Outcome outcome =
+        run_program({"run", write_file(folder / "case.toml", bare.text()), "--out", folder / "out",
+                     "--set", "joint.friction=5 deg", "--set", "run.displacement_limit=5 cm"});
+    INFO(outcome.out);
+    CHECK(outcome.status == 0);
+    const Json json = Json::parse(read_file(folder / "out/run.json"));
+    CHECK(json.at("verdict") == "collapsing");
+    CHECK(json.at("fallen_area_m2") > 0.0);
+  }
+}

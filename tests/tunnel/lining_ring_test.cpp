@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/opening.hpp>
+
+#include "support/jointed_rock.hpp"
+
+using namespace voussoir;
+using voussoir_test::degree;
+using voussoir_test::jointed_rock;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Jointed rock round a 5 m circle of 36 facets; wall pieces down to this size are kept.
+RockMass<Planar> tunnel_wall(double smallest = 0) {
+  const auto opening = circular_opening(5, 36);
+  return carve(jointed_rock(domain_around(opening, 14, 4, 4), 3), opening, smallest);
+}
+
+double wall_length(const RockMass<Planar>& mass) {
+  double sum = 0;
+  for (const auto& piece : wall_pieces(mass)) sum += piece.facet.length();
+  return sum;
+}
+double contact_length(const LiningFrame<Planar>& frame) {
+  double sum = 0;
+  for (const auto& c : frame.contacts) sum += c.facet.length();
+  return sum;
+}
+double angle_of(const Vec2& p) { return std::atan2(p.y(), p.x()); }
+
+}  // namespace
+
+TEST_SUITE("tunnel/lining_ring") {
+  TEST_CASE("a full ring is closed, and with as many nodes as facets sits on their middles") {
+    const auto mass = tunnel_wall();
+    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36});
+    REQUIRE(frame.nodes.size() == 36);
+    REQUIRE(frame.members.size() == 36);
+    for (std::size_t k = 0; k < 36; ++k) {
+      CHECK((frame.nodes[k] - mass.openings.back().edge(k).centre()).norm() <= 1e-12);
+      const auto [i, j] = frame.members[k];
+      CHECK((i + 1) % 36 == j);  // anticlockwise, the last one back to the first node
+    }
+  }
+
+  TEST_CASE("every piece of wall touches the lining once, with its full length") {
+    for (const int nodes : {8, 36, 50, 200}) {
+      CAPTURE(nodes);
+      const auto mass = tunnel_wall();
+      const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = nodes});
+      CHECK(frame.nodes.size() == static_cast<std::size_t>(nodes));
+      const double perimeter = mass.openings.back().perimeter(), stretch = perimeter / nodes;
+      CHECK(std::abs(wall_length(mass) - perimeter) <= 1e-9);  // nothing was dropped
+      CHECK(std::abs(contact_length(frame) - perimeter) <= 1e-9);
+      for (const auto& c : frame.contacts) {
+        REQUIRE(c.node >= 0);
+        REQUIRE(c.node < nodes);
+        // On the stretch of its node, and facing outwards: node on the left, rock on the right.
+        CHECK((c.facet.centre() - frame.nodes[static_cast<std::size_t>(c.node)]).norm() <=
+              0.5 * stretch + 1e-9);
+        CHECK(c.facet.area_vector().dot(c.facet.centre()) > 0);
+      }
+    }
+  }
+
+  TEST_CASE("where a piece of rock was dropped there is a gap, and no contact") {
+    const auto mass = tunnel_wall(0.3);
+    REQUIRE(mass.carving.dropped_pieces > 0);
+    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36});
+    CHECK(wall_length(mass) < mass.openings.back().perimeter() - 0.1);
+    CHECK(std::abs(contact_length(frame) - wall_length(mass)) <= 1e-9);
+    CHECK(frame.members.size() == 36);  // the ring bridges the gap
+  }
+
+  TEST_CASE("contacts belong to the blocks that form the wall there") {
+    const auto mass = tunnel_wall();
+    const auto pieces = wall_pieces(mass);
+    for (const auto& c : lining_frame(mass, {.nodes = 50}).contacts) {
+      const Vec2 p = c.facet.centre();
+      const bool found = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+        const Vec2 d = piece.facet.end - piece.facet.start, r = p - piece.facet.start;
+        return piece.body == c.body && std::abs(cross(d, r)) <= 1e-9 && r.dot(d) > 0 &&
+               r.dot(d) < d.squaredNorm();
+      });
+      CHECK(found);
+    }
+  }
+
+  TEST_CASE("a uniform pressure on the wall loads every node outwards without turning it") {
+    const auto mass = tunnel_wall();
+    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36});
+    std::vector<Vec2> force(36, Vec2::Zero());
+    std::vector<double> moment(36, 0.0);
+    for (const auto& c : frame.contacts) {
+      const auto k = static_cast<std::size_t>(c.node);
+      force[k] += c.facet.area_vector();  // pressure 1, away from the tunnel
+      moment[k] += cross(Vec2(c.facet.centre() - frame.nodes[k]), c.facet.area_vector());
+    }
+    const double facet = 5 * std::sin(pi / 36);
+    for (std::size_t k = 0; k < 36; ++k) {
+      CHECK((force[k] - facet * frame.nodes[k].normalized()).norm() <= 1e-9);
+      CHECK(std::abs(moment[k]) <= 1e-9);
+    }
+  }
+
+  TEST_CASE("a partial ring is open, its nodes lie in the arc and follow each other") {
+    struct Arc {
+      double from, to;
+      std::size_t nodes;
+    };
+    // Nodes at (k + 1/2) 10 degrees. The arcs over the springing start behind their gap.
+    for (const Arc& arc : {Arc{0, 180, 18}, Arc{-30, 210, 24}, Arc{-40, 40, 8}, Arc{200, 340, 14},
+                           Arc{330, 390, 6}}) {
+      CAPTURE(arc.from);
+      CAPTURE(arc.to);
+      const auto mass = tunnel_wall();
+      const LiningFrame<Planar> frame = lining_frame(
+          mass, {.nodes = 36, .from = arc.from * degree, .to = arc.to * degree});
+      CHECK(frame.nodes.size() == arc.nodes);
+      REQUIRE(frame.members.size() + 1 == frame.nodes.size());
+      const double between = 2 * 2.5 * std::cos(pi / 36) * std::sin(pi / 36);  // middles of facets
+      for (const auto& [i, j] : frame.members) {
+        CHECK(i + 1 == j);
+        CHECK(std::abs((frame.nodes[static_cast<std::size_t>(j)] -
+                        frame.nodes[static_cast<std::size_t>(i)])
+                           .norm() -
+                       between) <= 1e-9);
+      }
+      const double first = angle_of(frame.nodes.front()) - arc.from * degree;
+      CHECK(std::abs(std::remainder(first - 5 * degree, 2 * pi)) <= 1e-9);
+      // Only the wall along the arc is touched: one facet for every node.
+      CHECK(std::abs(contact_length(frame) -
+                     static_cast<double>(arc.nodes) * 5 * std::sin(pi / 36)) <= 1e-9);
+    }
+  }
+
+  TEST_CASE("the last opening is the one that is lined") {
+    auto mass = tunnel_wall();
+    const auto larger = circular_opening(6, 24);
+    mass = carve(std::move(mass), larger, 0);
+    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 24});
+    CHECK((frame.nodes[0] - larger.edge(0).centre()).norm() <= 1e-12);
+    CHECK(std::abs(contact_length(frame) - larger.perimeter()) <= 1e-9);
+  }
+
+  TEST_CASE("rings out of range are refused") {
+    const auto mass = tunnel_wall();
+    for (const int bad : {7, 0, -72, 2001})
+      CHECK_THROWS_AS((void)lining_frame(mass, {.nodes = bad}), InvalidInput);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS((void)lining_frame(mass, {.from = 1, .to = 1}), InvalidInput);
+    CHECK_THROWS_AS((void)lining_frame(mass, {.from = 0, .to = 6.4}), InvalidInput);
+    CHECK_THROWS_AS((void)lining_frame(mass, {.from = nan, .to = 1}), InvalidInput);
+    CHECK_THROWS_AS((void)lining_frame(mass, {.nodes = 36, .from = 0, .to = 12 * degree}),
+                    InvalidInput);  // one node only
+    const Domain<2> ground{{-5, -5}, {5, 5}};
+    CHECK_THROWS_AS((void)lining_frame(jointed_rock(ground, 1), {}), InvalidInput);  // no opening
+  }
+}
