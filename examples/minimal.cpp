@@ -14,8 +14,8 @@ int main() {
   const auto opening = circular_opening(10);
   const auto ground = domain_around(opening, 70, 20, 30);  // width, cover, below [m]
   const std::vector sets = {JointSet{"J1", 75 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                     JointSet{"J2", 25 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                     JointSet{"J3", 25 * deg, DipDirection::west, 1 * deg, 1, 0, 1}};
+                            JointSet{"J2", 25 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
+                            JointSet{"J3", 25 * deg, DipDirection::west, 1 * deg, 1, 0, 1}};
   const auto rock = slice(ground, joint_network(sets, ground, 1), {0.25, 5});
 
   Tunnel tunnel(rock, CoulombJoint({5e9, 5e8, 35 * deg}), {.density = 2700, .k0 = 1});
@@ -29,7 +29,7 @@ int main() {
 
   const double crown = 1e3 * convergence(tunnel).crown;
   std::printf("%s\n%zu blocks, %s: crown %.2f mm, error estimate %.1e\n",
-              Tunnel::composition().c_str(), rock.bodies.size(), to_string(result.verdict), crown,
+              Tunnel::composition().c_str(), tunnel.mass().bodies.size(), to_string(result.verdict), crown,
               result.error_estimate);
   return result.verdict == Verdict::stable && crown > 1 && crown < 4 ? 0 : 1;
 }

@@ -299,7 +299,7 @@ void read_run(Section& s, RunInput& run) {
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);
   if (const auto value = s.find("max_steps", Need::optional))
-    run.max_steps = value->as_integer(1, std::numeric_limits<std::int64_t>::max());
+    run.max_steps = value->as_integer(1, 2'000'000'000);
   const auto of_explicit = [&] {
     s.number("damping", run.damping, between(0, 0.95), Need::optional);
     s.integer("ramp_steps", run.ramp_steps, 0, 1'000'000'000);

@@ -88,8 +88,11 @@ std::string verdict_sentence(const RunResult& run) {
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
     sentence += ", after " + text("%.2f", run.fallen_measure()) + " m² of rock fell";
   if (last.verdict == Verdict::stable) {
-    sentence += ". Displacements are in error by at most about " +
-                text("%.2g", 100 * last.error_estimate) + " %; the worst block is out of balance by " +
+    sentence += std::isfinite(last.error_estimate)
+                    ? ". Estimated error of the displacements " +
+                          text("%.2g", 100 * last.error_estimate) + " %"
+                    : ". Error of the displacements not estimated by this method";
+    sentence += "; the worst block is out of balance by " +
                 text("%.2g", 100 * last.unbalance_over_weight) + " % of its weight.";
   } else {
     sentence += ": " + last.reason + ".";
@@ -316,11 +319,12 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
                           std::to_string(diagram.points.size()) + " tunnels in " +
                           std::to_string(diagram.blocks) + " blocks (seed " +
-                          std::to_string(input.model.seed) + "). Displacement error at most about " +
-                          text("%.2g", 100 * worst) + " %. Red circles: rock falls."};
+                          std::to_string(input.model.seed) + "). Largest estimated error of the displacements " +
+                          text("%.2g", 100 * worst) +
+                          " %. Red circles: rock falls or no equilibrium was found."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
-      {"tunnels that lose rock", std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
+      {"tunnels that fail", std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
   picture.diameter = 2 * input.tunnel.half_width();
   picture.thicknesses = axes.thickness;
   for (const auto& spacing : axes.spacing)
@@ -342,7 +346,9 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "stage    " + stage.name + text(": %g %% of the wall traction left; ", 100 * stage.wall_traction) +
            to_string(stage.report.verdict) + text(", crown %.2f mm\n", 1e3 * stage.convergence.crown);
   out += std::string("verdict  ") + to_string(last.verdict) + ": " + last.reason + "\n";
-  out += "         error estimate " + text("%.1e", last.error_estimate) + ", worst unbalance " +
+  out += "         error estimate " +
+         (std::isfinite(last.error_estimate) ? text("%.1e", last.error_estimate) : "not computed") +
+         ", worst unbalance " +
          text("%.1e", last.unbalance_over_weight) + " of a block's weight, " +
          text("%.2f s\n", run.equilibrium_seconds);
   if (run.fallen_measure() > 0)

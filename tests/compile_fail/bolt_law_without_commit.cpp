@@ -1,18 +1,29 @@
-// expect: bolt law: add `bool commit
+// expect: bolt law: add `bool commit(const BoltSpan<Dim>&, State&) const` (true: it broke)
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// A bolt law that cannot yield or break.
+#include <voussoir/solver/composition.hpp>
 
 namespace {
+
+using namespace voussoir;
+
 struct Bolt {
-  using role = voussoir::roles::BoltLaw;
+  using role = roles::BoltLaw;
   static constexpr const char* name = "Bolt";
-  struct State {};
+  struct State {
+    bool broken = false;
+  };
   template <int Dim>
-  voussoir::BoltForce<Dim> force(const voussoir::BoltSpan<Dim>&, const State&) const;
+  BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
+    if (state.broken) return {};
+    return {span.motion, span.motion.norm()};
+  }
   template <int Dim>
-  voussoir::Stress<Dim> stiffness(const voussoir::BoltSpan<Dim>&) const;
+  Stress<Dim> stiffness(const BoltSpan<Dim>&) const {
+    return Stress<Dim>::Identity();
+  }
 };
+
 }  // namespace
 
-using Broken = voussoir::Composition<Bolt>;
-static_assert(sizeof(Broken) > 0);
+template struct voussoir::Composition<Bolt>;

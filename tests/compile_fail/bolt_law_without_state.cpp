@@ -1,15 +1,31 @@
-// expect: bolt law: add `struct State`
+// expect: bolt law: add `struct State` for what a bolt remembers at a joint
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// What a bolt remembers at a joint must have a type.
+#include <voussoir/solver/composition.hpp>
 
 namespace {
+
+using namespace voussoir;
+
 struct Bolt {
-  using role = voussoir::roles::BoltLaw;
+  using role = roles::BoltLaw;
   static constexpr const char* name = "Bolt";
   template <int Dim>
-  voussoir::Stress<Dim> stiffness(const voussoir::BoltSpan<Dim>&) const;
+  BoltForce<Dim> force(const BoltSpan<Dim>& span, const double& state) const {
+    if (state > 1) return {};
+    return {span.motion, span.motion.norm()};
+  }
+  template <int Dim>
+  bool commit(const BoltSpan<Dim>& span, double& state) const {
+    state = span.motion.norm();
+    return state > 1;
+  }
+  template <int Dim>
+  Stress<Dim> stiffness(const BoltSpan<Dim>&) const {
+    return Stress<Dim>::Identity();
+  }
 };
+
 }  // namespace
 
-using Broken = voussoir::Composition<Bolt>;
-static_assert(sizeof(Broken) > 0);
+template struct voussoir::Composition<Bolt>;

@@ -1,18 +1,30 @@
-// expect: bolt law: add `Stress<Dim> stiffness
+// expect: bolt law: add `Stress<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m]
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// Time steps and the elastic matrix need the stiffness of the bolt.
+#include <voussoir/solver/composition.hpp>
 
 namespace {
+
+using namespace voussoir;
+
 struct Bolt {
-  using role = voussoir::roles::BoltLaw;
+  using role = roles::BoltLaw;
   static constexpr const char* name = "Bolt";
-  struct State {};
+  struct State {
+    bool broken = false;
+  };
   template <int Dim>
-  voussoir::BoltForce<Dim> force(const voussoir::BoltSpan<Dim>&, const State&) const;
+  BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
+    if (state.broken) return {};
+    return {span.motion, span.motion.norm()};
+  }
   template <int Dim>
-  bool commit(const voussoir::BoltSpan<Dim>&, State&) const;
+  bool commit(const BoltSpan<Dim>& span, State& state) const {
+    state.broken = state.broken || span.motion.norm() > 1;
+    return state.broken;
+  }
 };
+
 }  // namespace
 
-using Broken = voussoir::Composition<Bolt>;
-static_assert(sizeof(Broken) > 0);
+template struct voussoir::Composition<Bolt>;

@@ -1,17 +1,29 @@
-// expect: contact law: add `template <int Dim> struct State`
+// expect: contact law: add `template <int Dim> struct State` for what a point remembers
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// What a point remembers between two states must have a type.
+#include <voussoir/solver/composition.hpp>
 
 namespace {
+
+using namespace voussoir;
+
 struct Law {
-  using role = voussoir::roles::ContactLaw;
+  using role = roles::ContactLaw;
   static constexpr const char* name = "Law";
   template <int Dim>
-  voussoir::PointForce<Dim> force(const voussoir::PointLoad<Dim>&) const;
-  double joint_normal_stiffness() const;
-  double joint_shear_stiffness() const;
+  PointForce<Dim> force(const PointLoad<Dim>& load, const double& state) const {
+    PointForce<Dim> result = load.initial;
+    result.normal -= load.weight * (load.motion.opening + state);
+    return result;
+  }
+  template <int Dim>
+  void commit(const PointLoad<Dim>& load, double& state) const {
+    state = load.motion.slip[0];
+  }
+  [[nodiscard]] double joint_normal_stiffness() const { return 1; }
+  [[nodiscard]] double joint_shear_stiffness() const { return 1; }
 };
+
 }  // namespace
 
-using Broken = voussoir::Composition<Law>;
-static_assert(sizeof(Broken) > 0);
+template struct voussoir::Composition<Law>;

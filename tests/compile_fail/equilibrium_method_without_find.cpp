@@ -1,12 +1,17 @@
-// expect: equilibrium method: add `template <class System> EquilibriumReport find
+// expect: equilibrium method: add `template <class System> EquilibriumReport find(System&, const SearchContext&) const`
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// An equilibrium method that does not search.
+#include <voussoir/solver/solver.hpp>
 
 namespace {
+
+using namespace voussoir;
+
 struct Method {
-  using role = voussoir::roles::Equilibrium;
+  using role = roles::Equilibrium;
   static constexpr const char* name = "Method";
 };
+
 }  // namespace
 
-static_assert(sizeof(voussoir::Solver<Method>) > 0);
+const auto text = voussoir::Solver<Method>::composition();

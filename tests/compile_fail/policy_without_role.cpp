@@ -1,10 +1,16 @@
-// expect: a policy fills no role
+// expect: Solver: a policy fills no role; give it `using role = voussoir::roles::...`
 // SPDX-License-Identifier: MIT
-#include <voussoir/voussoir.hpp>
+// A type given to the solver that does not say what it is for.
+#include <voussoir/solver/composition.hpp>
 
 namespace {
-struct Stray {};
+
+using namespace voussoir;
+
+struct NoPolicy {
+  static constexpr const char* name = "NoPolicy";
+};
+
 }  // namespace
 
-using Broken = voussoir::Composition<Stray>;
-static_assert(sizeof(Broken) > 0);
+template struct voussoir::Composition<NoPolicy>;

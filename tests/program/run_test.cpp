@@ -304,16 +304,17 @@ TEST_SUITE("program/run") {
       std::string traces;
       std::size_t crossings;
     };
-    for (const auto& [traces, crossings] : {
+    for (const Case& given : {
              Case{"x1,y1,x2,y2\n0,1,0,9\n-5,3,5,3\n", 1},        // along x = 0, past (0, 3)
              Case{"-3,0,3,6\r\n\r\n3,0,-3,6,1\r\n", 1},          // from one wedge into the opposite
              Case{"# one joint\n-5,-5,5,-5\n", 0},               // far below
              Case{"-5,2.5,5,2.5\n-5,3,5,3\n-5,3.5,5,3.5\n", 3},  // three beds
          }) {
-      CAPTURE(traces);
+      CAPTURE(given.traces);
       // Slabs right across the domain are longer than the limit of the other tests.
-      const Results r = results_of(mapped.text(), {"--set", "blocks.max_elongation=1000"}, traces);
-      CHECK(table(r.files.at("bolts.csv")).size() == crossings);
+      const Results r =
+          results_of(mapped.text(), {"--set", "blocks.max_elongation=1000"}, given.traces);
+      CHECK(table(r.files.at("bolts.csv")).size() == given.crossings);
       for (const auto& row : table(r.files.at("bolts.csv")))
         CHECK(std::abs(std::stod(row.at("x_m"))) < 1e-9);
     }

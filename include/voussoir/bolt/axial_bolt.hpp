@@ -75,8 +75,12 @@ class AxialBolt {
   template <int Dim>
   [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
     // Anchors that coincide pull along whatever direction they separate in.
-    if (!(span.initial.norm() > 0)) return params_.axial_stiffness * Stress<Dim>::Identity();
-    return params_.axial_stiffness * span.axis * span.axis.transpose();
+    const double length = span.initial.norm();
+    if (!(length > 0)) return params_.axial_stiffness * Stress<Dim>::Identity();
+    // A taut bar also resists being moved sideways, by T0 / d.
+    const Stress<Dim> along = span.axis * span.axis.transpose();
+    return params_.axial_stiffness * along +
+           params_.pretension / length * (Stress<Dim>::Identity() - along);
   }
 
   [[nodiscard]] const Params& params() const { return params_; }

@@ -121,9 +121,11 @@ class ConvexPolygon {
     };
     if (size() < 3) throw InvalidInput("convex polygon: needs at least 3 vertices");
     if (cuts_.size() != size()) throw InvalidInput("convex polygon: needs one label per face");
-    double turning = 0;
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (std::size_t k = 0; k < size(); ++k)
       if (!vertices_[k].allFinite()) fail(k, "is not finite");
+    double turning = 0, doubled_area = 0;
+    for (std::size_t k = 0; k < size(); ++k) {
+      doubled_area += cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
       const Segment in = face(k), out = face(k + 1 == size() ? 0 : k + 1);
       if (!(in.length() > 0)) fail(k, "is repeated");
       const Vec2 u = in.end - in.start, v = out.end - out.start;
@@ -131,7 +133,7 @@ class ConvexPolygon {
       turning += std::atan2(cross(u, v), u.dot(v));
     }
     // Every corner turns left; a star polygon does so too, but turns more than once.
-    if (std::abs(turning - 6.283185307179586) > 1e-6)
+    if (std::abs(turning - 6.283185307179586) > 1e-6 || !(doubled_area > 0))
       throw InvalidInput("convex polygon: the outline crosses itself or encloses no area");
   }
 

@@ -26,9 +26,10 @@ class SimplePolygon {
   /// @cost  O(n^2) for the crossing test
   explicit SimplePolygon(std::vector<Vec2> vertices) : vertices_(std::move(vertices)) {
     if (size() < 3) throw InvalidInput("outline: needs at least 3 vertices");
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (std::size_t k = 0; k < size(); ++k)
       if (!vertices_[k].allFinite())
         throw InvalidInput("outline: vertex " + std::to_string(k) + " is not finite");
+    for (std::size_t k = 0; k < size(); ++k) {
       if (!(edge(k).length() > 0))
         throw InvalidInput("outline: vertex " + std::to_string(k) + " is repeated");
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -69,13 +70,20 @@ class Slicer {
       cuts_.push_back({Cut::Kind::boundary, side});
     nodes_.push_back({});
     blocks_.push_back(as_block(domain));
+    for (std::size_t face = 0; face < blocks_.front().size(); ++face)
+      sides_.push_back(blocks_.front().half_space(face));
   }
 
   void cut_by(const Joint& joint, int index) {
     ++report_.joints;
     const HalfSpace<Geometry::dim> line = side_of(joint.trace);
     bool used = false;
-    pending_.assign(1, {0, joint.trace});
+    // The tree divides the whole plane: what lies outside the domain must not reach it.
+    std::optional<Trace> inside = joint.trace;
+    for (const auto& side : sides_)
+      if (inside) inside = voussoir::split(*inside, side, tolerance_).below;
+    pending_.clear();
+    if (inside) pending_.emplace_back(0, *inside);
     while (!pending_.empty()) {
       const auto [at, piece] = pending_.back();
       pending_.pop_back();
@@ -155,6 +163,7 @@ class Slicer {
   double tolerance_;
   std::vector<Node> nodes_;
   std::vector<Shape> blocks_;
+  std::vector<HalfSpace<Geometry::dim>> sides_;  ///< of the domain
   std::vector<Cut> cuts_;
   std::vector<std::pair<std::size_t, Trace>> pending_;
   SlicingReport report_;
