@@ -105,6 +105,16 @@ TEST_SUITE("geometry/linear_program") {
     CHECK(maximise<2>({1, -1}, {{{0, 0}, 1}}, 7) == Point<2>(7, -7));
   }
 
+  TEST_CASE("a constraint that cuts off very little is obeyed all the same") {
+    for (const double cut : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      CAPTURE(cut);
+      // First x <= 1 and y <= 1, then a bevel of the corner (1, 1): the best of x + y is 2 - cut.
+      const auto best = maximise<2>({1, 1}, {{{1, 0}, 1}, {{0, 1}, 1}, {{1, 1}, 2 - cut}}, 10);
+      REQUIRE(best.has_value());
+      CHECK(std::abs(best->sum() - (2 - cut)) < 1e-14 * 10);  // the tolerance: 1e-14 of the bound
+    }
+  }
+
   TEST_CASE("an objective along a face gives a point of that face") {
     const auto best = maximise<2>({0, 1}, {{{0, 1}, 1}, {{1, 0}, 3}, {{-1, 0}, 3}}, 100);
     REQUIRE(best.has_value());

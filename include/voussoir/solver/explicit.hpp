@@ -162,7 +162,7 @@ class Explicit {
     factor.solve_in_place(d);
     ++report.factorisations;
     ++report.elastic_solves;
-    return System::largest_translation(d) / System::largest_translation(system.displacement);
+    return System::relative_correction(d, system.displacement);
   }
 
   Params params_;

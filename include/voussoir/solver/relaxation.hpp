@@ -118,7 +118,7 @@ class Relaxation {
         break;
       }
       ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);
-      for (int k = 0; k < params_.check_every; ++k) {
+      for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
         if (k > 0) active.template forces<Committing>(u, f);
         ++report.steps;
         for (const int b : active.bodies())

@@ -172,7 +172,8 @@ class Solver {
   /// @throws NumericalFault  see the method
   EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
                                 const Acceptance& acceptance = {}, const Progress& progress = {}) {
-    require(wall_fraction >= 0 && wall_fraction <= 1, "wall traction", wall_fraction, "0 to 1");
+    require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
+            wall_fraction, "0 to 1 and no more than was left before");
     started_ = true;
     const SearchContext context{acceptance, &measures_, wall_fraction, progress};
     EquilibriumReport report = method.find(system_, context);

@@ -188,6 +188,13 @@ class System {
     return worst;
   }
 
+  /// Largest elastic correction over the largest displacement: the error estimate [-]. Below a
+  /// nanometre of displacement there is nothing to be in error.
+  [[nodiscard]] static double relative_correction(const Eigen::VectorXd& correction,
+                                                  const Eigen::VectorXd& u) {
+    return largest_translation(correction) / std::max(largest_translation(u), 1e-9);
+  }
+
   /// Largest translation of a movable body [m].
   [[nodiscard]] static double largest_translation(const Eigen::VectorXd& u) {
     double squared = 0;

@@ -179,8 +179,7 @@ class TwoLevel {
       factor->solve_in_place(d);
       ++report.elastic_solves;
       report.largest_displacement = System::largest_translation(u);
-      const double correction = System::largest_translation(d);
-      report.error_estimate = correction > 0 ? correction / report.largest_displacement : 0.0;
+      report.error_estimate = System::relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
       if (!std::isfinite(report.error_estimate))
         throw NumericalFault("two-level search: displacements are not finite in search " +
