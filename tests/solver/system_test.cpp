@@ -229,6 +229,25 @@ TEST_SUITE("solver/system") {
     CHECK((k * turn).norm() <= 1e-14 * k.norm() * turn.norm());
   }
 
+  TEST_CASE("a dowel that grips on the joint does not feel the whole rock turn either") {
+    // Gripping d_init apart it would feel theta d_init as shear, as its header says: the two anchors
+    // of a wall bolt are moved to where it crosses the joint.
+    const AxialShearBolt dowel({.axial = {.axial_stiffness = 2e8, .carries_compression = true},
+                                .shear_stiffness = 3e8});
+    Wall<AxialShearBolt> wall(dowel, 80 * degree, 0, true);
+    for (auto& bolt : wall.system.bolts) {
+      bolt.arm_a += 0.5 * bolt.span.initial;
+      bolt.arm_b -= 0.5 * bolt.span.initial;
+      bolt.span.initial.setZero();
+    }
+    const Eigen::MatrixXd k = dense(wall.system.elastic_stiffness());
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(3 * wall.system.body_count());
+    for (int b = 0; b < wall.system.body_count(); ++b)
+      if (wall.system.body(b).movable)
+        turn.segment<3>(3 * b) << perpendicular(wall.system.body(b).centre), 1;
+    CHECK((k * turn).norm() <= 1e-14 * k.norm() * turn.norm());
+  }
+
   TEST_CASE("a system turned in space feels turned forces") {
     const AxialBolt tensioned({.axial_stiffness = 2e8, .pretension = 1e5});
     Wall upright(tensioned, 30 * degree), turned(tensioned, 30 * degree, 0.7);
