@@ -9,8 +9,6 @@ target_compile_options(
   INTERFACE
     "$<${gnu_like}:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>"
     "$<$<AND:${gnu_like},$<BOOL:${VOUSSOIR_WERROR}>>:-Werror>"
-    # g++ 12 guesses wrongly about Eigen's storage when it optimises: shown, but no error.
-    "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-error=maybe-uninitialized;-Wno-error=array-bounds;-Wno-error=stringop-overflow>"
 )
 
 add_library(voussoir_own INTERFACE)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A 10 m tunnel in jointed rock, bolted and lined: how far does the crown come in, and does it stand?
-// The elastic crown of the unsupported hole in a medium of these moduli moves about 3 mm.
+// A 10 m tunnel in jointed rock, bolted and lined: how far does the crown come in, and does it
+// stand? The elastic crown of the unsupported hole in a medium of these moduli moves about 3 mm.
 #include <cstdio>
 #include <numbers>
 #include <voussoir/voussoir.hpp>
@@ -29,7 +29,7 @@ int main() {
 
   const double crown = 1e3 * convergence(tunnel).crown;
   std::printf("%s\n%zu blocks, %s: crown %.2f mm, error estimate %.1e\n",
-              Tunnel::composition().c_str(), tunnel.mass().bodies.size(), to_string(result.verdict), crown,
-              result.error_estimate);
+              Tunnel::composition().c_str(), tunnel.mass().bodies.size(), to_string(result.verdict),
+              crown, result.error_estimate);
   return result.verdict == Verdict::stable && crown > 1 && crown < 4 ? 0 : 1;
 }

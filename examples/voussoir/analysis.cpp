@@ -117,13 +117,15 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   const double needed = run.tunnel.in_situ().required_friction_angle();
   if (needed > input.joint.friction_angle)
     warn("in situ: with K0 = " + number(input.stress.K0) + " some joint orientations need " +
-         number(needed * 180 / std::numbers::pi) + " deg of friction; joints that cannot carry the " +
+         number(needed * 180 / std::numbers::pi) +
+         " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
-  if (input.run.displacement_limit > 0 && run.last().largest_displacement > 0.02)
+  if (run.last().largest_displacement > Acceptance{}.displacement_limit)
     warn("blocks moved up to " + number(1e3 * run.last().largest_displacement) +
          " mm; contacts are those of the initial position, which is good to about 20 mm");
   std::vector<char> holds(run.bars.size(), 0);
-  for (const CrossingForce& c : bolt_forces(run.tunnel)) holds[static_cast<std::size_t>(c.bolt)] = 1;
+  for (const CrossingForce& c : bolt_forces(run.tunnel))
+    holds[static_cast<std::size_t>(c.bolt)] = 1;
   int idle = 0;
   for (const char h : holds) idle += h == 0;
   if (idle > 0)
@@ -134,8 +136,8 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
                                                 2 * input.tunnel.half_width());
     if (node_spacing > joint_spacing)
-      warn("lining nodes are " + number(node_spacing) + " m apart, joints " + number(joint_spacing) +
-           " m: take more nodes");
+      warn("lining nodes are " + number(node_spacing) + " m apart, joints " +
+           number(joint_spacing) + " m: take more nodes");
   }
   return warnings;
 }
@@ -151,8 +153,10 @@ double RunResult::fallen_measure() const {
 SimplePolygon opening_of(const Input& input) {
   const TunnelInput& t = input.tunnel;
   switch (t.shape) {
-    case TunnelShape::circle: return circular_opening(t.diameter, t.facets);
-    case TunnelShape::horseshoe: return horseshoe_opening(t.width, t.wall_height, t.facets);
+    case TunnelShape::circle:
+      return circular_opening(t.diameter, t.facets);
+    case TunnelShape::horseshoe:
+      return horseshoe_opening(t.width, t.wall_height, t.facets);
     case TunnelShape::polygon: {
       std::vector<Vec2> vertices;
       for (const Point& p : t.vertices) vertices.emplace_back(p[0], p[1]);
@@ -176,8 +180,7 @@ RockMass<Planar> rock_of(const Input& input) {
   if (!input.joints_file.empty()) {
     // Mapped joints come first: what was seen takes precedence over what was drawn at random.
     std::ifstream file(input.joints_file, std::ios::binary);
-    if (!file)
-      throw InvalidInput("joints.file: cannot open " + input.joints_file.string());
+    if (!file) throw InvalidInput("joints.file: cannot open " + input.joints_file.string());
     joints = read_traces(file, input.joints_file.string(), domain.site_origin);
   }
   const auto random = joint_network(sets, domain, input.model.seed);
@@ -221,8 +224,8 @@ DiagramResult run_diagram(const Input& input, unsigned threads, const Report& re
     if (!go_on) return point;
     Tunnel tunnel = excavated.tunnel;
     std::vector<Segment> bars;
-    const auto stages = build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j],
-                              quiet, bars);
+    const auto stages =
+        build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j], quiet, bars);
     point.report = stages.back().report;
     for (std::size_t k = 0; k + 1 < stages.size(); ++k)
       point.report.fallen_measure += stages[k].report.fallen_measure;

@@ -309,6 +309,11 @@ void read_run(Section& s, RunInput& run) {
   } else {
     s.unread(of_explicit);
   }
+  if (known && run.method == RunMethod::explicit_ && run.max_steps &&
+      *run.max_steps <= run.ramp_steps)
+    s.complain("max_steps",
+               "ends before the ramp of " + std::to_string(run.ramp_steps) + " steps does",
+               "a whole number above run.ramp_steps");
 }
 
 void read_diagram(Section& s, DiagramInput& diagram) {

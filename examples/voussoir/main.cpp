@@ -10,7 +10,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
 #include <voussoir/core/version.hpp>
 
 #include "outputs.hpp"
@@ -19,7 +18,14 @@ namespace {
 
 using namespace voussoir::program;
 
-enum ExitStatus { finished = 0, failed = 1, bad_input = 2, not_decided = 3, numerical_fault = 4, interrupted = 130 };
+enum ExitStatus {
+  finished = 0,
+  failed = 1,
+  bad_input = 2,
+  not_decided = 3,
+  numerical_fault = 4,
+  interrupted = 130
+};
 
 volatile std::sig_atomic_t stop_asked = 0;
 extern "C" void ask_to_stop(int) { stop_asked = 1; }
@@ -57,6 +63,20 @@ class ProgressLine {
   bool shown_;
 };
 
+/// Refuses a folder in which nothing can be written, before anything is computed.
+void check_folder(const Options& options) {
+  std::filesystem::path there = std::filesystem::absolute(options.folder);
+  std::error_code error;
+  while (!std::filesystem::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    throw std::runtime_error("--out " + options.folder + ": '" + there.string() +
+                             "' is not a folder");
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error("--out " + options.folder + ": no permission to write in '" +
+                             there.string() + "'");
+}
+
 std::filesystem::path prepared_folder(const Options& options) {
   const std::filesystem::path folder = options.folder;
   std::error_code error;
@@ -72,13 +92,19 @@ void publish(voussoir::OutputSet& outputs, const Options& options, const std::st
   if (!options.quiet) std::cout << "written  " << names << " in " << options.folder << "\n";
 }
 
+int say_interrupted() {
+  std::cerr << "interrupted: nothing written\n";
+  return interrupted;
+}
+
 int run_verb(const Options& options) {
   const Input input = read_input(options.file, options.overrides);
+  check_folder(options);
   ProgressLine line(options.quiet);
   const RunResult run = run_tunnel(
       input, [&](const std::string& what, double fraction) { return line.show(what, fraction); });
   line.clear();
-  if (stop_asked != 0) return interrupted;
+  if (stop_asked != 0) return say_interrupted();
   const std::filesystem::path folder = prepared_folder(options);
   voussoir::OutputSet outputs;
   outputs.add(folder / "run.json", run_json(input, run));
@@ -96,12 +122,13 @@ int diagram_verb(const Options& options) {
     throw voussoir::InvalidInput(
         "no [diagram] in " + options.file +
         "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
+  check_folder(options);
   ProgressLine line(options.quiet);
   const DiagramResult diagram = run_diagram(
       input, options.threads,
       [&](const std::string& what, double fraction) { return line.show(what, fraction); });
   line.clear();
-  if (stop_asked != 0) return interrupted;
+  if (stop_asked != 0) return say_interrupted();
   const std::filesystem::path folder = prepared_folder(options);
   voussoir::OutputSet outputs;
   outputs.add(folder / "interaction.csv", interaction_csv(input, diagram));
@@ -127,7 +154,8 @@ int main(int argc, char** argv) {
     verb->add_option("FILE", options.file, "input file (TOML)")->required();
     verb->add_option("-o,--out", options.folder, "folder for the results, made if missing")
         ->capture_default_str();
-    verb->add_option("--set", options.overrides, "KEY=VALUE in place of the file's, for example joint.kn=\"10 GPa/m\"")
+    verb->add_option("--set", options.overrides,
+                     "KEY=VALUE in place of the file's, for example joint.kn=\"10 GPa/m\"")
         ->allow_extra_args(false);
     verb->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   };

@@ -7,9 +7,12 @@ namespace voussoir::program {
 
 ChosenAnchors anchors_of(const BoltsInput& bolts) {
   switch (bolts.anchors) {
-    case BoltAnchors::lorig: return ChosenAnchors(LorigAnchors{bolts.anchor_offset});
-    case BoltAnchors::garga_wang: return ChosenAnchors(GargaWangAnchors{});
-    case BoltAnchors::joint_face: return ChosenAnchors(JointFaceAnchors{});
+    case BoltAnchors::lorig:
+      return ChosenAnchors(LorigAnchors{bolts.anchor_offset});
+    case BoltAnchors::garga_wang:
+      return ChosenAnchors(GargaWangAnchors{});
+    case BoltAnchors::joint_face:
+      return ChosenAnchors(JointFaceAnchors{});
   }
   throw std::logic_error("unknown bolt anchors");
 }
@@ -56,12 +59,19 @@ ChosenMethod method_of(const Input& input) {
 }
 
 std::string composition_of(const Input& input) {
-  std::string text = std::string(Planar::name) + ", " + CutContacts::name + ", " + CoulombJoint::name;
+  std::string text =
+      std::string(Planar::name) + ", " + CutContacts::name + ", " + CoulombJoint::name;
   if (input.bolts) {
     switch (input.bolts->anchors) {
-      case BoltAnchors::lorig: text.append(", ").append(LorigAnchors::name); break;
-      case BoltAnchors::garga_wang: text.append(", ").append(GargaWangAnchors::name); break;
-      case BoltAnchors::joint_face: text.append(", ").append(JointFaceAnchors::name); break;
+      case BoltAnchors::lorig:
+        text.append(", ").append(LorigAnchors::name);
+        break;
+      case BoltAnchors::garga_wang:
+        text.append(", ").append(GargaWangAnchors::name);
+        break;
+      case BoltAnchors::joint_face:
+        text.append(", ").append(JointFaceAnchors::name);
+        break;
     }
     text.append(", ").append(input.bolts->law == BoltLaw::axial ? AxialBolt::name
                                                                 : AxialShearBolt::name);
@@ -71,9 +81,12 @@ std::string composition_of(const Input& input) {
                                  ? EulerBernoulliBeam::name
                                  : TimoshenkoBeam::name);
   switch (input.run.method) {
-    case RunMethod::two_level: return text + ", " + TwoLevel::name;
-    case RunMethod::relaxation: return text + ", " + Relaxation::name;
-    case RunMethod::explicit_: return text + ", " + Explicit::name;
+    case RunMethod::two_level:
+      return text + ", " + TwoLevel::name;
+    case RunMethod::relaxation:
+      return text + ", " + Relaxation::name;
+    case RunMethod::explicit_:
+      return text + ", " + Explicit::name;
   }
   return text;
 }

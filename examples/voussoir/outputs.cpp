@@ -11,6 +11,7 @@
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/interaction_picture.hpp>
+#include <voussoir/io/number_text.hpp>
 
 namespace voussoir::program {
 
@@ -24,6 +25,15 @@ std::string text(const char* format, double value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
+}
+
+std::string computed(const char* format, double value) {
+  return std::isfinite(value) ? text(format, value) : "not computed";
+}
+
+/// "3.29" for 3.29e-3 m; "-" where the wall has fallen.
+std::string millimetres(double metres) {
+  return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
 }
 
 double angle_of(const Vec2& p) {
@@ -144,7 +154,8 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"vertical_stress_at_centre_kPa", 1e-3 * centre_stress},
         {"in_situ_unbalance_over_weight", run.in_situ_unbalance}}},
       {"warnings", run.warnings},
-      {"time_s", {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+      {"time_s",
+       {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
@@ -167,8 +178,8 @@ std::string bolts_csv(const RunResult& run) {
     const auto k = static_cast<std::size_t>(c.bolt);
     const Segment& bar = run.bars[k];
     const Vec2 p = bar.at(c.position / bar.length());
-    table.add_row(c.bolt + 1, angle_of(bar.end - bar.start), ++crossing[k], c.position, p.x(), p.y(),
-                  1e-3 * c.force, 1e3 * c.extension,
+    table.add_row(c.bolt + 1, angle_of(bar.end - bar.start), ++crossing[k], c.position, p.x(),
+                  p.y(), 1e-3 * c.force, 1e3 * c.extension,
                   c.ruptured ? "ruptured" : (c.yielded ? "yielded" : "elastic"));
   }
   return table.text();
@@ -193,7 +204,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   const Extremes e = extremes_of(run);
   picture.header.title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
   picture.header.lines = {verdict_sentence(run)};
-  picture.header.key_numbers = {{"crown convergence", text("%.2f mm", 1e3 * c.crown)},
+  picture.header.key_numbers = {{"crown convergence", millimetres(c.crown) + " mm"},
                                 {"blocks", std::to_string(tunnel.mass().bodies.size())}};
   if (tunnel.bolt_count() > 0)
     picture.header.key_numbers.push_back(
@@ -217,21 +228,21 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   };
   std::vector<Seen> seen(system.joints.contacts().size());
   const auto* first = system.joints.contacts().data();
-  system.joints.visit(system.displacement.data(),
-                      [&](const auto& contact, const auto& point, const auto&, const auto& force) {
-                        Seen& s = seen[static_cast<std::size_t>(&contact - first)];
-                        s.open = s.open && !(force.normal > 0);
-                        s.slipped = s.slipped || point.state.plastic_slip.norm() > visible_slip;
-                        s.half_length = std::max(s.half_length, std::sqrt(3.0) * point.offset.norm());
-                      });
+  system.joints.visit(system.displacement.data(), [&](const auto& contact, const auto& point,
+                                                      const auto&, const auto& force) {
+    Seen& s = seen[static_cast<std::size_t>(&contact - first)];
+    s.open = s.open && !(force.normal > 0);
+    s.slipped = s.slipped || point.state.plastic_slip.norm() > visible_slip;
+    s.half_length = std::max(s.half_length, std::sqrt(3.0) * point.offset.norm());
+  });
   for (std::size_t k = 0; k < seen.size(); ++k) {
     if (!seen[k].open && !seen[k].slipped) continue;
     const auto& contact = system.joints.contacts()[k];
     const Vec2 centre = system.body(contact.a).centre + contact.arm_a;
     const Vec2 half = seen[k].half_length * perpendicular(contact.normal);
-    picture.joints.push_back({centre - half, centre + half,
-                              seen[k].open ? PictureJoint::State::opened
-                                           : PictureJoint::State::slipped});
+    picture.joints.push_back(
+        {centre - half, centre + half,
+         seen[k].open ? PictureJoint::State::opened : PictureJoint::State::slipped});
   }
   picture.outline = run.opening.vertices();
   picture.ground_surface = tunnel.mass().domain.surface();
@@ -274,12 +285,12 @@ std::string spacing_label(const std::optional<BoltSpacing>& spacing) {
 std::string interaction_csv(const Input& input, const DiagramResult& diagram) {
   const DiagramInput& axes = *input.diagram;
   const bool angular = axes.spacing.front() && axes.spacing.front()->is_angle;
-  CsvTable table({angular ? "bolt_spacing_deg" : "bolt_spacing_m", "lining_thickness_cm", "verdict",
-                  "failed", "crown_convergence_mm", "crown_convergence_percent_of_radius",
-                  "fallen_area_m2", "largest_bolt_force_kN", "mean_bolt_force_kN",
-                  "largest_thrust_kN_per_m", "largest_moment_kNm_per_m", "error_estimate",
-                  "unbalance_over_weight"},
-                 6);
+  CsvTable table(
+      {angular ? "bolt_spacing_deg" : "bolt_spacing_m", "lining_thickness_cm", "verdict", "failed",
+       "crown_convergence_mm", "crown_convergence_percent_of_radius", "fallen_area_m2",
+       "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
+       "largest_moment_kNm_per_m", "error_estimate", "unbalance_over_weight"},
+      6);
   const double radius = input.tunnel.half_width();
   for (const DiagramPoint& p : diagram.points) {
     const auto& spacing = axes.spacing[p.spacing];
@@ -314,17 +325,17 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
     failed += p.failed();
     if (standing) worst = std::max(worst, p.report.error_estimate);
   }
-  picture.header.title =
-      "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
-  picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
-                          std::to_string(diagram.points.size()) + " tunnels in " +
-                          std::to_string(diagram.blocks) + " blocks (seed " +
-                          std::to_string(input.model.seed) + "). Largest estimated error of the displacements " +
-                          text("%.2g", 100 * worst) +
-                          " %. Red circles: rock falls or no equilibrium was found."};
+  picture.header.title = "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
+  picture.header.lines = {
+      "Convergence of the crown over lining thickness and bolt spacing, " +
+      std::to_string(diagram.points.size()) + " tunnels in " + std::to_string(diagram.blocks) +
+      " blocks (seed " + std::to_string(input.model.seed) +
+      "). Largest estimated error of the displacements " + text("%.2g", 100 * worst) +
+      " %. Red circles: rock falls or no equilibrium was found."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
-      {"tunnels that fail", std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
+      {"tunnels that fail",
+       std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
   picture.diameter = 2 * input.tunnel.half_width();
   picture.thicknesses = axes.thickness;
   for (const auto& spacing : axes.spacing)
@@ -343,19 +354,21 @@ std::string run_summary(const Input& input, const RunResult& run) {
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
   for (const StageResult& stage : run.stages)
-    out += "stage    " + stage.name + text(": %g %% of the wall traction left; ", 100 * stage.wall_traction) +
-           to_string(stage.report.verdict) + text(", crown %.2f mm\n", 1e3 * stage.convergence.crown);
+    out += "stage    " + stage.name +
+           text(": %g %% of the wall traction left; ", 100 * stage.wall_traction) +
+           to_string(stage.report.verdict) + ", crown " + millimetres(stage.convergence.crown) +
+           " mm\n";
   out += std::string("verdict  ") + to_string(last.verdict) + ": " + last.reason + "\n";
-  out += "         error estimate " +
-         (std::isfinite(last.error_estimate) ? text("%.1e", last.error_estimate) : "not computed") +
-         ", worst unbalance " +
-         text("%.1e", last.unbalance_over_weight) + " of a block's weight, " +
+  out += "         error estimate " + computed("%.1e", last.error_estimate) + ", worst unbalance " +
+         computed("%.1e of a block's weight", last.unbalance_over_weight) + ", " +
          text("%.2f s\n", run.equilibrium_seconds);
   if (run.fallen_measure() > 0)
     out += "fallen   " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
-  out += "wall     crown " + text("%.2f", 1e3 * c.crown) + " mm, springings " +
-         text("%.2f", 1e3 * c.right_springing) + " and " + text("%.2f", 1e3 * c.left_springing) +
-         " mm, invert " + text("%.2f mm\n", 1e3 * c.invert);
+  out += "wall     crown " + millimetres(c.crown) + " mm, springings " +
+         millimetres(c.right_springing) + " and " + millimetres(c.left_springing) + " mm, invert " +
+         millimetres(c.invert) + " mm";
+  const bool fallen = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
+  out += fallen ? " (-: the wall there has fallen)\n" : "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
@@ -370,10 +383,10 @@ std::string run_summary(const Input& input, const RunResult& run) {
 
 std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
   const DiagramInput& axes = *input.diagram;
-  std::string out = "crown convergence [mm] of " + std::to_string(diagram.points.size()) +
-                    " tunnels in " + std::to_string(diagram.blocks) + " blocks" +
-                    text(", computed in %.1f s; R: rock falls, C: collapse, ?: undecided\n\n",
-                         diagram.seconds);
+  std::string out =
+      "crown convergence [mm] of " + std::to_string(diagram.points.size()) + " tunnels in " +
+      std::to_string(diagram.blocks) + " blocks" +
+      text(", computed in %.1f s; R: rock falls, C: collapse, ?: undecided\n\n", diagram.seconds);
   out += "spacing \\ lining";
   for (const double t : axes.thickness) out += text("%9.3g cm", 1e2 * t);
   out += "\n";
@@ -389,7 +402,8 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
                          : p.report.verdict == Verdict::undecided ? " ?"
                          : p.failed()                             ? " R"
                                                                   : "  ";
-      out += text("%10.2f", 1e3 * p.crown_convergence) + mark;
+      const std::string crown = millimetres(p.crown_convergence);
+      out += std::string(10 - std::min<std::size_t>(crown.size(), 10), ' ') + crown + mark;
     }
     out += "\n";
   }

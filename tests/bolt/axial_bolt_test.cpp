@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 #include <type_traits>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 
 #include "support/reference.hpp"
@@ -62,11 +61,11 @@ TEST_SUITE("bolt/axial_bolt") {
     for (const Place& place : {Place{"near", 0.0672}, Place{"mid", 0.77}, Place{"at", 0.0}})
       for (const int angle : {0, 30})
         for (const char* shear : {"0.001", "0.01"}) {
-          const std::string row = std::string("F.bolt.") + place.name + ".th" +
-                                  std::to_string(angle) + ".s" + shear;
+          const std::string row =
+              std::string("F.bolt.") + place.name + ".th" + std::to_string(angle) + ".s" + shear;
           CAPTURE(row);
-          const BoltForce<2> f = bolt.force(
-              across_joint(place.distance, angle * degree, std::stod(shear), 0), {});
+          const BoltForce<2> f =
+              bolt.force(across_joint(place.distance, angle * degree, std::stod(shear), 0), {});
           const double force = reference(row + ".F");
           // The table has its components from a difference of lengths: an ulp of 0.77 m (1e-16 m)
           // over the smallest extension, 6.5e-7 m, is 1.7e-10.
@@ -147,7 +146,8 @@ TEST_SUITE("bolt/axial_bolt") {
     const double slack = far - top / stiffness;
     CHECK(std::abs(state.plastic_extension - slack) <= 1e-12 * far);
     CHECK(bolt.force(pulled<2>(0.99 * slack), state).axial == 0);
-    (void)bolt.commit(pulled<2>(0.5 * slack), state);  // slackness does not change what is remembered
+    (void)bolt.commit(pulled<2>(0.5 * slack),
+                      state);  // slackness does not change what is remembered
     CHECK(std::abs(bolt.force(pulled<2>(far), state).axial - top) <= 1e-12 * top);
     const double further = far + back;
     CHECK(std::abs(bolt.force(pulled<2>(further), state).axial - (top + ratio * 2e5)) <=
@@ -164,7 +164,7 @@ TEST_SUITE("bolt/axial_bolt") {
     const AxialBolt bolt(
         {.axial_stiffness = stiffness, .yield_force = 500e3, .rupture_force = 200e3});
     AxialBolt::State state;
-    CHECK(!bolt.commit(pulled<2>(0.99e-3), state));  // 198 kN
+    CHECK(!bolt.commit(pulled<2>(0.99e-3), state));            // 198 kN
     CHECK(bolt.force(pulled<2>(2e-3), state).axial == 200e3);  // read before the break is committed
     CHECK(!state.ruptured);
     CHECK(bolt.commit(pulled<2>(2e-3), state));

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <limits>
-
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/core/random.hpp>
 

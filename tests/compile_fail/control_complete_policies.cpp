@@ -89,8 +89,12 @@ struct Method {
 }  // namespace
 
 using Together = voussoir::Solver<Method, Law, Beam, Bolt, Detector, Anchors, voussoir::Planar>;
-const auto names = {Together::composition(), voussoir::Solver<Law>::composition(),
-                    voussoir::Solver<Anchors>::composition(), voussoir::Solver<Bolt>::composition(),
-                    voussoir::Solver<Beam>::composition(), voussoir::Solver<Detector>::composition(),
-                    voussoir::Solver<Method>::composition(), voussoir::Solver<>::composition()};
+const auto names = {Together::composition(),
+                    voussoir::Solver<Law>::composition(),
+                    voussoir::Solver<Anchors>::composition(),
+                    voussoir::Solver<Bolt>::composition(),
+                    voussoir::Solver<Beam>::composition(),
+                    voussoir::Solver<Detector>::composition(),
+                    voussoir::Solver<Method>::composition(),
+                    voussoir::Solver<>::composition()};
 template class voussoir::Solver<Method, Law, Beam, Bolt, Detector, Anchors, voussoir::Planar>;

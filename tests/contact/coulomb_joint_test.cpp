@@ -7,7 +7,6 @@
 #include <string>
 #include <type_traits>
 #include <vector>
-
 #include <voussoir/contact/coulomb_joint.hpp>
 
 using namespace voussoir;

@@ -42,7 +42,8 @@ TEST_SUITE("core/parallel") {
   }
 
   TEST_CASE("two threads work at the same time") {
-    // Each job waits for the other: one thread alone would never meet it. 30 s is for a busy machine.
+    // Each job waits for the other: one thread alone would never meet it. 30 s is for a busy
+    // machine.
     std::atomic<int> arrived{0};
     std::atomic<bool> met{true};
     parallel_for(2, 2, [&](std::size_t) {

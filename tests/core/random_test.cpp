@@ -12,8 +12,8 @@
 
 using namespace voussoir;
 
-// Bounds on sampled quantities are 4 standard errors, or the value a right generator exceeds once in
-// a thousand seeds; the seeds are fixed, so a test that passes once passes always.
+// Bounds on sampled quantities are 4 standard errors, or the value a right generator exceeds once
+// in a thousand seeds; the seeds are fixed, so a test that passes once passes always.
 
 TEST_SUITE("core/random") {
   TEST_CASE("Philox4x32-10 gives the known answers of its authors") {
@@ -33,8 +33,7 @@ TEST_SUITE("core/random") {
     const std::uint64_t seed = 0x1122334455667788, stream = 0x99aabbccddeeff00;
     Random random(seed, stream);
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto block =
-          Random::philox({k, 0, 0xddeeff00, 0x99aabbcc}, {0x55667788, 0x11223344});
+      const auto block = Random::philox({k, 0, 0xddeeff00, 0x99aabbcc}, {0x55667788, 0x11223344});
       CHECK(random.bits() == (block[0] | std::uint64_t{block[1]} << 32));
       CHECK(random.bits() == (block[2] | std::uint64_t{block[3]} << 32));
     }
@@ -50,8 +49,8 @@ TEST_SUITE("core/random") {
       CHECK(of_uniform.uniform() == std::ldexp(static_cast<double>(expected >> 11), -53));
       CHECK(of_below.below(10) == expected % 10);
     }
-    for (const double expected : {-0x1.d2cd3d7db3e1bp-1, -0x1.0013806de5c4p-5,
-                                  -0x1.4ddcafed38d3dp+0, -0x1.8348b988e2a1p-2})
+    for (const double expected :
+         {-0x1.d2cd3d7db3e1bp-1, -0x1.0013806de5c4p-5, -0x1.4ddcafed38d3dp+0, -0x1.8348b988e2a1p-2})
       CHECK(of_normal.normal() == expected);
   }
 
@@ -59,8 +58,8 @@ TEST_SUITE("core/random") {
     const int count = 4000;
     std::vector<std::vector<double>> samples;
     std::set<std::uint64_t> seen;
-    for (const auto& [seed, stream] : {std::pair{1, 0}, std::pair{1, 1}, std::pair{2, 0},
-                                       std::pair{2, 1}, std::pair{1, 2}}) {
+    for (const auto& [seed, stream] :
+         {std::pair{1, 0}, std::pair{1, 1}, std::pair{2, 0}, std::pair{2, 1}, std::pair{1, 2}}) {
       Random bits(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(stream));
       Random values = bits;
       samples.emplace_back();
@@ -171,8 +170,8 @@ TEST_SUITE("core/random") {
       beyond_three += v > 3 ? 1 : 0;
     }
     const auto expected = [](double z) { return count * std::erfc(z / std::sqrt(2.0)); };
-    CHECK(std::abs(beyond_two - expected(2)) < 4 * std::sqrt(expected(2)));        // 4550 +- 270
-    CHECK(std::abs(beyond_three - expected(3)) < 4 * std::sqrt(expected(3)));      // 270 +- 66
+    CHECK(std::abs(beyond_two - expected(2)) < 4 * std::sqrt(expected(2)));    // 4550 +- 270
+    CHECK(std::abs(beyond_three - expected(3)) < 4 * std::sqrt(expected(3)));  // 270 +- 66
   }
 
   TEST_CASE("shuffle gives every order equally often and loses nothing") {

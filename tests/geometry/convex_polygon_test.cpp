@@ -54,7 +54,8 @@ TEST_SUITE("geometry/convex_polygon") {
     CHECK(contains(refusal({{0, 0}, {1, 0}, {1, 1}, {0, 0}}), "vertex 3 is repeated"));
     // Clockwise: every corner turns right; the first one met is that between faces 0 and 1.
     CHECK(contains(refusal({{0, 0}, {0, 1}, {1, 1}, {1, 0}}), "vertex 1 is a non-convex"));
-    CHECK(contains(refusal({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}), "vertex 3 is a non-convex"));
+    CHECK(
+        contains(refusal({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}), "vertex 3 is a non-convex"));
     CHECK(contains(refusal({{0.5, 0.5}, {2, 0}, {2, 2}, {-1, 1}, {0, 0.9}}), "non-convex"));
     for (std::size_t k = 0; k < 4; ++k)
       for (const double bad : {nan, inf, -inf}) {
@@ -138,8 +139,7 @@ TEST_SUITE("geometry/convex_polygon") {
       const ConvexPolygon shape = voussoir_test::random_convex(random, 10, 2, height, centre);
       const Vec2 through = mass_properties(shape).centroid;
       const double angle = 2 * std::numbers::pi * random.uniform();
-      const auto line =
-          left_of(through, through + Vec2(std::cos(angle), std::sin(angle)));
+      const auto line = left_of(through, through + Vec2(std::cos(angle), std::sin(angle)));
       const double tolerance = 1e-11;
       const auto parts = shape.split(line, 99, tolerance);
       if (!parts) continue;
@@ -198,10 +198,9 @@ TEST_SUITE("geometry/convex_polygon") {
   TEST_CASE("a line through one vertex uses it; within the tolerance it counts as on the line") {
     for (const double miss : {0.0, 0.9e-9, -0.9e-9}) {
       CAPTURE(miss);
-      const auto parts =
-          polygon(unit_square).split(left_of({miss, 0}, {0.5 + miss, 1}), 7, 1e-9);
+      const auto parts = polygon(unit_square).split(left_of({miss, 0}, {0.5 + miss, 1}), 7, 1e-9);
       REQUIRE(parts.has_value());
-      CHECK(parts->first.size() == 3);   // (0,0), (0.5,1), (0,1)
+      CHECK(parts->first.size() == 3);  // (0,0), (0.5,1), (0,1)
       CHECK(parts->second.size() == 4);
       CHECK(faces_labelled(parts->first, 7).at(0).start == Vec2(0, 0));
     }

@@ -75,8 +75,8 @@ void check_ball(const ConvexPolygon& shape, double tolerance) {
 
 TEST_SUITE("geometry/inscribed_ball") {
   TEST_CASE("closed forms: triangle, square, rectangle, regular polygons") {
-    // A right triangle of legs 3 and 4: r = (3 + 4 - 5) / 2 = 1 about (1, 1). Bounds: a few roundings
-    // of lengths of that size.
+    // A right triangle of legs 3 and 4: r = (3 + 4 - 5) / 2 = 1 about (1, 1). Bounds: a few
+    // roundings of lengths of that size.
     const auto triangle = inscribed_ball(polygon({{0, 0}, {4, 0}, {0, 3}}));
     CHECK(std::abs(triangle.radius - 1) < 2e-15);
     CHECK((triangle.centre - Vec2(1, 1)).norm() < 4e-15);
@@ -108,8 +108,7 @@ TEST_SUITE("geometry/inscribed_ball") {
                    c = shape.face(0).length();
       const Vec2 incentre =
           (a * shape.vertex(0) + b * shape.vertex(1) + c * shape.vertex(2)) / (a + b + c);
-      const double thinness =
-          shape.diameter() * shape.diameter() / mass_properties(shape).measure;
+      const double thinness = shape.diameter() * shape.diameter() / mass_properties(shape).measure;
       // The corner of a thin triangle is ill conditioned along its length.
       CHECK(std::abs(ball.radius - 2 * mass_properties(shape).measure / (a + b + c)) < 1e-14);
       CHECK((ball.centre - incentre).norm() < 1e-14 * thinness);
@@ -143,8 +142,8 @@ TEST_SUITE("geometry/inscribed_ball") {
       CAPTURE(trial);
       const double angle = 6.3 * random.uniform(), ratio = std::pow(10, -4 * random.uniform());
       const Vec2 along(std::cos(angle), std::sin(angle)), across = perpendicular(along);
-      const ConvexPolygon rectangle = polygon(
-          {Vec2(0, 0), Vec2(along), Vec2(along + ratio * across), Vec2(ratio * across)});
+      const ConvexPolygon rectangle =
+          polygon({Vec2(0, 0), Vec2(along), Vec2(along + ratio * across), Vec2(ratio * across)});
       CHECK(std::abs(inscribed_ball(rectangle).radius - 0.5 * ratio) < 1e-15);
       check_ball(rectangle, 1e-14);
       const Vec2 edge = ratio * (across + 2 * (random.uniform() - 0.5) * along);
@@ -161,9 +160,10 @@ TEST_SUITE("geometry/inscribed_ball") {
     for (int trial = 0; trial < 300; ++trial) {
       CAPTURE(trial);
       const Vec2 centre(1e6, -2e6);
-      const ConvexPolygon shape =
-          voussoir_test::random_convex(random, 3 + trial % 12, 2, trial % 2 == 0 ? 1 : 1e-2, centre);
-      // Doubles are 2.3e-10 m apart at 2e6 m; the offset of a face takes four roundings of that size.
+      const ConvexPolygon shape = voussoir_test::random_convex(random, 3 + trial % 12, 2,
+                                                               trial % 2 == 0 ? 1 : 1e-2, centre);
+      // Doubles are 2.3e-10 m apart at 2e6 m; the offset of a face takes four roundings of that
+      // size.
       check_ball(shape, 4 * 2.4e-10);
     }
   }
@@ -179,8 +179,8 @@ TEST_SUITE("geometry/inscribed_ball") {
 
   TEST_CASE("straight corners and tiny faces do not disturb it") {
     // A unit square whose lower side is cut in three, with a bevel of 1e-9 m on one corner.
-    const ConvexPolygon shape = polygon(
-        {{0, 0}, {0.25, 0}, {0.75, 0}, {1, 0}, {1, 1 - 1e-9}, {1 - 1e-9, 1}, {0, 1}});
+    const ConvexPolygon shape =
+        polygon({{0, 0}, {0.25, 0}, {0.75, 0}, {1, 0}, {1, 1 - 1e-9}, {1 - 1e-9, 1}, {0, 1}});
     CHECK(std::abs(inscribed_ball(shape).radius - 0.5) < 1e-15);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,8 +10,6 @@
 #include <vector>
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/linear_program.hpp>
-
-#include <Eigen/Dense>
 
 using namespace voussoir;
 
@@ -78,7 +77,8 @@ Point<N> random_direction(Random& random) {
 TEST_SUITE("geometry/linear_program") {
   TEST_CASE("a corner known by hand: x + y under x + 2 y <= 4, 3 x + y <= 6") {
     // The lines meet at (8/5, 6/5).
-    const auto best = maximise<2>({1, 1}, {{{1, 2}, 4}, {{3, 1}, 6}, {{-1, 0}, 0}, {{0, -1}, 0}}, 100);
+    const auto best =
+        maximise<2>({1, 1}, {{{1, 2}, 4}, {{3, 1}, 6}, {{-1, 0}, 0}, {{0, -1}, 0}}, 100);
     REQUIRE(best.has_value());
     CHECK((*best - Point<2>(1.6, 1.2)).norm() < 1e-14);
   }
@@ -87,10 +87,11 @@ TEST_SUITE("geometry/linear_program") {
     CHECK_FALSE(maximise<1>(Point<1>(1), {{Point<1>(1), 1}, {Point<1>(-1), -2}}, 100).has_value());
     CHECK_FALSE(maximise<2>({1, 0}, {{{0, 1}, 1}, {{0, -1}, -2}}, 100).has_value());
     CHECK_FALSE(maximise<2>({1, 0}, {{{1, 1}, 0}, {{-1, 0}, -1}, {{0, -1}, -1}}, 100).has_value());
-    CHECK_FALSE(maximise<3>({0, 0, 1}, {{{1, 1, 1}, -1}, {{-1, 0, 0}, 0}, {{0, -1, 0}, 0},
-                                        {{0, 0, -1}, 0}}, 100)
+    CHECK_FALSE(maximise<3>({0, 0, 1},
+                            {{{1, 1, 1}, -1}, {{-1, 0, 0}, 0}, {{0, -1, 0}, 0}, {{0, 0, -1}, 0}},
+                            100)
                     .has_value());
-    CHECK_FALSE(maximise<2>({1, 0}, {{{0, 0}, -1}}, 100).has_value());  // 0 <= -1
+    CHECK_FALSE(maximise<2>({1, 0}, {{{0, 0}, -1}}, 100).has_value());    // 0 <= -1
     CHECK_FALSE(maximise<2>({1, 0}, {{{1, 0}, -200}}, 100).has_value());  // outside the bound
   }
 

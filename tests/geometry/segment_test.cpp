@@ -49,8 +49,7 @@ TEST_SUITE("geometry/segment") {
       for (const auto& point : segment.gauss_points())
         sum += point.weight * std::pow(along.dot(point.offset), power);
       // Integral of x^p from -5/2 to 5/2.
-      const double exact =
-          power % 2 == 1 ? 0 : 2 * std::pow(2.5, power + 1) / (power + 1);
+      const double exact = power % 2 == 1 ? 0 : 2 * std::pow(2.5, power + 1) / (power + 1);
       if (power < 4) {
         CHECK(std::abs(sum - exact) < 1e-14);
       } else {

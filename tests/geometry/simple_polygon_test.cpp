@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,10 +14,6 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
-
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 
 #include "support/shapes.hpp"
 
@@ -149,7 +148,8 @@ TEST_SUITE("geometry/simple_polygon") {
       const BoostPolygon other = to_boost(outline.vertices());
       for (int k = 0; k < 50; ++k) {
         // Random points: none is within rounding of the outline.
-        const Vec2 p = centre + Vec2(4.6 * (random.uniform() - 0.5), 4.6 * (random.uniform() - 0.5));
+        const Vec2 p =
+            centre + Vec2(4.6 * (random.uniform() - 0.5), 4.6 * (random.uniform() - 0.5));
         const bool expected = bg::within(BoostPoint(p.x(), p.y()), other);
         CHECK(outline.contains(p) == expected);
         inside += expected ? 1 : 0;
@@ -174,13 +174,16 @@ TEST_SUITE("geometry/simple_polygon") {
 
   TEST_CASE("the last crossing of a ray is the farthest of several") {
     const SimplePolygon outline(letter_l);
-    const auto at = [&](const Vec2& from, const Vec2& to) { return outline.last_crossing({from, to}); };
+    const auto at = [&](const Vec2& from, const Vec2& to) {
+      return outline.last_crossing({from, to});
+    };
     // Upwards from inside the foot at x = 0.5: through the top y = 4 only.
     REQUIRE(at({0.5, 0.5}, {0.5, 10.5}).has_value());
     CHECK(std::abs(*at({0.5, 0.5}, {0.5, 10.5}) - 0.35) < 1e-15);
     // Level at y = 0.5 from the left: in at x = 0, out at x = 3.
     CHECK(std::abs(at({-1, 0.5}, {9, 0.5}).value() - 0.4) < 1e-15);
-    // Down the line x + y = 3.5: through the shaft from (0, 3.5) to (1, 2.5), the foot from (2.5, 1).
+    // Down the line x + y = 3.5: through the shaft from (0, 3.5) to (1, 2.5), the foot from (2.5,
+    // 1).
     CHECK(std::abs(at({-0.5, 4}, {3.5, 0}).value() - 0.875) < 1e-15);  // out at (3, 0.5)
     CHECK_FALSE(at({5, 5}, {6, 6}).has_value());
     CHECK_FALSE(at({0.25, 0.25}, {0.75, 0.75}).has_value());  // wholly inside

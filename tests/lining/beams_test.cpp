@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/solver/support_elements.hpp>
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/solver/support_elements.hpp>
@@ -101,10 +100,11 @@ TEST_SUITE("lining/polygon_ring") {
       const Eigen::VectorXd u = ring.solve(pinch(ring, force));
       const double shortening = u[3 * (n / 2)] - u[0];
       const std::string row = "D.pinch.polygon.n" + std::to_string(n);
-      const double bending = reference(row + ".delta") * force * std::pow(radius, 3) /
-                             s.bending_stiffness;
-      // Castigliano: chord k carries P/2 sin(theta_k) along and P/2 cos(theta_k) across, and the sum
-      // of sin^2 over the n chords is n/2, so each of the two adds P n l / 8 over its stiffness.
+      const double bending =
+          reference(row + ".delta") * force * std::pow(radius, 3) / s.bending_stiffness;
+      // Castigliano: chord k carries P/2 sin(theta_k) along and P/2 cos(theta_k) across, and the
+      // sum of sin^2 over the n chords is n/2, so each of the two adds P n l / 8 over its
+      // stiffness.
       const double axial = force * n * ring.chord() / (8 * s.axial_stiffness);
       const double shear = std::is_same_v<Beam, TimoshenkoBeam>
                                ? force * n * ring.chord() / (8 * s.shear_stiffness)
@@ -174,8 +174,7 @@ TEST_SUITE("lining/polygon_ring") {
         // Outward where cos(m theta) > 0: there the ring bulges and the outer fibre is in tension.
         const Eigen::VectorXd u = ring.solve(ring.radial_load(
             [&](double angle) { return pressure * std::cos(m * angle) * 2 * pi * radius / n; }));
-        const double factor =
-            reference("D.harm.n" + std::to_string(n) + ".m" + std::to_string(m));
+        const double factor = reference("D.harm.n" + std::to_string(n) + ".m" + std::to_string(m));
         const double circle = pressure * radius * radius / (m * m - 1);
         // The moments follow from equilibrium alone: axial strain does not touch them.
         for (const int k : {0, n / 8, n / 2})

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/solver/equilibrium.hpp>
 
 using namespace voussoir::program;
 
@@ -242,7 +243,7 @@ TEST_SUITE("program/input") {
     CHECK(input.stages[0].install_lining);
     CHECK(input.run.method == RunMethod::two_level);
     CHECK(input.run.tolerance == 1e-3);
-    CHECK(input.run.displacement_limit == 0.1);
+    CHECK(input.run.displacement_limit == voussoir::Acceptance{}.displacement_limit);
 
     REQUIRE(input.diagram.has_value());
     const double spacings[] = {9, 11.25, 15, 18, 22.5};
@@ -497,7 +498,9 @@ TEST_SUITE("program/input") {
         {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-08 to 0.1"},
         {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
          "above 0"},
-        {"method = \"two-level\"", "max_steps = 0", 38, "run.max_steps", "1 or more"},
+        {"method = \"two-level\"", "method = \"explicit\"\nmax_steps = 2000", 39,
+         "ends before the ramp of 2000 steps", "above run.ramp_steps"},
+        {"method = \"two-level\"", "max_steps = 0", 38, "run.max_steps", "from 1 to 2000000000"},
         {"method = \"two-level\"", "method = \"explicit\"\ndamping = 1", 39, "run.damping",
          "from 0 to 0.95"},
         {"method = \"two-level\"", "method = \"explicit\"\nramp_steps = -1", 39, "ramp_steps",

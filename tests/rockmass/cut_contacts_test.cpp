@@ -49,7 +49,8 @@ PairLengths lengths_of_all_pairs(const RockMass<Planar>& mass) {
     for (const auto& part : mass.bodies[b].parts)
       for (std::size_t k = 0; k < part.size(); ++k) {
         const Segment side = part.face(k);
-        faces.push_back({static_cast<int>(b), side, (side.end - side.start).normalized(), side.length()});
+        faces.push_back(
+            {static_cast<int>(b), side, (side.end - side.start).normalized(), side.length()});
       }
   const double near = 1e-9;
   PairLengths result;
@@ -97,7 +98,8 @@ Surroundings surroundings(const RockMass<Planar>& mass) {
     sum.area[index(f.body)] += f.facet.area_vector();
     sum.length[index(f.body)] += f.facet.length();
   }
-  for (const auto& w : wall_pieces(mass)) {  // anticlockwise round the opening: clockwise round the rock
+  for (const auto& w :
+       wall_pieces(mass)) {  // anticlockwise round the opening: clockwise round the rock
     sum.area[index(w.body)] -= w.facet.area_vector();
     sum.length[index(w.body)] += w.facet.length();
   }
@@ -163,8 +165,8 @@ TEST_SUITE("rockmass/cut_contacts") {
   }
 
   TEST_CASE("body a is on the left of the facet, body b on the right") {
-    for (const auto& mass :
-         {jointed_rock(ground, 5), carve(jointed_rock(ground, 5), SimplePolygon(regular(36, 3)), 0)}) {
+    for (const auto& mass : {jointed_rock(ground, 5),
+                             carve(jointed_rock(ground, 5), SimplePolygon(regular(36, 3)), 0)}) {
       for (const auto& c : CutContacts::find(mass)) {
         CHECK(c.a != c.b);
         const double length = c.facet.length();
@@ -191,7 +193,8 @@ TEST_SUITE("rockmass/cut_contacts") {
 
   TEST_CASE("a T-junction: one face against two neighbours, parted at their corner") {
     // A horizontal joint, and a vertical one that ends on it from above.
-    const auto mass = slice({{0, 0}, {4, 2}}, {{{{-1, 1}, {5, 1}}, 0}, {{{1.5, 1}, {1.5, 3}}, 1}}, {});
+    const auto mass =
+        slice({{0, 0}, {4, 2}}, {{{{-1, 1}, {5, 1}}, 0}, {{{1.5, 1}, {1.5, 3}}, 1}}, {});
     REQUIRE(mass.bodies.size() == 3);
     const auto contacts = CutContacts::find(mass);
     REQUIRE(contacts.size() == 3);
@@ -246,10 +249,18 @@ TEST_SUITE("rockmass/cut_contacts") {
       sides[f.side] += f.facet.length();
       const Vec2 out = f.facet.area_vector().normalized();
       switch (f.side) {
-        case Side::left: CHECK((out - Vec2(-1, 0)).norm() < 1e-12); break;
-        case Side::bottom: CHECK((out - Vec2(0, -1)).norm() < 1e-12); break;
-        case Side::right: CHECK((out - Vec2(1, 0)).norm() < 1e-12); break;
-        case Side::top: CHECK((out - Vec2(0, 1)).norm() < 1e-12); break;
+        case Side::left:
+          CHECK((out - Vec2(-1, 0)).norm() < 1e-12);
+          break;
+        case Side::bottom:
+          CHECK((out - Vec2(0, -1)).norm() < 1e-12);
+          break;
+        case Side::right:
+          CHECK((out - Vec2(1, 0)).norm() < 1e-12);
+          break;
+        case Side::top:
+          CHECK((out - Vec2(0, 1)).norm() < 1e-12);
+          break;
       }
     }
     CHECK(std::abs(sides[Side::left] - 17) < 1e-12);

@@ -77,7 +77,8 @@ TEST_SUITE("rockmass/joint_set") {
       refused([=](JointSet& s) { s.dip_deviation = sd; }, "deviation of the dip must be >= 0");
     refused([](JointSet& s) { s.spacing = 1; }, "give either an intensity > 0 or a spacing > 0");
     refused([](JointSet& s) { s.intensity = 0; }, "give either an intensity > 0 or a spacing > 0");
-    refused([=](JointSet& s) { s.intensity = nan; }, "give either an intensity > 0 or a spacing > 0");
+    refused([=](JointSet& s) { s.intensity = nan; },
+            "give either an intensity > 0 or a spacing > 0");
     refused([](JointSet& s) { s.intensity = inf; }, "intensity and spacing must be finite");
     for (const double extent : {0.0, -1.0, nan})
       refused([=](JointSet& s) { s.extent = extent; }, "extent must be > 0");
@@ -119,11 +120,12 @@ TEST_SUITE("rockmass/joint_set") {
     const Domain<2> ground{{0, 0}, {70, 60}};
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       CAPTURE(seed);
-      const auto sample =
-          dips(generate({"J", 30 * degree, DipDirection::east, 4 * degree, 1, 0, 1}, 0, ground, seed));
+      const auto sample = dips(
+          generate({"J", 30 * degree, DipDirection::east, 4 * degree, 1, 0, 1}, 0, ground, seed));
       const auto n = static_cast<double>(sample.size());
       REQUIRE(n == 4200);
-      // Standard errors: sigma / sqrt(n) of the mean, sigma / sqrt(2 n) of the deviation; three of them.
+      // Standard errors: sigma / sqrt(n) of the mean, sigma / sqrt(2 n) of the deviation; three of
+      // them.
       CHECK(std::abs(mean(sample) - 30 * degree) < 3 * 4 * degree / std::sqrt(n));
       CHECK(std::abs(deviation(sample) - 4 * degree) < 3 * 4 * degree / std::sqrt(2 * n));
     }
@@ -198,12 +200,12 @@ TEST_SUITE("rockmass/joint_set") {
       const char* id;
       Segment line;
     };
-    for (const auto& [id, line] : {Line{"horizontal", {{1, 25}, {49, 25}}},
-                                   Line{"45deg", {{1, 1}, {49, 49}}},
-                                   Line{"vertical", {{25, 1}, {25, 49}}},
-                                   Line{"135deg", {{49, 1}, {1, 49}}}}) {
-      CAPTURE(id);
-      const double expected = line.length() / reference(std::string("E.scanline.") + id);
+    for (const Line& scanline :
+         {Line{"horizontal", {{1, 25}, {49, 25}}}, Line{"45deg", {{1, 1}, {49, 49}}},
+          Line{"vertical", {{25, 1}, {25, 49}}}, Line{"135deg", {{49, 1}, {1, 49}}}}) {
+      CAPTURE(scanline.id);
+      const Segment& line = scanline.line;
+      const double expected = line.length() / reference(std::string("E.scanline.") + scanline.id);
       const int seeds = 200;
       double total = 0;
       for (int seed = 1; seed <= seeds; ++seed) {
@@ -216,7 +218,8 @@ TEST_SUITE("rockmass/joint_set") {
         CHECK(std::abs(crossed - expected) < 3);
         total += crossed;
       }
-      // A set contributes a deviation of at most 1/2 per line: 4 sqrt(3/4) / sqrt(200) = 0.25 of 60.
+      // A set contributes a deviation of at most 1/2 per line: 4 sqrt(3/4) / sqrt(200) = 0.25
+      // of 60.
       CHECK(std::abs(total / seeds - expected) < 4 * std::sqrt(0.75 / seeds));
     }
   }

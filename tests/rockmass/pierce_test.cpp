@@ -166,14 +166,16 @@ TEST_SUITE("rockmass/pierce") {
     check_covered(mass, across, 1, 5, passages);
     CHECK(pierce(mass, {{-1, -1}, {5, -1}}).empty());
     CHECK(pierce(mass, {{5, 5}, {6, 6}}).empty());
-    // Along the edge: the rock is on the left going up the right-hand side, on the right going down.
+    // Along the edge: the rock is on the left going up the right-hand side, on the right going
+    // down.
     CHECK(pierce(mass, {{4, 0.5}, {4, 3.5}}).size() == 4);
     CHECK(pierce(mass, {{4, 3.5}, {4, 0.5}}).empty());
   }
 
   TEST_CASE("an opening is a gap, and parts of one body are one passage") {
     // One block round a square hole: cut into parts by the lines of the outline, yet one body.
-    const auto mass = carve(slice(ground, {}, {}), SimplePolygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), 0);
+    const auto mass =
+        carve(slice(ground, {}, {}), SimplePolygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), 0);
     REQUIRE(mass.bodies.size() == 1);
     REQUIRE(mass.bodies[0].parts.size() == 4);
     const auto through = pierce(mass, {{-5, 0.25}, {5, 0.25}});

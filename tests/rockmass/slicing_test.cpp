@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +17,6 @@
 #include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/statistics.hpp>
-
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 
 #include "support/jointed_rock.hpp"
 
@@ -42,7 +41,8 @@ double mean_spacing(const RockMass<Planar>& mass, bool vertical) {
   double length = 0, crossings = 0;
   for (int k = -10; k <= 10; ++k) {
     const double at = 2.5 * k + 0.123;
-    const Segment line = vertical ? Segment{{at, -30}, {at, 20}} : Segment{{-30, at - 5}, {30, at - 5}};
+    const Segment line =
+        vertical ? Segment{{at, -30}, {at, 20}} : Segment{{-30, at - 5}, {30, at - 5}};
     length += line.length();
     crossings += static_cast<double>(pierce(mass, line).size() - 1);
   }
@@ -94,7 +94,8 @@ double plain_inscribed_radius(const PlainBlock& block) {
     return !left.empty();
   };
   double low = 0, high = std::sqrt(plain_area(block));
-  for (int k = 0; k < 60; ++k) (something_left(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  for (int k = 0; k < 60; ++k)
+    (something_left(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
   return low;
 }
 
@@ -180,7 +181,8 @@ TEST_SUITE("rockmass/slicing") {
         REQUIRE(body.parts.size() == 1);
         const ConvexPolygon& block = body.parts[0];
         const double radius = inscribed_ball(block).radius;
-        CHECK(radius >= 0.25 - 1e-14);  // the limit was tested on the same block, differently added up
+        CHECK(radius >=
+              0.25 - 1e-14);  // the limit was tested on the same block, differently added up
         CHECK(block.diameter() <= 5 * 2 * radius * (1 + 1e-13));
         double turning = 0;
         for (std::size_t k = 0; k < block.size(); ++k) {
@@ -244,10 +246,9 @@ TEST_SUITE("rockmass/slicing") {
     struct Reference {
       double radius, elongation, extent, blocks, spacing, margin;
     };
-    for (const Reference& r : {Reference{0.25, 5, 1, 5700, 0.63, 0.03},
-                               Reference{0.36, 5, 2, 3540, 0.775, 0.04},
-                               Reference{0.50, inf, 5, 2041, 0.99, 0.03},
-                               Reference{0.25, inf, 1, 5759, 0.60, 0.03}}) {
+    for (const Reference& r :
+         {Reference{0.25, 5, 1, 5700, 0.63, 0.03}, Reference{0.36, 5, 2, 3540, 0.775, 0.04},
+          Reference{0.50, inf, 5, 2041, 0.99, 0.03}, Reference{0.25, inf, 1, 5759, 0.60, 0.03}}) {
       CAPTURE(r.radius);
       CAPTURE(r.elongation);
       double blocks = 0, spacing = 0;
@@ -302,7 +303,8 @@ TEST_SUITE("rockmass/slicing") {
           ours.push_back({body.properties.centroid.x(), body.properties.centroid.y(),
                           body.properties.measure});
         for (const PlainBlock& block : plain)
-          theirs.push_back({plain_centroid(block).x(), plain_centroid(block).y(), plain_area(block)});
+          theirs.push_back(
+              {plain_centroid(block).x(), plain_centroid(block).y(), plain_area(block)});
         std::sort(ours.begin(), ours.end());
         std::sort(theirs.begin(), theirs.end());
         double worst_area = 0, worst_centroid = 0;
@@ -349,10 +351,18 @@ TEST_SUITE("rockmass/slicing") {
           line = left_of(trace.start, trace.end);
         } else {
           switch (static_cast<Side>(cut.source)) {
-            case Side::left: line = {{-1, 0}, 10}; break;
-            case Side::bottom: line = {{0, -1}, 10}; break;
-            case Side::right: line = {{1, 0}, 10}; break;
-            case Side::top: line = {{0, 1}, 10}; break;
+            case Side::left:
+              line = {{-1, 0}, 10};
+              break;
+            case Side::bottom:
+              line = {{0, -1}, 10};
+              break;
+            case Side::right:
+              line = {{1, 0}, 10};
+              break;
+            case Side::top:
+              line = {{0, 1}, 10};
+              break;
           }
         }
         // New vertices are rounded at 10 m, and again where a later cut shortens the face.
@@ -361,9 +371,11 @@ TEST_SUITE("rockmass/slicing") {
       }
   }
 
-  TEST_CASE("the work per block grows like the depth of the tree, not with the size of the ground") {
-    // Four times the area, four times the joints: a loop over all blocks would do four times the work
-    // per block, the tree adds the clips of two levels (log2 4). Measured: 21.8, 26.7, 32.9, 38.2.
+  TEST_CASE(
+      "the work per block grows like the depth of the tree, not with the size of the ground") {
+    // Four times the area, four times the joints: a loop over all blocks would do four times the
+    // work per block, the tree adds the clips of two levels (log2 4).
+    // Measured: 21.8, 26.7, 32.9, 38.2.
     std::vector<double> per_block;
     for (const double half : {5.0, 10.0, 20.0, 40.0}) {
       const Domain<2> ground{{-half, -half}, {half, half}};
@@ -386,10 +398,18 @@ TEST_SUITE("rockmass/slicing") {
       const Cut cut = mass.cuts.at(static_cast<std::size_t>(block.cut(k)));
       CHECK(cut.kind == Cut::Kind::boundary);
       switch (static_cast<Side>(cut.source)) {
-        case Side::left: CHECK(out == Vec2(-1, 0)); break;
-        case Side::bottom: CHECK(out == Vec2(0, -1)); break;
-        case Side::right: CHECK(out == Vec2(1, 0)); break;
-        case Side::top: CHECK(out == Vec2(0, 1)); break;
+        case Side::left:
+          CHECK(out == Vec2(-1, 0));
+          break;
+        case Side::bottom:
+          CHECK(out == Vec2(0, -1));
+          break;
+        case Side::right:
+          CHECK(out == Vec2(1, 0));
+          break;
+        case Side::top:
+          CHECK(out == Vec2(0, 1));
+          break;
       }
     }
   }
@@ -397,8 +417,8 @@ TEST_SUITE("rockmass/slicing") {
   TEST_CASE("a joint cuts right through every block it reaches, and no other") {
     const Domain<2> ground{{0, 0}, {4, 4}};
     // Two vertical joints make three columns; a short horizontal one ends in the second.
-    const std::vector<Joint> joints = {{{{1, -1}, {1, 5}}, 0}, {{{3, -1}, {3, 5}}, 0},
-                                       {{{0.5, 2}, {1.5, 2}}, 1}};
+    const std::vector<Joint> joints = {
+        {{{1, -1}, {1, 5}}, 0}, {{{3, -1}, {3, 5}}, 0}, {{{0.5, 2}, {1.5, 2}}, 1}};
     const auto mass = slice(ground, joints, {});
     std::vector<double> areas;
     for (const auto& body : mass.bodies) areas.push_back(body.properties.measure);
@@ -415,9 +435,8 @@ TEST_SUITE("rockmass/slicing") {
   TEST_CASE("coincident joints cut once") {
     const Domain<2> ground{{0, 0}, {4, 4}};
     const Joint joint{{{-1, 1}, {5, 3}}, 0};
-    for (const Joint& other :
-         {joint, Joint{{{5, 3}, {-1, 1}}, 0}, Joint{{{1, 5.0 / 3}, {2, 2}}, 0},
-          Joint{{{-1, 1 + 1e-11}, {5, 3 - 1e-11}}, 0}}) {
+    for (const Joint& other : {joint, Joint{{{5, 3}, {-1, 1}}, 0}, Joint{{{1, 5.0 / 3}, {2, 2}}, 0},
+                               Joint{{{-1, 1 + 1e-11}, {5, 3 - 1e-11}}, 0}}) {
       const auto mass = slice(ground, {joint, other}, {});
       CHECK(mass.bodies.size() == 2);
       CHECK(mass.slicing.cuts == 1);
@@ -492,7 +511,7 @@ TEST_SUITE("rockmass/slicing") {
     for (const Segment& trace :
          {Segment{{-1, 0}, {5, 0}}, Segment{{4, 5}, {4, -1}}, Segment{{0, 4}, {4, 4}},
           Segment{{5, 5}, {9, 9}}, Segment{{-3, 1}, {0, 1}}, Segment{{-1, 5}, {-1, -5}}}) {
-        CAPTURE(trace.start.transpose());
+      CAPTURE(trace.start.transpose());
       const auto mass = slice(ground, {{trace, 0}}, {});
       CHECK(mass.bodies.size() == 1);
       CHECK(mass.slicing.unused_joints == 1);
@@ -504,8 +523,9 @@ TEST_SUITE("rockmass/slicing") {
   TEST_CASE("limits and domains out of range are refused") {
     const Domain<2> ground{{0, 0}, {4, 4}};
     const double nan = std::nan("");
-    for (const BlockLimits& limits : {BlockLimits{-0.1, 5}, BlockLimits{nan, 5}, BlockLimits{inf, 5},
-                                      BlockLimits{0.1, 1.9}, BlockLimits{0.1, nan}})
+    for (const BlockLimits& limits :
+         {BlockLimits{-0.1, 5}, BlockLimits{nan, 5}, BlockLimits{inf, 5}, BlockLimits{0.1, 1.9},
+          BlockLimits{0.1, nan}})
       CHECK_THROWS_AS(slice(ground, {}, limits), InvalidInput);
     for (const Domain<2>& bad : {Domain<2>{{0, 0}, {0, 4}}, Domain<2>{{0, 0}, {4, -1}},
                                  Domain<2>{{0, nan}, {4, 4}}, Domain<2>{{0, 0}, {inf, 4}}})

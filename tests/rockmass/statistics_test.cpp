@@ -31,7 +31,8 @@ TEST_SUITE("rockmass/statistics") {
   TEST_CASE("the spacing on a line is its length over the joints it crosses") {
     const auto mass = layers({{0, 0}, {10, 10}}, 0.5);  // 19 joints, at 0.5 to 9.5
     CHECK(std::abs(scanline_spacing(mass, {{5, 0.1}, {5, 9.9}}) - 9.8 / 19) < 1e-14);
-    CHECK(std::abs(scanline_spacing(mass, {{1, 1.25}, {4, 4.25}}) - 3 * std::sqrt(2.0) / 6) < 1e-14);
+    CHECK(std::abs(scanline_spacing(mass, {{1, 1.25}, {4, 4.25}}) - 3 * std::sqrt(2.0) / 6) <
+          1e-14);
     // What lies outside the rock does not count.
     CHECK(std::abs(scanline_spacing(mass, {{5, -7}, {5, 30}}) - 10.0 / 19) < 1e-14);
   }
@@ -80,7 +81,8 @@ TEST_SUITE("rockmass/statistics") {
     CHECK(std::abs(sizes.smallest_inscribed_radius - 0.5) < 1e-14);
   }
 
-  TEST_CASE("the mean size times the count is the ground, and the smallest radius obeys the limit") {
+  TEST_CASE(
+      "the mean size times the count is the ground, and the smallest radius obeys the limit") {
     const auto mass = voussoir_test::jointed_rock({{-10, -10}, {10, 10}}, 1);
     const BlockSizes sizes = block_sizes(mass);
     CHECK(std::abs(sizes.mean * static_cast<double>(sizes.count) - 400) < 1e-10);

@@ -51,7 +51,8 @@ TEST_SUITE("rockmass/trace_file") {
              "x1,y1,x2,y2\n1,2,3,4\n5,6,7,8\n",
              "x1,y1,x2,y2,set\n1,2,3,4\n5,6,7,8",
              "\xEF\xBB\xBFx1,y1,x2,y2\r\n1,2,3,4\r\n5,6,7,8\r\n",
-             "\xEF\xBB\xBF" "1,2,3,4\n5,6,7,8\n",
+             "\xEF\xBB\xBF"
+             "1,2,3,4\n5,6,7,8\n",
              "# north wall\n1,2,3,4\n\n#5,5,5,5\n   \n5,6,7,8\n\n",
              " 1 , 2 ,3, 4 \r\n\r\n5,6 ,7,8  \n",
          }) {
@@ -80,7 +81,7 @@ TEST_SUITE("rockmass/trace_file") {
       const char* line;
       const char* reason;
     };
-    for (const auto& [line, reason] : {
+    for (const Case& broken : {
              Case{"1,2,3", "3 fields instead of 4 or 5"},
              Case{"1,2,3,4,5,6", "6 fields instead of 4 or 5"},
              Case{"1", "1 fields instead of 4 or 5"},
@@ -100,13 +101,14 @@ TEST_SUITE("rockmass/trace_file") {
              Case{"1,2,3,4,1e9", "the set is not a whole number >= 0"},
              Case{"x1,y1,x2,y2", "field 1 is not a finite number"},  // a header further down
          }) {
+      const std::string line = broken.line;
       CAPTURE(line);
       // The third line of the file, after a comment: comments count as lines.
-      const std::string message = refusal("# comment\n1,2,3,4\n" + std::string(line) + "\n5,6,7,8\n");
+      const std::string message = refusal("# comment\n1,2,3,4\n" + line + "\n5,6,7,8\n");
       CAPTURE(message);
       CHECK(message.rfind("map.csv:3: ", 0) == 0);
-      CHECK(contains(message, reason));
-      CHECK(contains(message, "\"" + std::string(line) + "\""));
+      CHECK(contains(message, broken.reason));
+      CHECK(contains(message, "\"" + line + "\""));
       CHECK(contains(message, "accepted: x1,y1,x2,y2[,set]"));
     }
     CHECK(refusal("1,2\n").rfind("map.csv:1: ", 0) == 0);

@@ -29,15 +29,16 @@ TEST_SUITE("rockmass/welding") {
     for (int k = 0; k < 4000; ++k) {
       const Vec2& centre = first[static_cast<std::size_t>(random.below(400))];
       const double angle = 2 * std::numbers::pi * random.uniform();
-      const Vec2 near = centre + 0.99 * tolerance * random.uniform() *
-                                     Vec2(std::cos(angle), std::sin(angle));
+      const Vec2 near =
+          centre + 0.99 * tolerance * random.uniform() * Vec2(std::cos(angle), std::sin(angle));
       CHECK(welder(near) == centre);
     }
     const Vec2 outside = first[0] + Vec2(1.01 * tolerance, 0);
     CHECK(welder(outside) == outside);
   }
 
-  TEST_CASE("in sliced and carved rock two vertices are the same or further apart than the tolerance") {
+  TEST_CASE(
+      "in sliced and carved rock two vertices are the same or further apart than the tolerance") {
     const Domain<2> ground{{-10, -8}, {10, 9}};
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const auto sliced = voussoir_test::jointed_rock(ground, seed, {0.1, 20}, 3);

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <string>
 #include <type_traits>
-
 #include <voussoir/core/random.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 
@@ -36,7 +35,8 @@ BlockMatrix<Dof> random_springs(Random& random, int bodies, int springs, double 
     const int j = static_cast<int>(random.below(static_cast<std::uint64_t>(bodies)));
     if (i == j) continue;
     // A spring of rank Dof acts on A u_i + B u_j: a sum of squares, so never negative.
-    const Block a = random_matrix<Block>(random, Dof, Dof), b = random_matrix<Block>(random, Dof, Dof);
+    const Block a = random_matrix<Block>(random, Dof, Dof),
+                b = random_matrix<Block>(random, Dof, Dof);
     matrix.add(i, a.transpose() * a);
     matrix.add(j, b.transpose() * b);
     matrix.add(i, j, a.transpose() * b);  // in either order of i and j, and repeated

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
-
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/solver/explicit.hpp>
 #include <voussoir/solver/relaxation.hpp>
@@ -49,10 +48,13 @@ static_assert(ContactLaw<Welded, 2>);
 
 TEST_SUITE("solver/composition") {
   TEST_CASE("a solver says what it is made of, defaults included") {
-    CHECK(Solver<>::composition() ==
-          "Planar, CutContacts, CoulombJoint, LorigAnchors, AxialBolt, EulerBernoulliBeam, TwoLevel");
-    CHECK(Composition<Explicit, TimoshenkoBeam, AxialShearBolt, GargaWangAnchors, Welded>::describe() ==
-          "Planar, CutContacts, Welded, GargaWangAnchors, AxialShearBolt, TimoshenkoBeam, Explicit");
+    CHECK(
+        Solver<>::composition() ==
+        "Planar, CutContacts, CoulombJoint, LorigAnchors, AxialBolt, EulerBernoulliBeam, TwoLevel");
+    CHECK(
+        Composition<Explicit, TimoshenkoBeam, AxialShearBolt, GargaWangAnchors,
+                    Welded>::describe() ==
+        "Planar, CutContacts, Welded, GargaWangAnchors, AxialShearBolt, TimoshenkoBeam, Explicit");
   }
 
   TEST_CASE("the order of the policies does not matter") {
@@ -71,10 +73,11 @@ TEST_SUITE("solver/composition") {
 
   TEST_CASE("a joint law of the user's own: welded rock moves as one dense solve says") {
     const auto opening = circular_opening(4, 36);
-    // The edge of the domain carries no tension: the surcharge keeps it closed up to the surface, and
-    // the wall is unloaded by a part only.
+    // The edge of the domain carries no tension: the surcharge keeps it closed up to the surface,
+    // and the wall is unloaded by a part only.
     const double left = 0.7;
-    Solver<Welded, GargaWangAnchors> tunnel(jointed_rock(domain_around(opening, 16, 5, 5), 2), Welded{},
+    Solver<Welded, GargaWangAnchors> tunnel(jointed_rock(domain_around(opening, 16, 5, 5), 2),
+                                            Welded{},
                                             {.density = 2700, .k0 = 0.5, .surcharge = 1e6});
     tunnel.excavate(opening);
     auto& system = tunnel.system();
@@ -83,8 +86,8 @@ TEST_SUITE("solver/composition") {
     system.forces(system.displacement, load);
     system.wall_fraction = 1;
     const Eigen::VectorXd exact = dense(system.elastic_stiffness()).ldlt().solve(load);
-    const EquilibriumReport report = tunnel.equilibrium(
-        left, {}, {.error_estimate = 1e-9, .unbalance_over_weight = 1e-6});
+    const EquilibriumReport report =
+        tunnel.equilibrium(left, {}, {.error_estimate = 1e-9, .unbalance_over_weight = 1e-6});
     CHECK(report.verdict == Verdict::stable);
     // Rounding: the condition of K, about 1e6, times 1e-16.
     CHECK((system.displacement - exact).norm() <= 1e-9 * exact.norm());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <voussoir/solver/block_matrix.hpp>
 
 namespace voussoir_test {

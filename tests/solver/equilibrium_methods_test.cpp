@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
 #include <voussoir/solver/explicit.hpp>
 #include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -32,9 +31,9 @@ const Solver<>& bolted_tunnel() {
                   CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});
     made.excavate(opening);
     for (const auto& bar : bolt_bars({.length = 3,
-                                      .angular_spacing = 22.5 * degree,
-                                      .from = -22.5 * degree,
-                                      .to = 202.5 * degree},
+                           .angular_spacing = 22.5 * degree,
+                           .from = -22.5 * degree,
+                           .to = 202.5 * degree},
                                      opening))
       made.install_bolt(bar, AxialBolt({.axial_stiffness = 2e8}));
     return made;
@@ -116,8 +115,8 @@ TEST_SUITE("solver/equilibrium_methods") {
   }
 
   TEST_CASE("sudden excavation overshoots, the more the less it is damped") {
-    // Slip made on the way out stays. Measured crown: ramp over 2000 steps +0.1 %, sudden with local
-    // damping 0.7, 0.3, 0.1: +11, +35, +54 %.
+    // Slip made on the way out stays. Measured crown: ramp over 2000 steps +0.1 %, sudden with
+    // local damping 0.7, 0.3, 0.1: +11, +35, +54 %.
     std::vector<double> crown;
     Solver<> ramped = bolted_tunnel();
     (void)find(ramped, explicit_run(0.7, 2000));
@@ -147,7 +146,7 @@ TEST_SUITE("solver/equilibrium_methods") {
   TEST_CASE("a committing relaxation agrees if the wall is unloaded in small steps") {
     Solver<> tunnel = bolted_tunnel();
     for (int k = 19; k >= 0; --k) (void)find(tunnel, Relaxation{}, k / 20.0);
-    CHECK(error_of(tunnel) <= 0.005);  // measured 0.35 %; in 40 steps 0.30 %
+    CHECK(error_of(tunnel) <= 0.005);                   // measured 0.35 %; in 40 steps 0.30 %
     CHECK(std::abs(crown_ratio(tunnel) - 1) <= 0.005);  // measured 0.17 %
   }
 

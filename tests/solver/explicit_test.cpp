@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -29,6 +28,8 @@ Masses two_masses() {
   spring.a = 0;
   spring.b = 1;
   spring.arm_a = spring.arm_b = Vec2::Zero();
+  spring.joint_a = {0.5, 0};
+  spring.joint_b = {-0.5, 0};
   spring.span = {{1, 0}, {1, 0}, {0, 0}};
   spring.share = 1;
   system.bolts.push_back(spring);

@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <numeric>
 #include <vector>
-
 #include <voussoir/solver/fire.hpp>
 
 using namespace voussoir;
@@ -29,7 +28,9 @@ struct Bowl {
       }
     minimum = stiffness.ldlt().solve(load);
   }
-  [[nodiscard]] Eigen::VectorXd force(const Eigen::VectorXd& u) const { return load - stiffness * u; }
+  [[nodiscard]] Eigen::VectorXd force(const Eigen::VectorXd& u) const {
+    return load - stiffness * u;
+  }
   [[nodiscard]] Fire fire() const { return {stiffness.cwiseAbs().rowwise().sum(), Fire::Params{}}; }
   Eigen::MatrixXd stiffness;
   Eigen::VectorXd load, minimum;

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/core/random.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -44,10 +43,10 @@ Unbalance unbalance(Solver<>& solver) {
 Vec2 reaction(const Solver<>& solver, const Vec2& outward) {
   Vec2 sum = Vec2::Zero();
   const auto& system = solver.system();
-  system.boundary.visit(system.displacement.data(), [&](const auto& contact, const auto&, const auto&,
-                                                        const PointForce<2>& f) {
-    if (contact.normal.dot(outward) > 0.999) sum -= f.normal * contact.normal;
-  });
+  system.boundary.visit(system.displacement.data(),
+                        [&](const auto& contact, const auto&, const auto&, const PointForce<2>& f) {
+                          if (contact.normal.dot(outward) > 0.999) sum -= f.normal * contact.normal;
+                        });
   return sum;
 }
 
@@ -61,8 +60,8 @@ TEST_SUITE("solver/in_situ") {
     Random random(2024);
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const double radius = 0.2 + 0.4 * random.uniform();
-      const double extent = seed % 3 == 0 ? std::numeric_limits<double>::infinity()
-                                          : 1 + 4 * random.uniform();
+      const double extent =
+          seed % 3 == 0 ? std::numeric_limits<double>::infinity() : 1 + 4 * random.uniform();
       const double k0 = 0.3 + 1.7 * random.uniform();
       const double surcharge = seed % 2 == 0 ? 5e5 * random.uniform() : 0.0;
       CAPTURE(seed);
@@ -81,7 +80,8 @@ TEST_SUITE("solver/in_situ") {
     }
   }
 
-  TEST_CASE("with more friction than the Mohr circle asks for the stress is carried, with less not") {
+  TEST_CASE(
+      "with more friction than the Mohr circle asks for the stress is carried, with less not") {
     const InSitu in_situ{.density = 2700, .k0 = 0.5};
     // sin(phi) = 0.5 / 1.5
     CHECK(std::abs(in_situ.required_friction_angle() - std::asin(1.0 / 3)) <= 1e-15);
@@ -124,13 +124,13 @@ TEST_SUITE("solver/in_situ") {
         elsewhere = std::max(elsewhere, load.norm() / system.body(b).weight);
       wall_force += load.head<2>();
     }
-    // Dropped slivers below 0.01 m^2 leave a wall of their own; none fell away from the outline here.
+    // Dropped slivers below 0.01 m^2 leave a wall of their own; none fell away from the outline
+    // here.
     REQUIRE(solver.mass().carving.dropped_measure < 0.02);
     CHECK(elsewhere < 1e-12);
     // The rock in the opening had its weight carried: the traction on the wall adds up to it,
     // downwards, by the equilibrium of the excavated piece. What was dropped went with it.
-    const double excavated =
-        2700 * 9.81 * (opening.area() + solver.mass().carving.dropped_measure);
+    const double excavated = 2700 * 9.81 * (opening.area() + solver.mass().carving.dropped_measure);
     CHECK((wall_force - Vec2(0, -excavated)).norm() <= 1e-10 * excavated);
   }
 

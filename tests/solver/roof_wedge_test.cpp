@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 #include <vector>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -25,8 +24,8 @@ constexpr double degree = std::numbers::pi / 180;
 
 struct Case {
   const char* row;
-  double semi_apical, friction;    ///< [deg]
-  double normal, shear, thrust;    ///< k_n A, k_s A [N/m], H0 [N]
+  double semi_apical, friction;  ///< [deg]
+  double normal, shear, thrust;  ///< k_n A, k_s A [N/m], H0 [N]
 };
 
 /// Faces of 1 m between two fixed abutments (0, 1) and the wedge (2), under a total load P.

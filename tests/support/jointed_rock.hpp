@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 

@@ -32,7 +32,7 @@ namespace voussoir_test {
 /// @throws std::runtime_error  no such row, or the table cannot be read: a test must not pass then
 [[nodiscard]] inline double reference(const std::string& id) {
   static const std::map<std::string, double> values = [] {
-    const std::string path = std::string(VOUSSOIR_TEST_DATA) + "/reference-values.csv";
+    const std::string path = VOUSSOIR_TEST_DATA "/reference-values.csv";
     std::ifstream file(path);
     std::map<std::string, double> table;
     std::string line;

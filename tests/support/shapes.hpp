@@ -25,7 +25,8 @@ using voussoir::Vec2;
 }
 
 /// Corners of a regular polygon, anticlockwise, the first at angle 0.
-[[nodiscard]] inline std::vector<Vec2> regular(int corners, double radius, const Vec2& centre = {0, 0}) {
+[[nodiscard]] inline std::vector<Vec2> regular(int corners, double radius,
+                                               const Vec2& centre = {0, 0}) {
   std::vector<Vec2> vertices;
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;

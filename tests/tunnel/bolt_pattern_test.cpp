@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
@@ -29,8 +28,8 @@ double along_wall(const SimplePolygon& opening, const Vec2& point) {
   double passed = 0;
   for (std::size_t e = 0; e < opening.size(); ++e) {
     const Segment edge = opening.edge(e);
-    const double t = (point - edge.start).dot(edge.end - edge.start) /
-                     (edge.end - edge.start).squaredNorm();
+    const double t =
+        (point - edge.start).dot(edge.end - edge.start) / (edge.end - edge.start).squaredNorm();
     if (t >= 0 && t < 1 && (edge.at(t) - point).norm() < 1e-9) return passed + t * edge.length();
     passed += edge.length();
   }
@@ -93,7 +92,8 @@ TEST_SUITE("tunnel/bolt_pattern") {
   TEST_CASE("spacing along the wall is in metres of wall, on a circle and on a horseshoe") {
     for (const SimplePolygon& opening : {circular_opening(10), horseshoe_opening(8, 3)}) {
       const double spacing = 1.3;
-      const auto all = bolt_bars({.length = 4, .wall_spacing = spacing, .from = 0, .to = pi}, opening);
+      const auto all =
+          bolt_bars({.length = 4, .wall_spacing = spacing, .from = 0, .to = pi}, opening);
       const double half = along_wall(opening, {-opening.vertices()[0].x(), 0});
       CHECK(all.size() == static_cast<std::size_t>(std::floor(half / spacing)) + 1);
       for (std::size_t k = 1; k < all.size(); ++k)
@@ -111,11 +111,15 @@ TEST_SUITE("tunnel/bolt_pattern") {
     for (const double bad : {nan, 0.0, -4.0})
       CHECK_THROWS_AS((void)bars({.length = bad, .angular_spacing = d}), InvalidInput);
     CHECK_THROWS_AS((void)bars({.length = 4}), InvalidInput);  // no spacing
-    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .wall_spacing = 1}), InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .wall_spacing = 1}),
+                    InvalidInput);
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = nan}), InvalidInput);
-    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 1, .to = 1}), InvalidInput);
-    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = 7}), InvalidInput);
-    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = nan}), InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 1, .to = 1}),
+                    InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = 7}),
+                    InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = nan}),
+                    InvalidInput);
     const SimplePolygon elsewhere({{1, 1}, {2, 1}, {2, 2}, {1, 2}});
     CHECK_THROWS_AS((void)bolt_bars({.length = 4, .angular_spacing = d}, elsewhere), InvalidInput);
   }

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <stdexcept>
 #include <vector>
-
 #include <voussoir/tunnel/interaction_diagram.hpp>
 
 using namespace voussoir;
@@ -65,7 +64,8 @@ TEST_SUITE("tunnel/interaction_diagram") {
       if (i == 1 && j == 2) throw std::runtime_error("no rock left");
       return labelled(i, j);
     };
-    CHECK_THROWS_WITH_AS((void)interaction_diagram(2, 3, 2, run), "no rock left", std::runtime_error);
+    CHECK_THROWS_WITH_AS((void)interaction_diagram(2, 3, 2, run), "no rock left",
+                         std::runtime_error);
   }
 
   TEST_CASE("a diagram without tunnels is empty") {

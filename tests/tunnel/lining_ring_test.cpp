@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/opening.hpp>
@@ -126,8 +125,8 @@ TEST_SUITE("tunnel/lining_ring") {
       CAPTURE(arc.from);
       CAPTURE(arc.to);
       const auto mass = tunnel_wall();
-      const LiningFrame<Planar> frame = lining_frame(
-          mass, {.nodes = 36, .from = arc.from * degree, .to = arc.to * degree});
+      const LiningFrame<Planar> frame =
+          lining_frame(mass, {.nodes = 36, .from = arc.from * degree, .to = arc.to * degree});
       CHECK(frame.nodes.size() == arc.nodes);
       REQUIRE(frame.members.size() + 1 == frame.nodes.size());
       const double between = 2 * 2.5 * std::cos(pi / 36) * std::sin(pi / 36);  // middles of facets

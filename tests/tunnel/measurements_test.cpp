@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/solver/system.hpp>
 #include <voussoir/tunnel/measurements.hpp>
@@ -58,11 +57,9 @@ struct RingAlone {
         k.block<3, 3>(3 * j, 3 * i) += ij.transpose();
       });
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * count);
-    for (int n = 0; n < count; ++n)
-      load.segment<2>(3 * n) = outward(n) * position(n).normalized();
+    for (int n = 0; n < count; ++n) load.segment<2>(3 * n) = outward(n) * position(n).normalized();
     constexpr Eigen::Index free = 3 * (count - 1);
-    bodies.displacement.tail(free) =
-        k.bottomRightCorner(free, free).ldlt().solve(load.tail(free));
+    bodies.displacement.tail(free) = k.bottomRightCorner(free, free).ldlt().solve(load.tail(free));
   }
 
   LiningSection section;
@@ -102,7 +99,8 @@ TEST_SUITE("tunnel/measurements") {
                                 ring.section.bending_stiffness +
                             force * count * chord / (8 * ring.section.axial_stiffness);
     CHECK(std::abs(pinch - expected) <= 1e-8 * expected);
-    // Shear of a chord is the slope of the moment along it; a node shows the mean of its two chords.
+    // Shear of a chord is the slope of the moment along it; a node shows the mean of its two
+    // chords.
     for (std::size_t k = 1; k + 1 < count; ++k) {
       const double slope = (at[k + 1].moment - at[k - 1].moment) / (2 * chord);
       CHECK(std::abs(std::abs(at[k].shear) - std::abs(slope)) <= 1e-8 * force);
@@ -174,7 +172,8 @@ TEST_SUITE("tunnel/measurements") {
     CHECK(convergence_at(wall, up) == 2e-3);  // 0.6 of 1.1 m converge by 2 mm or less
     wall[1].length = 0.3;                     // 0.3 + 0.4 of 0.8 m: the half is reached at 3 mm
     CHECK(convergence_at(wall, up) == 3e-3);
-    CHECK(convergence_at(wall, up, 14 * degree) == 3e-3);  // -1 m below, 1 m above: still the middle
+    CHECK(convergence_at(wall, up, 14 * degree) ==
+          3e-3);  // -1 m below, 1 m above: still the middle
     CHECK(convergence_at(wall, up + 13 * degree, 2 * degree) == -1.0);
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-
 #include <voussoir/tunnel/opening.hpp>
 
 using namespace voussoir;

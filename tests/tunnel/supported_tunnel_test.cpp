@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
@@ -35,8 +34,8 @@ Solver<> tunnel_in_rock() {
 void move_rock(Solver<>& tunnel, const Vec2& shift, double spin) {
   auto& system = tunnel.system();
   for (int b = 0; b < tunnel.ground(); ++b)
-    system.displacement.segment<3>(3 * b)
-        << shift + turned(Spin<2>(spin), system.body(b).centre), spin;
+    system.displacement.segment<3>(3 * b) << shift + turned(Spin<2>(spin), system.body(b).centre),
+        spin;
 }
 
 }  // namespace
@@ -59,7 +58,8 @@ TEST_SUITE("tunnel/supported_tunnel") {
   TEST_CASE("rock that turns about the tunnel axis does not converge, and loads no bolt") {
     Solver<> tunnel = tunnel_in_rock();
     const AxialBolt bolt({.axial_stiffness = 2e8});
-    for (const auto& bar : bolt_bars({.length = 3, .angular_spacing = 30 * degree}, circular_opening(5, 36)))
+    for (const auto& bar :
+         bolt_bars({.length = 3, .angular_spacing = 30 * degree}, circular_opening(5, 36)))
       (void)tunnel.install_bolt(bar, bolt);
     move_rock(tunnel, Vec2(1e-3, 2e-3), 1e-3);
     for (const WallMotion& piece : wall_motion(tunnel)) {
@@ -67,7 +67,8 @@ TEST_SUITE("tunnel/supported_tunnel") {
       CHECK(std::abs(piece.convergence + Vec2(1e-3, 2e-3).dot(out)) <= 1e-12);
     }
     // Small rotations stretch an anchor distance d by d spin^2 / 2, at most 0.034 nm here.
-    for (const CrossingForce& at : bolt_forces(tunnel)) CHECK(at.force <= 2e8 * 0.5 * 0.0672 * 1e-6);
+    for (const CrossingForce& at : bolt_forces(tunnel))
+      CHECK(at.force <= 2e8 * 0.5 * 0.0672 * 1e-6);
   }
 
   TEST_CASE("the wall is measured once, all of it, and without what has fallen") {
@@ -83,7 +84,8 @@ TEST_SUITE("tunnel/supported_tunnel") {
 
   TEST_CASE("bolt forces come bolt by bolt from head to tip, of one bolt whatever their spacing") {
     Solver<> tunnel = tunnel_in_rock();
-    const auto bars = bolt_bars({.length = 3, .angular_spacing = 45 * degree}, circular_opening(5, 36));
+    const auto bars =
+        bolt_bars({.length = 3, .angular_spacing = 45 * degree}, circular_opening(5, 36));
     Solver<> sparse = tunnel;
     std::vector<int> crossed;
     for (const auto& bar : bars) {
@@ -126,7 +128,8 @@ TEST_SUITE("tunnel/supported_tunnel") {
   TEST_CASE("thrust of a thin lining in jointed rock is that of eq. (13)") {
     // The paper's tunnel in reference mass A, seed 1: G = 0.527 GPa by its oedometer, E_L = 25 GPa,
     // t = 0.1 m, K_L = 1 GPa/m, p0 = 662 kPa at the axis. Eq. (13): 998 kN/m. Measured for
-    // seeds 1, 2, 3: 923, 921, 945 kN/m; slip and the loose blocks at the wall are not in the formula.
+    // seeds 1, 2, 3: 923, 921, 945 kN/m; slip and the loose blocks at the wall are not in the
+    // formula.
     const auto opening = circular_opening(10);
     Solver<> tunnel(jointed_rock(domain_around(opening, 70, 20, 30), 1),
                     CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});

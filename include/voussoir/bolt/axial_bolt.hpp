@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/errors.hpp>
 

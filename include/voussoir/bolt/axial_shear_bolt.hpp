@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/errors.hpp>
@@ -11,11 +10,10 @@ namespace voussoir {
 
 /// Lorig's bolt: the axial spring and a second, elastic one across the bar (dowel action).
 ///
-///   t = K_s * (motion across the bar),  lost together with the axial spring on rupture.
+///   t = K_s * (jump across the bar),  lost together with the axial spring on rupture.
 ///
-/// The motion is that of the anchors: turning the whole rock by a small angle theta counts as
-/// theta d_init of it, which vanishes for anchors on the joint and is about 0.01 mm for the default
-/// ones around a supported tunnel.
+/// The dowel acts where the bar crosses the joint, on the motion of the two blocks there. Between
+/// the anchors it would feel the rock turn as a whole: theta d of shear, 0.01 mm around a tunnel.
 ///
 /// For a grouted bar K_s = E_b I beta^3 (two beams on an elastic foundation in series).
 /// Source: Lorig (1985), A simple numerical representation of fully bonded passive rock
@@ -41,7 +39,7 @@ class AxialShearBolt {
   template <int Dim>
   [[nodiscard]] BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
     BoltForce<Dim> result = axial_.force(span, state);
-    if (!state.ruptured) result.pull += shear_stiffness_ * across(span);
+    if (!state.ruptured) result.dowel = shear_stiffness_ * across(span);
     return result;
   }
   template <int Dim>
@@ -50,14 +48,13 @@ class AxialShearBolt {
   }
   template <int Dim>
   [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
-    return axial_.stiffness(span) +
-           shear_stiffness_ * (Stress<Dim>::Identity() - span.axis * span.axis.transpose());
+    return axial_.stiffness(span);
   }
 
  private:
   template <int Dim>
   [[nodiscard]] static Vec<Dim> across(const BoltSpan<Dim>& span) {
-    return span.motion - span.axis.dot(span.motion) * span.axis;
+    return span.jump - span.axis.dot(span.jump) * span.axis;
   }
 
   AxialBolt axial_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 
@@ -32,7 +31,7 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
 /// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
 template <class Anchors>
 concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && std::copyable<Anchors> &&
-                      std::default_initializable<Anchors> && HasAnchorDistances<Anchors>;
+    std::default_initializable<Anchors> && HasAnchorDistances<Anchors>;
 
 template <class Anchors>
 consteval bool explain_bolt_anchors() {

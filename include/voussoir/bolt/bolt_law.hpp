@@ -2,38 +2,40 @@
 #pragma once
 
 #include <concepts>
-
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
 
-/// A bolt between its two anchors at one joint: the vector from the first anchor to the second at
-/// installation, the unit vector of the bar, and the displacement of the second anchor relative to
-/// the first since then [m].
+/// A bolt at one joint, between its anchors on either side.
 template <int Dim>
 struct BoltSpan {
-  Vec<Dim> initial;
-  Vec<Dim> axis;
-  Vec<Dim> motion;
+  Vec<Dim> initial;  ///< from the first anchor to the second at installation [m]
+  Vec<Dim> axis;     ///< unit vector of the bar
+  Vec<Dim> motion;   ///< of the second anchor relative to the first since installation [m]
+  /// Of the second body relative to the first since then, where the bar crosses the joint [m].
+  /// Other than `motion` it is free of the rotation of the rock as a whole.
+  Vec<Dim> jump = Vec<Dim>::Zero();
 };
 
 /// What the bolt does at one joint.
 template <int Dim>
 struct BoltForce {
-  Vec<Dim> pull = Vec<Dim>::Zero();  ///< on the first anchor; the second gets the opposite [N]
-  double axial = 0;                  ///< along the line of the anchors, tension positive [N]
+  Vec<Dim> pull = Vec<Dim>::Zero();   ///< on the first anchor; the second gets the opposite [N]
+  double axial = 0;                   ///< along the line of the anchors, tension positive [N]
+  Vec<Dim> dowel = Vec<Dim>::Zero();  ///< on the first body where the bar crosses the joint [N]
 };
 
 template <class Law, int Dim>
 concept HasBoltState = std::default_initializable<typename Law::State>;
 template <class Law, int Dim>
-concept HasBoltForce =
-    requires(const Law law, const BoltSpan<Dim>& span, const typename Law::State& state) {
-      { law.force(span, state) } -> std::same_as<BoltForce<Dim>>;
-    };
+concept HasBoltForce = requires(const Law law, const BoltSpan<Dim>& span,
+                                const typename Law::State& state) {
+  { law.force(span, state) } -> std::same_as<BoltForce<Dim>>;
+};
 template <class Law, int Dim>
-concept HasBoltCommit = requires(const Law law, const BoltSpan<Dim>& span, typename Law::State& state) {
+concept HasBoltCommit = requires(const Law law, const BoltSpan<Dim>& span,
+                                 typename Law::State& state) {
   { law.commit(span, state) } -> std::same_as<bool>;
 };
 template <class Law, int Dim>
@@ -44,13 +46,14 @@ concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
 /// The spring that a bolt is, at every joint it crosses. Values are per bolt, not per metre.
 ///
 /// What the compiler cannot check: `force` reads and `commit` remembers, as for a contact law;
-/// `commit` returns true when the bolt broke, so that equilibrium must be sought anew; `stiffness`
-/// [N/m] is symmetric, not negative, and bounds the tangent stiffness near the initial span.
+/// `pull` follows `motion` and `dowel` follows `jump`, in proportion; `commit` returns true when
+/// the bolt broke, so that equilibrium must be sought anew; `stiffness` [N/m] is that of `pull`,
+/// symmetric, not negative, and bounds the tangent stiffness near the initial span.
 ///
 /// Models: AxialBolt, AxialShearBolt.
 template <class Law, int Dim>
 concept BoltLaw = Fills<Law, roles::BoltLaw> && std::copyable<Law> && HasBoltState<Law, Dim> &&
-                  HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
+    HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
 
 template <class Law, int Dim>
 consteval bool explain_bolt_law() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -18,7 +17,7 @@ struct PointMotion {
 /// Force at one contact point, on body b (a gets the opposite).
 template <int Dim>
 struct PointForce {
-  double normal = 0;                             ///< compression positive [N]
+  double normal = 0;                               ///< compression positive [N]
   Vec<Dim - 1> tangential = Vec<Dim - 1>::Zero();  ///< along the tangents [N]
 };
 
@@ -34,15 +33,15 @@ struct PointLoad {
 template <class Law, int Dim>
 concept HasContactState = std::default_initializable<typename Law::template State<Dim>>;
 template <class Law, int Dim>
-concept HasContactForce =
-    requires(const Law law, const PointLoad<Dim>& load, const typename Law::template State<Dim>& state) {
-      { law.force(load, state) } -> std::same_as<PointForce<Dim>>;
-    };
+concept HasContactForce = requires(const Law law, const PointLoad<Dim>& load,
+                                   const typename Law::template State<Dim>& state) {
+  { law.force(load, state) } -> std::same_as<PointForce<Dim>>;
+};
 template <class Law, int Dim>
-concept HasContactCommit =
-    requires(const Law law, const PointLoad<Dim>& load, typename Law::template State<Dim>& state) {
-      { law.commit(load, state) } -> std::same_as<void>;
-    };
+concept HasContactCommit = requires(const Law law, const PointLoad<Dim>& load,
+                                    typename Law::template State<Dim>& state) {
+  { law.commit(load, state) } -> std::same_as<void>;
+};
 template <class Law>
 concept HasJointStiffness = requires(const Law law) {
   { law.joint_normal_stiffness() } -> std::same_as<double>;
@@ -54,13 +53,14 @@ concept HasJointStiffness = requires(const Law law) {
 /// What the compiler cannot check, and a law must still honour:
 ///  - `force` depends on its arguments alone and is continuous in the motion;
 ///  - `commit` sets the state so that `force` at the same motion gives the same force as before;
-///  - with zero motion and a fresh state, `force` returns the initial force where that is admissible;
+///  - with zero motion and a fresh state, `force` returns the initial force where that is
+///  admissible;
 ///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
 ///
 /// Models: CoulombJoint (rock joints, lining interface), SmoothWall (edge of the domain).
 template <class Law, int Dim>
 concept ContactLaw = std::copyable<Law> && HasContactState<Law, Dim> && HasContactForce<Law, Dim> &&
-                     HasContactCommit<Law, Dim> && HasJointStiffness<Law>;
+    HasContactCommit<Law, Dim> && HasJointStiffness<Law>;
 
 template <class Law, int Dim>
 consteval bool explain_contact_law() {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 
@@ -19,7 +18,8 @@ namespace voussoir {
 /// force is in total form, so an opened joint closes again where it opened; the shear spring needs
 /// no turning along at the small rotations for which the contact topology is frozen.
 ///
-/// Source: Boon, Houlsby & Utili (2015), section 2.1; k_n, k_s as of Goodman, Taylor & Brekke (1968).
+/// Source: Boon, Houlsby & Utili (2015), section 2.1; k_n, k_s as of Goodman, Taylor & Brekke
+/// (1968).
 class CoulombJoint {
  public:
   using role = roles::ContactLaw;
@@ -49,8 +49,9 @@ class CoulombJoint {
 
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    const double normal = std::max(
-        0.0, load.initial.normal - params_.joint_normal_stiffness * load.weight * load.motion.opening);
+    const double normal =
+        std::max(0.0, load.initial.normal -
+                          params_.joint_normal_stiffness * load.weight * load.motion.opening);
     return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
   }
 
@@ -59,9 +60,8 @@ class CoulombJoint {
     const PointForce<Dim> now = force(load, state);
     // Only a point that slides moves its spring: q stays bit for bit where it was otherwise.
     if (now.tangential != elastic_shear(load, state))
-      state.plastic_slip =
-          load.motion.slip +
-          (now.tangential - load.initial.tangential) / (params_.joint_shear_stiffness * load.weight);
+      state.plastic_slip = load.motion.slip + (now.tangential - load.initial.tangential) /
+                                                  (params_.joint_shear_stiffness * load.weight);
   }
 
   [[nodiscard]] double joint_normal_stiffness() const { return params_.joint_normal_stiffness; }
@@ -70,9 +70,10 @@ class CoulombJoint {
 
  private:
   template <int Dim>
-  [[nodiscard]] Vec<Dim - 1> elastic_shear(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    return load.initial.tangential - params_.joint_shear_stiffness * load.weight *
-                                         (load.motion.slip - state.plastic_slip);
+  [[nodiscard]] Vec<Dim - 1> elastic_shear(const PointLoad<Dim>& load,
+                                           const State<Dim>& state) const {
+    return load.initial.tangential -
+           params_.joint_shear_stiffness * load.weight * (load.motion.slip - state.plastic_slip);
   }
 
   [[nodiscard]] static Vec<1> shortened(const Vec<1>& shear, double limit) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 

@@ -34,6 +34,9 @@ namespace voussoir {
 
 /// The policy type says that it fills this role.
 template <class Policy, class Role>
-concept Fills = requires { typename Policy::role; } && std::same_as<typename Policy::role, Role>;
+concept Fills = requires {
+  typename Policy::role;
+}
+&&std::same_as<typename Policy::role, Role>;
 
 }  // namespace voussoir

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdio>
+#include <string>
 
 namespace voussoir {
 
-/// A point, displacement or force in the space of the model; world axes x right, y up (z up in 3-D).
+/// A point, displacement or force in the space of the model; world axes x right, y up (z up in
+/// 3-D).
 template <int Dim>
 using Vec = Eigen::Matrix<double, Dim, 1>;
 using Vec2 = Vec<2>;
@@ -30,7 +33,8 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Displacement of a point at `arm` from the centre of a body that turns by the small rotation `spin`.
+/// Displacement of a point at `arm` from the centre of a body that turns by the small rotation
+/// `spin`.
 [[nodiscard]] inline Vec<2> turned(const Spin<2>& spin, const Vec<2>& arm) {
   return {-spin[0] * arm.y(), spin[0] * arm.x()};
 }
@@ -45,6 +49,18 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
 }
 [[nodiscard]] inline Spin<3> moment_of(const Vec<3>& arm, const Vec<3>& force) {
   return turned(arm, force);
+}
+
+/// A point for a message: "(1.5, 30)".
+template <int Dim>
+[[nodiscard]] std::string text_of(const Vec<Dim>& point) {
+  std::string text;
+  for (int k = 0; k < Dim; ++k) {
+    char number[32];
+    std::snprintf(number, sizeof number, k == 0 ? "(%.6g" : ", %.6g", point[k]);
+    text += number;
+  }
+  return text + ")";
 }
 
 }  // namespace voussoir

@@ -3,7 +3,6 @@
 
 #include <concepts>
 #include <vector>
-
 #include <voussoir/core/roles.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
@@ -125,7 +124,8 @@ class ConvexPolygon {
       if (!vertices_[k].allFinite()) fail(k, "is not finite");
     double turning = 0, doubled_area = 0;
     for (std::size_t k = 0; k < size(); ++k) {
-      doubled_area += cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
+      doubled_area +=
+          cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
       const Segment in = face(k), out = face(k + 1 == size() ? 0 : k + 1);
       if (!(in.length() > 0)) fail(k, "is repeated");
       const Vec2 u = in.end - in.start, v = out.end - out.start;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/linear_program.hpp>
@@ -24,7 +23,8 @@ template <class Shape>
 [[nodiscard]] Ball<Shape::dim> inscribed_ball(const Shape& shape) {
   constexpr int dim = Shape::dim;
   using Unknowns = Eigen::Matrix<double, dim + 1, 1>;
-  const Vec<dim> origin = shape.vertex(0);  // relative coordinates: far from the origin costs nothing
+  const Vec<dim> origin =
+      shape.vertex(0);  // relative coordinates: far from the origin costs nothing
   std::vector<LinearConstraint<dim + 1>> faces;
   faces.reserve(shape.size());
   for (std::size_t k = 0; k < shape.size(); ++k) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace voussoir {
 

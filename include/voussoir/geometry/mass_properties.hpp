@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 #include <vector>
-
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 
@@ -14,9 +13,9 @@ namespace voussoir {
 template <int Dim>
 struct MassProperties {
   using Inertia = Eigen::Matrix<double, spin_count<Dim>, spin_count<Dim>>;
-  double measure = 0;                        ///< area [m^2] or volume [m^3]
-  Vec<Dim> centroid = Vec<Dim>::Zero();      ///< [m]
-  Inertia second_moment = Inertia::Zero();   ///< about the centroid; 2-D: polar moment [m^4]
+  double measure = 0;                       ///< area [m^2] or volume [m^3]
+  Vec<Dim> centroid = Vec<Dim>::Zero();     ///< [m]
+  Inertia second_moment = Inertia::Zero();  ///< about the centroid; 2-D: polar moment [m^4]
 };
 
 /// Area, centroid and polar second moment of a simple polygon (Green's theorem).
@@ -68,8 +67,8 @@ template <class Shape>
     if constexpr (dim == 2) {
       whole.second_moment(0, 0) += part.measure * r.squaredNorm();
     } else {
-      whole.second_moment += part.measure * (r.squaredNorm() * Stress<dim>::Identity() -
-                                             r * r.transpose());
+      whole.second_moment +=
+          part.measure * (r.squaredNorm() * Stress<dim>::Identity() - r * r.transpose());
     }
   }
   return whole;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 
@@ -33,7 +32,8 @@ struct Segment {
   /// a closed chain of segments is zero to rounding, which is what puts blocks in equilibrium.
   [[nodiscard]] Vec2 area_vector() const { return -perpendicular(end - start); }
 
-  /// The two Gauss points at +- length / (2 sqrt 3): exact for a linear traction, in force and moment.
+  /// The two Gauss points at +- length / (2 sqrt 3): exact for a linear traction, in force and
+  /// moment.
   [[nodiscard]] std::array<FacetPoint<2>, 2> gauss_points() const {
     const Vec2 offset = (end - start) * (0.5 / std::sqrt(3.0));
     const double weight = 0.5 * length();

@@ -56,7 +56,7 @@ struct PictureLining {
 
 /// All that `draw_blocks_picture` shows.
 struct BlocksPicture {
-  PictureHeader header;  ///< title, verdict in words, key numbers
+  PictureHeader header;              ///< title, verdict in words, key numbers
   std::vector<PictureBlock> blocks;  ///< or convex parts of blocks
   std::vector<PictureJoint> joints;
   std::vector<Vec2> outline;             ///< of the opening, closed, first point not repeated [m]

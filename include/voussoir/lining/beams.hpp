@@ -32,8 +32,8 @@ struct EulerBernoulliBeam {
   static constexpr const char* name = "EulerBernoulliBeam";
   /// @param length  of the element [m], > 0
   template <int Dof>
-    requires(Dof == 3)
-  [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section, double length) {
+  requires(Dof == 3) [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section,
+                                                                       double length) {
     return detail::plane_frame(section, length, 0.0);
   }
 };
@@ -45,8 +45,8 @@ struct TimoshenkoBeam {
   static constexpr const char* name = "TimoshenkoBeam";
   /// @param length  of the element [m], > 0
   template <int Dof>
-    requires(Dof == 3)
-  [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section, double length) {
+  requires(Dof == 3) [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section,
+                                                                       double length) {
     return detail::plane_frame(
         section, length,
         12 * section.bending_stiffness / (section.shear_stiffness * length * length));

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <concepts>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>

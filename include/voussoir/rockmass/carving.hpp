@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -24,6 +23,21 @@ namespace detail {
   for (std::size_t k = 0; inside && k < shape.size(); ++k)
     inside = split(*inside, shape.half_space(k), tolerance).below;
   return inside && inside->length() > tolerance;
+}
+
+[[nodiscard]] inline std::pair<Vec2, Vec2> bounding_box(const std::vector<Vec2>& points) {
+  Vec2 low = points.front(), high = low;
+  for (const Vec2& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return {low, high};
+}
+
+/// True if the polygon's bounding box does not meet the given one.
+[[nodiscard]] inline bool apart(const ConvexPolygon& shape, const Vec2& low, const Vec2& high) {
+  const auto [a, b] = bounding_box(shape.vertices());
+  return (a.array() > high.array()).any() || (b.array() < low.array()).any();
 }
 
 /// True if two faces of one cut touch over more than `tolerance`.
@@ -79,27 +93,16 @@ namespace detail {
   const Domain<2>& domain = mass.domain;
   for (const Vec2& v : opening.vertices())
     if (!((v.array() > domain.low.array()).all() && (v.array() < domain.high.array()).all()))
-      throw InvalidInput("opening: its outline touches or leaves the domain at (" +
-                         std::to_string(v.x()) + ", " + std::to_string(v.y()) + ") m");
+      throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
+                         " m");
   const double tolerance = domain.tolerance();
-  Vec2 low = opening.vertices().front(), high = low;
-  for (const Vec2& v : opening.vertices()) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
+  const auto [low, high] = detail::bounding_box(opening.vertices());
   CarvingReport& report = mass.carving;
   std::vector<Body<Planar>> kept;
   kept.reserve(mass.bodies.size());
   for (Body<Planar>& body : mass.bodies) {
-    const auto away = [&](const ConvexPolygon& part) {
-      Vec2 a = part.vertex(0), b = a;
-      for (const Vec2& v : part.vertices()) {
-        a = a.cwiseMin(v);
-        b = b.cwiseMax(v);
-      }
-      return (a.array() > high.array()).any() || (b.array() < low.array()).any();
-    };
-    if (std::all_of(body.parts.begin(), body.parts.end(), away)) {
+    if (std::all_of(body.parts.begin(), body.parts.end(),
+                    [&](const ConvexPolygon& part) { return detail::apart(part, low, high); })) {
       kept.push_back(std::move(body));
       continue;
     }
@@ -159,12 +162,17 @@ template <class Geometry>
 struct WallPiece {
   int body;
   typename Geometry::Facet facet;
-  int edge;                ///< index of the outline edge
-  double from, to;         ///< arc length along the outline, anticlockwise from vertex 0 [m]
+  int edge;         ///< index of the outline edge
+  double from, to;  ///< arc length along the outline, anticlockwise from vertex 0 [m]
 };
 
 /// The faces of the remaining rock that lie on the outline of the last opening, in the order of
 /// the outline. Where a piece of rock was dropped there is a gap.
+///
+/// Found by their place, not by the cut they come from: where the outline runs along a joint, the
+/// wall is a face of that joint.
+///
+/// @cost  one bounding test per body; faces x outline edges near the opening only
 [[nodiscard]] inline std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar>& mass) {
   if (mass.openings.empty()) return {};
   const SimplePolygon& opening = mass.openings.back();
@@ -172,25 +180,32 @@ struct WallPiece {
   std::vector<double> start(opening.size() + 1, 0.0);
   for (std::size_t e = 0; e < opening.size(); ++e)
     start[e + 1] = start[e] + opening.edge(e).length();
+  auto [low, high] = detail::bounding_box(opening.vertices());
+  low.array() -= tolerance;
+  high.array() += tolerance;
   std::vector<WallPiece<Planar>> pieces;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
-    for (const ConvexPolygon& part : mass.bodies[b].parts)
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        const Cut& cut = mass.cuts[static_cast<std::size_t>(part.cut(k))];
-        if (cut.kind != Cut::Kind::outline) continue;
-        const auto e = static_cast<std::size_t>(cut.source);
-        const Segment edge = opening.edge(e), face = part.face(k);
-        const Vec2 along = (edge.end - edge.start) / edge.length();
-        // The outline is anticlockwise round the opening, the face round the rock: opposite ways.
-        const double from = std::max(0.0, along.dot(face.end - edge.start));
-        const double to = std::min(edge.length(), along.dot(face.start - edge.start));
-        if (to - from <= tolerance) continue;
-        pieces.push_back({static_cast<int>(b),
-                          {edge.start + from * along, edge.start + to * along},
-                          static_cast<int>(e),
-                          start[e] + from,
-                          start[e] + to});
-      }
+    for (const ConvexPolygon& part : mass.bodies[b].parts) {
+      if (detail::apart(part, low, high)) continue;
+      for (std::size_t k = 0; k < part.size(); ++k)
+        for (std::size_t e = 0; e < opening.size(); ++e) {
+          const Segment edge = opening.edge(e), face = part.face(k);
+          const Vec2 along = (edge.end - edge.start) / edge.length();
+          // The outline is anticlockwise round the opening, the face round the rock: opposite ways.
+          const double from = std::max(0.0, along.dot(face.end - edge.start));
+          const double to = std::min(edge.length(), along.dot(face.start - edge.start));
+          if (to - from <= tolerance) continue;
+          const HalfSpace<2> line = left_of(edge.start, edge.end);
+          if (std::abs(line.distance(face.start)) > tolerance ||
+              std::abs(line.distance(face.end)) > tolerance)
+            continue;
+          pieces.push_back({static_cast<int>(b),
+                            {edge.start + from * along, edge.start + to * along},
+                            static_cast<int>(e),
+                            start[e] + from,
+                            start[e] + to});
+        }
+    }
   std::sort(pieces.begin(), pieces.end(),
             [](const auto& a, const auto& b) { return a.from < b.from; });
   return pieces;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <vector>
-
 #include <voussoir/core/roles.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -27,7 +26,8 @@ template <class Geometry>
     for (std::size_t p = 0; p < mass.bodies[b].parts.size(); ++p) {
       const auto& part = mass.bodies[b].parts[p];
       for (std::size_t k = 0; k < part.size(); ++k)
-        faces.push_back({part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)});
+        faces.push_back(
+            {part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)});
     }
   std::stable_sort(faces.begin(), faces.end(),
                    [](const FaceRef& x, const FaceRef& y) { return x.cut < y.cut; });
@@ -36,9 +36,8 @@ template <class Geometry>
 
 template <class Geometry>
 [[nodiscard]] typename Geometry::Facet facet_of(const RockMass<Geometry>& mass, const FaceRef& f) {
-  return mass.bodies[static_cast<std::size_t>(f.body)]
-      .parts[static_cast<std::size_t>(f.part)]
-      .face(static_cast<std::size_t>(f.face));
+  return mass.bodies[static_cast<std::size_t>(f.body)].parts[static_cast<std::size_t>(f.part)].face(
+      static_cast<std::size_t>(f.face));
 }
 
 /// Overlaps of the faces on the two sides of one cut: sort both sides along it and sweep.

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/vec.hpp>
@@ -29,11 +28,11 @@ enum class DipDirection { east, west };  ///< east: down to the right; west: dow
 /// A family of joints of similar orientation, as borehole and scanline surveys describe it.
 struct JointSet {
   std::string name;
-  double dip;                    ///< from the horizontal [rad], 0 to pi/2
+  double dip;  ///< from the horizontal [rad], 0 to pi/2
   DipDirection dip_direction = DipDirection::east;
-  double dip_deviation = 0;      ///< standard deviation of the dip, normal [rad], >= 0
-  double intensity = 0;          ///< joint centres per area [1/m^2]; 0: use `spacing`
-  double spacing = 0;            ///< normal spacing [m]; 0: use `intensity`
+  double dip_deviation = 0;  ///< standard deviation of the dip, normal [rad], >= 0
+  double intensity = 0;      ///< joint centres per area [1/m^2]; 0: use `spacing`
+  double spacing = 0;        ///< normal spacing [m]; 0: use `intensity`
   double extent = std::numeric_limits<double>::infinity();  ///< full length of a trace [m], > 0
 
   /// @throws InvalidInput  a value out of range, or not exactly one of intensity and spacing
@@ -45,7 +44,8 @@ struct JointSet {
     rule(dip >= 0 && dip <= 0.5 * std::numbers::pi, "dip must be 0 to 90 deg");
     rule(dip_deviation >= 0 && std::isfinite(dip_deviation), "deviation of the dip must be >= 0");
     rule((intensity > 0) != (spacing > 0), "give either an intensity > 0 or a spacing > 0");
-    rule(std::isfinite(intensity) && std::isfinite(spacing), "intensity and spacing must be finite");
+    rule(std::isfinite(intensity) && std::isfinite(spacing),
+         "intensity and spacing must be finite");
     rule(extent > 0, "extent must be > 0");
   }
 };
@@ -98,8 +98,7 @@ namespace detail {
 /// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
 /// would use up the block sizes that the minimum allows.
 [[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
-                                                      const Domain<2>& domain,
-                                                      std::uint64_t seed) {
+                                                      const Domain<2>& domain, std::uint64_t seed) {
   domain.check();
   std::vector<Joint> all;
   for (std::size_t k = 0; k < sets.size(); ++k) {

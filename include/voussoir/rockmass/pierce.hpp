@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <vector>
-
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -17,6 +16,10 @@ struct Passage {
   int body;
   double from, to;  ///< distance from the start of the line [m]
 };
+
+/// Two passages nearer to each other than so many tolerances touch: each end is off by at most the
+/// tolerance over the sine of the angle at which the line meets the face.
+inline constexpr double same_point = 10;
 
 namespace detail {
 
@@ -58,7 +61,8 @@ namespace detail {
 template <class Geometry>
 [[nodiscard]] std::vector<Passage> pierce(const RockMass<Geometry>& mass, const Segment& line) {
   const double tolerance = mass.domain.tolerance();
-  const auto low = line.start.cwiseMin(line.end).eval(), high = line.start.cwiseMax(line.end).eval();
+  const auto low = line.start.cwiseMin(line.end).eval(),
+             high = line.start.cwiseMax(line.end).eval();
   std::vector<Passage> passages;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     for (const auto& part : mass.bodies[b].parts) {
@@ -80,7 +84,7 @@ template <class Geometry>
   std::vector<Passage> joined;
   for (const Passage& next : passages) {
     if (!joined.empty() && joined.back().body == next.body &&
-        next.from - joined.back().to < 10 * tolerance) {
+        next.from - joined.back().to < same_point * tolerance) {
       joined.back().to = next.to;
     } else {
       joined.push_back(next);

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <vector>
-
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/mass_properties.hpp>
 #include <voussoir/rockmass/domain.hpp>
@@ -33,10 +32,11 @@ struct Body {
 
 /// What slicing did, for the report: nothing is dropped silently.
 struct SlicingReport {
-  std::size_t joints = 0;             ///< joints offered
-  std::size_t cuts = 0;               ///< blocks cut in two
-  std::size_t unused_joints = 0;      ///< joints that cut nothing
-  std::size_t coincident = 0;         ///< cuts not made: the joint runs along an existing face
+  std::size_t joints = 0;         ///< joints offered
+  std::size_t cuts = 0;           ///< blocks cut in two
+  std::size_t unused_joints = 0;  ///< joints that cut nothing
+  std::size_t coincident =
+      0;  ///< cuts not made: the joint only touches the block, or runs along a face
   std::size_t refused_too_small = 0;  ///< cuts refused: a child's inscribed radius
   std::size_t refused_too_long = 0;   ///< cuts refused: a child's elongation
   std::size_t vanished_faces = 0;     ///< faces shorter than the tolerance, welded away
@@ -44,12 +44,12 @@ struct SlicingReport {
 
 /// What carving an opening did.
 struct CarvingReport {
-  double removed_measure = 0;         ///< rock taken out [m^2] or [m^3]
-  std::size_t removed_bodies = 0;     ///< bodies wholly inside the opening
-  std::size_t cut_bodies = 0;         ///< bodies crossed by the outline
-  std::size_t separated_bodies = 0;   ///< extra bodies where a cut block fell apart
-  std::size_t dropped_pieces = 0;     ///< bodies at the wall below the smallest size, dropped
-  double dropped_measure = 0;         ///< [m^2] or [m^3]
+  double removed_measure = 0;        ///< rock taken out [m^2] or [m^3]
+  std::size_t removed_bodies = 0;    ///< bodies wholly inside the opening
+  std::size_t cut_bodies = 0;        ///< bodies crossed by the outline
+  std::size_t separated_bodies = 0;  ///< extra bodies where a cut block fell apart
+  std::size_t dropped_pieces = 0;    ///< bodies at the wall below the smallest size, dropped
+  double dropped_measure = 0;        ///< [m^2] or [m^3]
 };
 
 /// Jointed rock: the domain, the joints and the bodies between them.

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/pierce.hpp>
@@ -15,32 +14,50 @@
 
 namespace voussoir {
 
+/// What a straight line meets in the rock.
+struct Scanline {
+  double length = 0;       ///< inside the rock [m]
+  std::size_t joints = 0;  ///< crossed from one body to the next; openings do not count
+
+  /// length / joints [m]; infinite when no joint is crossed
+  [[nodiscard]] double spacing() const {
+    return joints > 0 ? length / static_cast<double>(joints)
+                      : std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Adds what the line meets to `found`.
+template <class Geometry>
+void scan(const RockMass<Geometry>& mass, const Segment& line, Scanline& found) {
+  const std::vector<Passage> passages = pierce(mass, line);
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    found.length += passages[k].to - passages[k].from;
+    const bool next_touches = k + 1 < passages.size() && passages[k + 1].from - passages[k].to <
+                                                             same_point * mass.domain.tolerance();
+    if (next_touches) ++found.joints;
+  }
+}
+
 /// Mean joint spacing along a scanline: length inside the rock / number of joints crossed [m].
 /// Infinite when no joint is crossed.
 template <class Geometry>
 [[nodiscard]] double scanline_spacing(const RockMass<Geometry>& mass, const Segment& line) {
-  const std::vector<Passage> passages = pierce(mass, line);
-  double length = 0;
-  for (const Passage& p : passages) length += p.to - p.from;
-  if (passages.size() < 2) return std::numeric_limits<double>::infinity();
-  return length / static_cast<double>(passages.size() - 1);
+  Scanline found;
+  scan(mass, line, found);
+  return found.spacing();
 }
 
 /// Mean spacing over scanlines that radiate from `centre`, starting at `inner`, `length` long:
 /// total length / total number of joints, over `directions` equally spaced directions [m].
 [[nodiscard]] inline double radial_spacing(const RockMass<Planar>& mass, const Vec2& centre,
                                            double inner, double length, int directions = 72) {
-  double total = 0;
-  std::size_t crossings = 0;
+  Scanline found;
   for (int k = 0; k < directions; ++k) {
     const double angle = 2 * std::numbers::pi * (k + 0.5) / directions;
     const Vec2 out(std::cos(angle), std::sin(angle));
-    const auto passages = pierce(mass, {centre + inner * out, centre + (inner + length) * out});
-    for (const Passage& p : passages) total += p.to - p.from;
-    if (!passages.empty()) crossings += passages.size() - 1;
+    scan(mass, {centre + inner * out, centre + (inner + length) * out}, found);
   }
-  return crossings > 0 ? total / static_cast<double>(crossings)
-                       : std::numeric_limits<double>::infinity();
+  return found.spacing();
 }
 
 /// Distribution of block sizes.

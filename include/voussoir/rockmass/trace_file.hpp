@@ -7,11 +7,25 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 
 namespace voussoir {
+
+namespace detail {
+
+/// A line of a file as a message may show it: its first 60 characters, without line end and with
+/// ? for control characters, which a terminal would obey.
+[[nodiscard]] inline std::string shown(std::string_view line) {
+  constexpr std::size_t most = 60;
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  std::string text(line.substr(0, most));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return line.size() > most ? text + "..." : text;
+}
+
+}  // namespace detail
 
 /// Reads mapped joints: one trace per line, `x1,y1,x2,y2` and optionally a set number, in metres on
 /// the site grid. Empty lines and lines that start with # are skipped; the first line may be a
@@ -27,7 +41,8 @@ namespace voussoir {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     const auto fail = [&](const std::string& what) {
-      throw InvalidInput(name + ":" + std::to_string(number) + ": " + what + " in \"" + line +
+      throw InvalidInput(name + ":" + std::to_string(number) + ": " + what + " in \"" +
+                         detail::shown(line) +
                          "\"; accepted: x1,y1,x2,y2[,set] in metres, for example 1.5,-2,4.25,3,0");
     };
     std::string_view rest = line;

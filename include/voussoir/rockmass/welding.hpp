@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
-
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
 
@@ -23,7 +22,9 @@ class Welder {
 
   /// The first vertex seen within the tolerance of `p`: `p` itself if there was none.
   Vec2 operator()(const Vec2& p) {
-    const auto column = [this](double x) { return static_cast<std::int64_t>(std::floor(x / cell_)); };
+    const auto column = [this](double x) {
+      return static_cast<std::int64_t>(std::floor(x / cell_));
+    };
     for (std::int64_t i = column(p.x() - tolerance_); i <= column(p.x() + tolerance_); ++i)
       for (std::int64_t j = column(p.y() - tolerance_); j <= column(p.y() + tolerance_); ++j) {
         const auto [first, last] = seen_.equal_range(key(i, j));

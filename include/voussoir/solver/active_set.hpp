@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
-
 #include <voussoir/solver/block_lu.hpp>
 #include <voussoir/solver/system.hpp>
 
@@ -28,7 +27,8 @@ class ActiveSet {
   /// @param threshold  a body is active if its unbalance over its weight exceeds this
   /// @param rings      how many generations of neighbours to add
   ActiveSet(System& system, const Eigen::VectorXd& f, double threshold, int rings)
-      : system_(&system), active_(static_cast<std::size_t>(system.body_count()), 0),
+      : system_(&system),
+        active_(static_cast<std::size_t>(system.body_count()), 0),
         number_(active_.size(), -1) {
     lightest_ = system.lightest_weight();
     for (int b = 0; b < system.body_count(); ++b)
@@ -50,14 +50,14 @@ class ActiveSet {
 
   [[nodiscard]] const std::vector<int>& bodies() const { return bodies_; }
 
-  /// Out-of-balance forces on the active bodies at displacement `u`; the entries of other bodies are
-  /// left without meaning.
+  /// Out-of-balance forces on the active bodies at displacement `u`; the entries of other bodies
+  /// are left without meaning.
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
     for (const int b : bodies_)
-      f.segment<dof>(dof * b) = system_->load.template segment<dof>(dof * b) +
-                                system_->wall_fraction *
-                                    system_->wall_load.template segment<dof>(dof * b);
+      f.segment<dof>(dof * b) =
+          system_->load.template segment<dof>(dof * b) +
+          system_->wall_fraction * system_->wall_load.template segment<dof>(dof * b);
     system_->joints.template add_forces<History>(joints_, u.data(), f.data());
     system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
     system_->interface.template add_forces<History>(interface_, u.data(), f.data());
@@ -65,7 +65,8 @@ class ActiveSet {
       auto& bolt = system_->bolts[k];
       const auto& law = system_->bolt_laws[static_cast<std::size_t>(bolt.law)];
       bolt.add_force(law, u.data(), f.data());
-      if constexpr (std::is_same_v<History, Committing>) law.commit(bolt.span_at(u.data()), bolt.state);
+      if constexpr (std::is_same_v<History, Committing>)
+        law.commit(bolt.span_at(u.data()), bolt.state);
     }
     for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
   }
@@ -88,8 +89,7 @@ class ActiveSet {
   /// Largest translation of an active body [m].
   [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
     double squared = 0;
-    for (const int b : bodies_)
-      squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
+    for (const int b : bodies_) squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 
@@ -138,7 +138,7 @@ class ActiveSet {
     for (const std::size_t k : frames_)
       system_->frames[k].add_stiffness(
           [&](int a, int b, const Block& aa, const Block& ab, const Block& bb) {
-            sink(a, b, aa, ab, Block(ab.transpose()), bb);
+            sink(a, b, aa, ab, transposed(ab), bb);
           });
     std::sort(couplings.begin(), couplings.end(), [](const Coupling& x, const Coupling& y) {
       return x.j != y.j ? x.j < y.j : x.i < y.i;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/solver/block_elimination.hpp>
 #include <voussoir/solver/block_matrix.hpp>
@@ -27,8 +25,7 @@ class BlockCholesky {
   /// @throws NumericalFault  not positive definite: some body can move without resistance; the
   ///                         message names its index
   /// @cost   about 0.02 s for 5 000 bodies in 2-D; grows as n^1.5
-  explicit BlockCholesky(const BlockMatrix<Dof>& matrix)
-      : pattern_(matrix.size(), matrix.pairs()) {
+  explicit BlockCholesky(const BlockMatrix<Dof>& matrix) : pattern_(matrix.size(), matrix.pairs()) {
     const std::size_t n = pattern_.size();
     rows_.resize(pattern_.block_count());
     blocks_.resize(pattern_.block_count());

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
-
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 
 namespace voussoir {
 
@@ -129,7 +128,8 @@ class BlockElimination {
     begin_.assign(n + 1, 0);
     RowWalk walk(*this);
     for (std::size_t i = 0; i < n; ++i)
-      walk(i, [](const Place&) {}, [this](std::size_t j) { ++begin_[j + 1]; });
+      walk(
+          i, [](const Place&) {}, [this](std::size_t j) { ++begin_[j + 1]; });
     for (std::size_t k = 0; k < n; ++k) begin_[k + 1] += begin_[k];
   }
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <cstddef>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Core>
-#include <Eigen/LU>
-
 #include <voussoir/solver/block_elimination.hpp>
 
 namespace voussoir {

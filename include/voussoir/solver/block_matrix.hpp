@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace voussoir {
+
+/// A transposed copy. Set before it is assigned to, because g++ 12 takes Eigen's check for aliasing
+/// in a construction from a transpose for a use of uninitialised memory, and warns.
+template <int Dof>
+[[nodiscard]] Eigen::Matrix<double, Dof, Dof> transposed(
+    const Eigen::Matrix<double, Dof, Dof>& block) {
+  Eigen::Matrix<double, Dof, Dof> copy = Eigen::Matrix<double, Dof, Dof>::Zero();
+  copy = block.transpose();
+  return copy;
+}
 
 /// Symmetric sparse matrix of Dof x Dof blocks, one block row per body: the lower triangle.
 template <int Dof>
@@ -19,7 +28,9 @@ class BlockMatrix {
   explicit BlockMatrix(int bodies) : diagonal_(static_cast<std::size_t>(bodies), Block::Zero()) {}
 
   [[nodiscard]] int size() const { return static_cast<int>(diagonal_.size()); }
-  [[nodiscard]] const Block& diagonal(int i) const { return diagonal_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Block& diagonal(int i) const {
+    return diagonal_[static_cast<std::size_t>(i)];
+  }
 
   void add(int i, const Block& block) { diagonal_[static_cast<std::size_t>(i)] += block; }
   /// Adds the block of row i and column j, i != j (and its transpose above).
@@ -27,7 +38,7 @@ class BlockMatrix {
     if (i > j) {
       entries_.push_back({i, j, block});
     } else {
-      entries_.push_back({j, i, block.transpose()});
+      entries_.push_back({j, i, transposed(block)});
     }
   }
 
@@ -56,7 +67,9 @@ class BlockMatrix {
     return all;
   }
   /// The block of pair k.
-  [[nodiscard]] const Block& below(int k) const { return entries_[static_cast<std::size_t>(k)].block; }
+  [[nodiscard]] const Block& below(int k) const {
+    return entries_[static_cast<std::size_t>(k)].block;
+  }
 
   /// Sum of the absolute values in every row: Gershgorin's bound on the eigenvalues.
   [[nodiscard]] Eigen::VectorXd absolute_row_sums() const {

@@ -3,7 +3,6 @@
 
 #include <string>
 #include <type_traits>
-
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
@@ -89,8 +88,8 @@ struct Composition {
   /// For the first line of every log: "Planar, CutContacts, CoulombJoint, ...".
   [[nodiscard]] static std::string describe() {
     std::string text = Geometry::name;
-    for (const char* name : {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name,
-                             Lining::name, Method::name})
+    for (const char* name :
+         {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name, Lining::name, Method::name})
       text.append(", ").append(name);
     return text;
   }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <span>
 #include <vector>
-
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -46,9 +45,10 @@ class ContactGroup {
     int first, last;  ///< points first, ..., last - 1
   };
   struct Point {
-    Vec<dim - 1> offset;      ///< from the centre of the facet, along the tangents [m]
-    double weight;            ///< [m] or [m^2]
-    PointForce<dim> initial;  ///< in the in-situ state, or minus what the installation must not feel
+    Vec<dim - 1> offset;  ///< from the centre of the facet, along the tangents [m]
+    double weight;        ///< [m] or [m^2]
+    PointForce<dim>
+        initial;  ///< in the in-situ state, or minus what the installation must not feel
     [[no_unique_address]] State state;
   };
 
@@ -168,7 +168,8 @@ class ContactGroup {
           (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
           const PointForce<dim> up = law_.force(more, p.state), down = law_.force(less, p.state);
           stiffness(0, l) = (down.normal - up.normal) / (2 * step);
-          stiffness.template block<dim - 1, 1>(1, l) = (down.tangential - up.tangential) / (2 * step);
+          stiffness.template block<dim - 1, 1>(1, l) =
+              (down.tangential - up.tangential) / (2 * step);
         }
         Rows a, b;
         for (int l = 0; l < dim; ++l) {
@@ -237,10 +238,10 @@ class ContactGroup {
       force += on_b;
       moment += moment_of(offset, on_b);
     }
-    Eigen::Map<Vec<dim>>{f + dof * c.b} += force;
-    Eigen::Map<Vec<dim>>{f + dof * c.a} -= force;
-    Eigen::Map<Spin<dim>>{f + dof * c.b + dim} += moment + moment_of(c.arm_b, force);
-    Eigen::Map<Spin<dim>>{f + dof * c.a + dim} -= moment + moment_of(c.arm_a, force);
+    Eigen::Map<Vec<dim>>{f + dof* c.b} += force;
+    Eigen::Map<Vec<dim>>{f + dof* c.a} -= force;
+    Eigen::Map<Spin<dim>>{f + dof* c.b + dim} += moment + moment_of(c.arm_b, force);
+    Eigen::Map<Spin<dim>>{f + dof* c.a + dim} -= moment + moment_of(c.arm_a, force);
   }
 
   [[nodiscard]] static PointMotion<dim> motion_at(const Contact& c, const Vec<dim>& offset,

@@ -6,7 +6,6 @@
 #include <limits>
 #include <string>
 #include <vector>
-
 #include <voussoir/core/roles.hpp>
 
 namespace voussoir {
@@ -20,36 +19,41 @@ enum class Verdict {
 
 [[nodiscard]] constexpr const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::stable: return "stable";
-    case Verdict::collapsing: return "collapsing";
-    case Verdict::undecided: return "undecided";
+    case Verdict::stable:
+      return "stable";
+    case Verdict::collapsing:
+      return "collapsing";
+    case Verdict::undecided:
+      return "undecided";
   }
   return "undecided";
 }
 
 /// When a state counts as an equilibrium.
 struct Acceptance {
-  double error_estimate = 1e-3;       ///< largest elastic correction / largest displacement [-]
+  double error_estimate = 1e-3;         ///< largest elastic correction / largest displacement [-]
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
-  double displacement_limit = 0.1;    ///< a body that moved further has fallen [m]
-  double collapse_measure = 20;       ///< more fallen rock than this is a collapse [m^2], [m^3]
+  /// A body that moved further has fallen [m]: as far as contacts and rotations of the reference
+  /// position are good for blocks of half a metre. Beyond it answers depend on the path taken.
+  double displacement_limit = 0.02;
+  double collapse_measure = 20;  ///< more fallen rock than this is a collapse [m^2], [m^3]
 };
 
 /// The outcome of one search for equilibrium, with the numbers that decided it.
 struct EquilibriumReport {
   Verdict verdict = Verdict::undecided;
-  std::string reason;                ///< one sentence
+  std::string reason;  ///< one sentence
   /// Largest elastic correction / largest displacement; not a number if it was not computed.
   double error_estimate = std::numeric_limits<double>::quiet_NaN();
   double unbalance_over_weight = std::numeric_limits<double>::quiet_NaN();
-  double largest_displacement = 0;   ///< [m]
-  int steps = 0;                     ///< force evaluations
+  double largest_displacement = 0;  ///< [m]
+  int steps = 0;                    ///< force evaluations
   int elastic_solves = 0;
   int factorisations = 0;
-  std::vector<int> fallen;           ///< bodies removed because they fell, in this search
-  double fallen_measure = 0;         ///< [m^2] or [m^3]
-  int broken_bolts = 0;              ///< bolt springs that ruptured
-  bool stopped = false;              ///< the caller asked to stop
+  std::vector<int> fallen;    ///< bodies removed because they fell, in this search
+  double fallen_measure = 0;  ///< [m^2] or [m^3]
+  int broken_bolts = 0;       ///< bolt springs that ruptured
+  bool stopped = false;       ///< the caller asked to stop
 };
 
 /// Called now and then: a fraction between 0 and 1 of the work done, or a negative number where it
@@ -66,10 +70,10 @@ struct SearchContext {
 };
 
 template <class Method, class System>
-concept HasEquilibriumSearch =
-    requires(const Method method, System& system, const SearchContext& context) {
-      { method.find(system, context) } -> std::same_as<EquilibriumReport>;
-    };
+concept HasEquilibriumSearch = requires(const Method method, System& system,
+                                        const SearchContext& context) {
+  { method.find(system, context) } -> std::same_as<EquilibriumReport>;
+};
 
 /// Finds the equilibrium of a system after its load or its supports have changed.
 ///
@@ -79,7 +83,7 @@ concept HasEquilibriumSearch =
 /// Models: TwoLevel, Relaxation, Explicit.
 template <class Method, class System>
 concept EquilibriumMethod = Fills<Method, roles::Equilibrium> && std::copyable<Method> &&
-                            std::default_initializable<Method> && HasEquilibriumSearch<Method, System>;
+    std::default_initializable<Method> && HasEquilibriumSearch<Method, System>;
 
 template <class Method, class System>
 consteval bool explain_equilibrium_method() {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/contact_group.hpp>
@@ -33,13 +32,14 @@ class Explicit {
   static constexpr const char* name = "Explicit";
 
   struct Params {
-    double damping = 0.7;      ///< local damping alpha [-], 0 <= alpha < 1
-    int ramp_steps = 2000;     ///< over which the wall traction goes; 0: sudden
-    double safety = 0.9;       ///< of the stable step [-], 0 < safety <= 1
+    double damping = 0.7;   ///< local damping alpha [-], 0 <= alpha < 1
+    int ramp_steps = 2000;  ///< over which the wall traction goes; 0: sudden
+    double safety = 0.9;    ///< of the stable step [-], 0 < safety <= 1
     int max_steps = 200000;
     int check_every = 50;
-    bool real_masses = false;  ///< true: time is physical; weightless lining nodes keep a scaled mass
-    double gravity = 9.81;     ///< turns weights into masses [m/s^2]; used with real_masses
+    bool real_masses =
+        false;              ///< true: time is physical; weightless lining nodes keep a scaled mass
+    double gravity = 9.81;  ///< turns weights into masses [m/s^2]; used with real_masses
   };
   Explicit() = default;
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -66,7 +66,8 @@ class Explicit {
     double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
     while (report.steps < params_.max_steps) {
       const bool ramping = report.steps < params_.ramp_steps;
-      const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
+      const double done =
+          ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
       system.wall_fraction = from + (to - from) * done;
       system.template forces<Committing>(u, f);
       ++report.steps;
@@ -80,9 +81,9 @@ class Explicit {
       report.largest_displacement = System::largest_translation(u);
       if (!std::isfinite(report.largest_displacement))
         throw NumericalFault("explicit stepping: displacements are not finite at step " +
-                             std::to_string(report.steps) + "; lower the safety factor of the step");
-      if (context.progress &&
-          !context.progress(ramping ? done : -1.0)) {
+                             std::to_string(report.steps) +
+                             "; lower the safety factor of the step");
+      if (context.progress && !context.progress(ramping ? done : -1.0)) {
         report.reason = "stopped by the user";
         report.stopped = true;
         break;
@@ -91,7 +92,7 @@ class Explicit {
       if (!fallen.empty()) {
         for (const int b : fallen) velocity.template segment<dof>(dof * b).setZero();
         detail::drop(system, fallen, context, report);
-        if (detail::has_collapsed(report, accept)) break;
+        if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = masses(system);
         step = stable_step(system, mass);
         continue;
@@ -144,7 +145,8 @@ class Explicit {
       if (!body.movable || !(body.weight > 0)) continue;
       const double m = body.weight / params_.gravity;
       real.template segment<dim>(dof * b).setConstant(m);
-      real.template segment<dof - dim>(dof * b + dim).setConstant(m * body.gyration * body.gyration);
+      real.template segment<dof - dim>(dof * b + dim)
+          .setConstant(m * body.gyration * body.gyration);
       for (int k = 0; k < dof; ++k)
         block_step = std::min(block_step, std::sqrt(real[dof * b + k] / mass[dof * b + k]));
     }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace voussoir {
 
@@ -18,10 +17,10 @@ namespace voussoir {
 class Fire {
  public:
   struct Params {
-    double largest_step = 0.8;   ///< in critical steps; 0.95 and mixing 0.2 need 10 times the work
+    double largest_step = 0.8;  ///< in critical steps; 0.95 and mixing 0.2 need 10 times the work
     double first_step = 0.4;
     double mixing = 0.1;
-    int patience = 5;            ///< downhill steps before the time step grows
+    int patience = 5;  ///< downhill steps before the time step grows
   };
 
   /// @param row_sums  Gershgorin row sums of the stiffness, > 0

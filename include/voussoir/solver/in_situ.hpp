@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -15,10 +14,10 @@ namespace voussoir {
 /// Prescribing its tractions at the Gauss points of all contacts puts every block in equilibrium,
 /// force and moment, to rounding: no generation stage has to be simulated.
 struct InSitu {
-  double density;        ///< rho [kg/m^3], > 0
-  double k0 = 1;         ///< horizontal / vertical stress [-], >= 0
-  double surcharge = 0;  ///< pressure on the ground surface [Pa], >= 0
-  double gravity = 9.81; ///< g [m/s^2], > 0
+  double density;         ///< rho [kg/m^3], > 0
+  double k0 = 1;          ///< horizontal / vertical stress [-], >= 0
+  double surcharge = 0;   ///< pressure on the ground surface [Pa], >= 0
+  double gravity = 9.81;  ///< g [m/s^2], > 0
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -28,7 +27,9 @@ struct InSitu {
     require(gravity > 0 && std::isfinite(gravity), "gravity", gravity, "> 0 m/s^2");
   }
 
-  [[nodiscard]] double vertical(double depth) const { return surcharge + density * gravity * depth; }
+  [[nodiscard]] double vertical(double depth) const {
+    return surcharge + density * gravity * depth;
+  }
 
   /// Stress at a depth, compression positive [Pa].
   template <int Dim>

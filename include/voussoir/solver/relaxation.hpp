@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <string>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/solver/active_set.hpp>
 #include <voussoir/solver/contact_group.hpp>
@@ -40,14 +39,28 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   if (!bodies.empty()) system.remove(bodies);
 }
 
-/// True, with the verdict, if more has fallen than a tunnel can lose.
-[[nodiscard]] inline bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
-  if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
-  char text[160];
+/// The reason not to tell falling blocks from the others by how far they moved.
+[[nodiscard]] inline std::string moves_too_far(double elastic, double limit) {
+  char text[200];
   std::snprintf(text, sizeof text,
-                "%zu bodies of %.3g m2 (m3) fell before the rest came to rest; more than %.3g is a "
-                "collapse",
-                report.fallen.size(), report.fallen_measure, acceptance.collapse_measure);
+                "with joints that neither slip nor open the rock moves %.3g mm, more than half the "
+                "displacement limit of %.3g mm: raise displacement_limit",
+                1e3 * elastic, 1e3 * limit);
+  return text;
+}
+
+/// True, with the verdict, if more has fallen than a tunnel can lose.
+template <int Dim>
+[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
+  if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
+  const char* unit = Dim == 2 ? "m2" : "m3";
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "%zu block%s of %.3g %s fell before the others came to rest; more than %.3g %s is a "
+      "collapse",
+      report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure, unit,
+      acceptance.collapse_measure, unit);
   report.verdict = Verdict::collapsing;
   report.reason = text;
   return true;
@@ -69,10 +82,10 @@ class Relaxation {
 
   struct Params {
     int max_steps = 60000;
-    int check_every = 40;     ///< steps between looks at the whole system
-    double damping = 0.7;     ///< local damping [-], 0 <= damping < 1
-    double safety = 0.9;      ///< of the stable step [-]
-    int rings = 3;            ///< generations of neighbours that move with a body out of balance
+    int check_every = 40;  ///< steps between looks at the whole system
+    double damping = 0.7;  ///< local damping [-], 0 <= damping < 1
+    double safety = 0.9;   ///< of the stable step [-]
+    int rings = 3;         ///< generations of neighbours that move with a body out of balance
   };
   Relaxation() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -102,7 +115,7 @@ class Relaxation {
       if (!fallen.empty()) {
         for (const int b : fallen) velocity.template segment<dof>(dof * b).setZero();
         detail::drop(system, fallen, context, report);
-        if (detail::has_collapsed(report, accept)) break;
+        if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
         continue;
       }

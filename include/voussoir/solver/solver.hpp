@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -91,9 +90,16 @@ class Solver {
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
   int install_bolt(const Segment& bar, const BoltLaw& law, double spacing = 1.0,
                    const Anchors& anchors = {}) {
-    require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
+    require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing,
+            "> 0 m");
     const double length = bar.length();
     require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
+    const auto& domain = mass_.domain;
+    if ((bar.end.array() < domain.low.array()).any() ||
+        (bar.end.array() > domain.high.array()).any())
+      throw InvalidInput("bolt: its tip at " + text_of<dim>(bar.end) +
+                         " m is not in the rock, which reaches from " + text_of<dim>(domain.low) +
+                         " to " + text_of<dim>(domain.high) + " m");
     const Vec<dim> axis = (bar.end - bar.start) / length;
     system_.bolt_laws.push_back(law);
     const std::vector<Passage> passages = passages_of_present_rock(bar);
@@ -101,8 +107,7 @@ class Solver {
     for (std::size_t k = 1; k < passages.size(); ++k) {
       const Passage &before = passages[k - 1], &after = passages[k];
       if (before.body == after.body) continue;  // round a corner of the opening and back
-      const AnchorDistances d =
-          anchors.distances({before.to - before.from, after.to - after.from});
+      const AnchorDistances d = anchors.distances({before.to - before.from, after.to - after.from});
       BoltSpring<Geometry, BoltLaw> spring{};
       spring.a = before.body;
       spring.b = after.body;
@@ -112,8 +117,13 @@ class Solver {
       const Vec<dim> grip_b = bar.start + (after.from + d.after) * axis;
       spring.arm_a = grip_a - system_.body(spring.a).centre;
       spring.arm_b = grip_b - system_.body(spring.b).centre;
+      const Vec<dim> crossing = bar.start + spring.position * axis;
+      spring.joint_a = crossing - system_.body(spring.a).centre;
+      spring.joint_b = crossing - system_.body(spring.b).centre;
       spring.span = {grip_b - grip_a, axis, Vec<dim>::Zero()};
-      spring.span.motion = -spring.span_at(system_.displacement.data()).motion;
+      const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
+      spring.span.motion = -present.motion;
+      spring.span.jump = -present.jump;
       spring.share = dim == 2 ? 1.0 / spacing : 1.0;
       spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
       system_.bolts.push_back(spring);
@@ -135,14 +145,16 @@ class Solver {
     std::vector<double> tributary(frame.nodes.size(), 0.0);
     for (const auto& [i, j] : frame.members) {
       const double length =
-          (frame.nodes[static_cast<std::size_t>(j)] - frame.nodes[static_cast<std::size_t>(i)]).norm();
+          (frame.nodes[static_cast<std::size_t>(j)] - frame.nodes[static_cast<std::size_t>(i)])
+              .norm();
       require(length > 0, "length of a lining member", length, "> 0 m");
       tributary[static_cast<std::size_t>(i)] += 0.5 * length;
       tributary[static_cast<std::size_t>(j)] += 0.5 * length;
     }
     for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
       const double weight = section.mass * tributary[k] * in_situ_.gravity;
-      const int node = system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true});
+      const int node =
+          system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true});
       system_.load[dof * node + dim - 1] = -weight;
       measures_.push_back(0.0);
     }
@@ -202,7 +214,8 @@ class Solver {
  private:
   /// A stand-in until a lining is installed: there are no contacts that could use it.
   [[nodiscard]] static CoulombJoint free_interface() {
-    return CoulombJoint({.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
+    return CoulombJoint(
+        {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
   }
 
   void build() {

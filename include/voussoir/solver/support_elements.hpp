@@ -8,53 +8,58 @@
 
 namespace voussoir {
 
-/// A bolt at one joint: a spring between points of two bodies.
+/// A bolt at one joint: a spring between its anchors in two bodies, and its dowel at the joint.
 template <class Geometry, class Law>
 struct BoltSpring {
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
-  int a, b;                ///< body towards the head, body towards the tip
-  int bolt;                ///< number of the bolt
-  double position;         ///< of the joint, from the head [m]
-  Vec<dim> arm_a, arm_b;   ///< from the centres of the bodies to the anchors [m]
-  BoltSpan<dim> span;      ///< at installation; `motion` holds the jump then present, negated
-  double share;            ///< 1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
-  int law;                 ///< index into the laws of the system
+  int a, b;                   ///< body towards the head, body towards the tip
+  int bolt;                   ///< number of the bolt
+  double position;            ///< of the joint, from the head [m]
+  Vec<dim> arm_a, arm_b;      ///< from the centres of the bodies to the anchors [m]
+  Vec<dim> joint_a, joint_b;  ///< from there to where the bar crosses the joint [m]
+  BoltSpan<dim> span;         ///< at installation; `motion`, `jump`: those then present, negated
+  double share;               ///< 1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
+  int law;                    ///< index into the laws of the system
   typename Law::State state{};
 
   [[nodiscard]] BoltSpan<dim> span_at(const double* u) const {
+    const double *ua = u + dof * a, *ub = u + dof * b;
     BoltSpan<dim> now = span;
-    now.motion += displacement_at<dim>(u + dof * b, arm_b) - displacement_at<dim>(u + dof * a, arm_a);
+    now.motion += displacement_at<dim>(ub, arm_b) - displacement_at<dim>(ua, arm_a);
+    now.jump += displacement_at<dim>(ub, joint_b) - displacement_at<dim>(ua, joint_a);
     return now;
   }
   void add_force(const Law& spring, const double* u, double* f) const {
-    const Vec<dim> pull = share * spring.force(span_at(u), state).pull;
-    add_force_at<dim>(f + dof * a, arm_a, pull);
-    add_force_at<dim>(f + dof * b, arm_b, -pull);
+    const BoltForce<dim> force = spring.force(span_at(u), state);
+    add_force_at<dim>(f + dof * a, arm_a, share * force.pull);
+    add_force_at<dim>(f + dof * b, arm_b, -share * force.pull);
+    add_force_at<dim>(f + dof * a, joint_a, share * force.dowel);
+    add_force_at<dim>(f + dof * b, joint_b, -share * force.dowel);
   }
+
   using Block = Eigen::Matrix<double, dof, dof>;
+  /// The stiffness of an unbroken bolt: sink(a, b, aa, ab, bb).
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
-    const Stress<dim> k = share * spring.stiffness(span);
-    const Lever to_a = lever(arm_a), to_b = lever(arm_b);
-    sink(a, b, Block(to_a * k * to_a.transpose()), Block(-to_a * k * to_b.transpose()),
-         Block(to_b * k * to_b.transpose()));
+    const Stress<dim> pull = share * spring.stiffness(span),
+                      dowel = derivative(spring, span, {}, &BoltSpan<dim>::jump,
+                                         &BoltForce<dim>::dowel);
+    hand_over(pull, dowel, [&](const Block& aa, const Block& ab, const Block&, const Block& bb) {
+      sink(a, b, aa, ab, bb);
+    });
   }
-  /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent).
+  /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent):
+  /// sink(a, b, aa, ab, ba, bb).
   template <class Sink>
   void add_tangent(const Law& spring, const double* u, Sink&& sink) const {
-    constexpr double step = 1e-8;
-    Stress<dim> k;
-    for (int l = 0; l < dim; ++l) {
-      BoltSpan<dim> more = span_at(u), less = more;
-      more.motion[l] += step;
-      less.motion[l] -= step;
-      k.col(l) = share * (spring.force(more, state).pull - spring.force(less, state).pull) / (2 * step);
-    }
-    const Lever to_a = lever(arm_a), to_b = lever(arm_b);
-    sink(a, b, Block(to_a * k * to_a.transpose()), Block(-to_a * k * to_b.transpose()),
-         Block(-to_b * k * to_a.transpose()), Block(to_b * k * to_b.transpose()));
+    const BoltSpan<dim> now = span_at(u);
+    hand_over(derivative(spring, now, state, &BoltSpan<dim>::motion, &BoltForce<dim>::pull),
+              derivative(spring, now, state, &BoltSpan<dim>::jump, &BoltForce<dim>::dowel),
+              [&](const Block& aa, const Block& ab, const Block& ba, const Block& bb) {
+                sink(a, b, aa, ab, ba, bb);
+              });
   }
 
  private:
@@ -67,6 +72,32 @@ struct BoltSpring {
     }
     return l;
   }
+  /// Of a part of the force with respect to a part of the span, times the share.
+  [[nodiscard]] Stress<dim> derivative(const Law& spring, const BoltSpan<dim>& at,
+                                       const typename Law::State& remembered,
+                                       Vec<dim> BoltSpan<dim>::*in,
+                                       Vec<dim> BoltForce<dim>::*out) const {
+    constexpr double step = 1e-8;
+    Stress<dim> k;
+    for (int l = 0; l < dim; ++l) {
+      BoltSpan<dim> more = at, less = at;
+      (more.*in)[l] += step;
+      (less.*in)[l] -= step;
+      k.col(l) = share *
+                 (spring.force(more, remembered).*out - spring.force(less, remembered).*out) /
+                 (2 * step);
+    }
+    return k;
+  }
+  template <class Sink>
+  void hand_over(const Stress<dim>& pull, const Stress<dim>& dowel, Sink&& sink) const {
+    const Lever pa = lever(arm_a), pb = lever(arm_b), da = lever(joint_a), db = lever(joint_b);
+    const auto block = [&](const Lever& p, const Lever& q, const Lever& d, const Lever& e) {
+      return Block(p * pull * q.transpose() + d * dowel * e.transpose());
+    };
+    sink(block(pa, pa, da, da), Block(-block(pa, pb, da, db)), Block(-block(pb, pa, db, da)),
+         block(pb, pb, db, db));
+  }
 };
 
 /// A straight piece of lining between two nodes.
@@ -76,10 +107,10 @@ struct FrameElement {
   using Matrix = ElementMatrix<dof>;
   using Values = Eigen::Matrix<double, 2 * dof, 1>;
 
-  int i, j;      ///< nodes, as bodies of the system
-  double length; ///< [m]
-  Matrix turn;   ///< world to element axes
-  Matrix local;  ///< stiffness in element axes
+  int i, j;       ///< nodes, as bodies of the system
+  double length;  ///< [m]
+  Matrix turn;    ///< world to element axes
+  Matrix local;   ///< stiffness in element axes
 
   /// Forces on the two ends in element axes at displacement `u`.
   [[nodiscard]] Values end_forces(const double* u) const {
@@ -90,8 +121,8 @@ struct FrameElement {
   }
   void add_force(const double* u, double* f) const {
     const Values back = turn.transpose() * end_forces(u);
-    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof * i} -= back.template head<dof>();
-    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof * j} -= back.template tail<dof>();
+    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* i} -= back.template head<dof>();
+    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* j} -= back.template tail<dof>();
   }
   template <class Sink>
   void add_stiffness(Sink&& sink) const {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 #include <vector>
-
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/vec.hpp>
@@ -20,9 +19,9 @@ namespace voussoir {
 /// A body of the mechanical system: a rock body, a lining node, or the fixed ground.
 template <int Dim>
 struct SystemBody {
-  Vec<Dim> centre;       ///< at the reference position [m]
-  double weight;         ///< m g [N]
-  double gyration;       ///< radius of gyration: turns a moment into a force for comparison [m]
+  Vec<Dim> centre;  ///< at the reference position [m]
+  double weight;    ///< m g [N]
+  double gyration;  ///< radius of gyration: turns a moment into a force for comparison [m]
   bool movable = true;
 };
 
@@ -77,7 +76,8 @@ class System {
 
   Eigen::VectorXd displacement;  ///< since the in-situ state
   Eigen::VectorXd load;          ///< weight, surcharge
-  /// What the excavated rock exerted on the wall: with all of it the in-situ state is in equilibrium.
+  /// What the excavated rock exerted on the wall: with all of it the in-situ state is in
+  /// equilibrium.
   Eigen::VectorXd wall_load;
   double wall_fraction = 1;  ///< part of `wall_load` still acting
 
@@ -107,8 +107,8 @@ class System {
     interface.commit(displacement.data());
     int broken = 0;
     for (auto& bolt : bolts)
-      broken += bolt_laws[static_cast<std::size_t>(bolt.law)].commit(bolt.span_at(displacement.data()),
-                                                                    bolt.state);
+      broken += bolt_laws[static_cast<std::size_t>(bolt.law)].commit(
+          bolt.span_at(displacement.data()), bolt.state);
     return broken;
   }
 

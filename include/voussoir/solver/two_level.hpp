@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/solver/active_set.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
@@ -41,13 +41,13 @@ class TwoLevel {
   static constexpr const char* name = "TwoLevel";
 
   struct Params {
-    int burst_steps = 60;      ///< FIRE steps in a local search
-    int newton_steps = 8;      ///< at most, in a local search
+    int burst_steps = 60;        ///< FIRE steps in a local search
+    int newton_steps = 8;        ///< at most, in a local search
     double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
-    int rings = 2;             ///< generations of neighbours searched with a body out of balance
-    int max_bursts = 14;       ///< local searches without a fall or an end before the fallback
-    int increments = 5;        ///< of the unloading, where blocks fall in one step
-    int max_restarts = 8;      ///< searches without the blocks that fell in the one before
+    int rings = 2;               ///< generations of neighbours searched with a body out of balance
+    int max_bursts = 14;         ///< local searches without a fall or an end before the fallback
+    int increments = 5;          ///< of the unloading, where blocks fall in one step
+    int max_restarts = 8;        ///< searches without the blocks that fell in the one before
     Fire::Params fire{};
     Relaxation::Params fallback{};
   };
@@ -64,8 +64,9 @@ class TwoLevel {
     const System start = system;
     const double from = start.wall_fraction, to = context.wall_fraction;
     const bool unloading = from != to && params_.increments > 1;
-    EquilibriumReport report = find_in_one_step(system, context, unloading);
-    if (!unloading || report.stopped || report.verdict == Verdict::stable) return report;
+    Elastic<System> elastic;
+    EquilibriumReport report = find_in_one_step(system, context, unloading, elastic);
+    if (!unloading || !report.reason.empty()) return report;
     // Something fell, or no end was found. The elastic start of one large step opens joints that a
     // gradual unloading keeps closed, so only what falls then has fallen. Most falls when little
     // traction is left: the increments shrink with it.
@@ -78,9 +79,12 @@ class TwoLevel {
       SearchContext part = context;
       part.wall_fraction = k == params_.increments ? to : to + (from - to) * std::pow(0.4, k);
       part.acceptance.collapse_measure -= whole.fallen_measure;
-      add(whole, find_in_one_step(system, part, false));
+      add(whole, find_in_one_step(system, part, false, elastic));
       if (whole.verdict != Verdict::stable) break;
     }
+    // The increment that ended it speaks of its own blocks; the verdict of all of them.
+    if (whole.verdict == Verdict::collapsing)
+      (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
     if (whole.verdict == Verdict::stable && !whole.fallen.empty())
       whole.reason = "within all limits after loose blocks had fallen";
     return whole;
@@ -89,19 +93,51 @@ class TwoLevel {
  private:
   enum class Outcome { decided, open };
 
+  /// The stiffness with all contacts closed and sticking, factored, and the masses that go with it.
+  /// Within one call of `find` it depends on the bodies that are left, not on where they are: made
+  /// anew only after some have gone.
+  template <class System>
+  class Elastic {
+   public:
+    void prepare(const System& system, const Fire::Params& fire, EquilibriumReport& report) {
+      std::vector<int> bodies = system.movable_bodies();
+      if (factor_ && bodies == bodies_) return;
+      const auto stiffness = system.elastic_stiffness();
+      factor_.emplace(stiffness);
+      fire_.emplace(stiffness.absolute_row_sums(), fire);
+      bodies_ = std::move(bodies);
+      ++report.factorisations;
+    }
+    /// d = K^-1 f
+    void solve(const Eigen::VectorXd& f, Eigen::VectorXd& d, EquilibriumReport& report) const {
+      d = f;
+      factor_->solve_in_place(d);
+      ++report.elastic_solves;
+    }
+    [[nodiscard]] Fire& fire() { return *fire_; }
+
+   private:
+    std::optional<BlockCholesky<System::dof>> factor_;
+    std::optional<Fire> fire_;
+    std::vector<int> bodies_;  ///< that could move when it was made
+  };
+
   template <class System>
   [[nodiscard]] EquilibriumReport find_in_one_step(System& system, const SearchContext& context,
-                                                   bool give_up_at_a_fall) const {
+                                                   bool give_up_at_a_fall,
+                                                   Elastic<System>& elastic) const {
     EquilibriumReport report;
     const Acceptance& accept = context.acceptance;
     detail::drop(system, system.unsupported(), context, report);
     const System start = system;  // where a search without the fallen blocks begins
+    // The fallback mostly has to tell what falls: blocks at a tenth of their weight do not. One
+    // that creeps to its rest is followed more closely.
+    double follow_to = std::max(0.1, accept.unbalance_over_weight);
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
-      if (search(system, context, give_up_at_a_fall, report) != Outcome::open) break;
-      if (give_up_at_a_fall) break;
-      // The fallback only has to tell what falls: blocks at a tenth of their weight do not.
+      if (search(system, context, give_up_at_a_fall, elastic, report) != Outcome::open) break;
+      if (give_up_at_a_fall) return report;  // without a reason: not decided
       SearchContext follow = context;
-      follow.acceptance.unbalance_over_weight = std::max(0.1, accept.unbalance_over_weight);
+      follow.acceptance.unbalance_over_weight = follow_to;
       follow.acceptance.collapse_measure = accept.collapse_measure - report.fallen_measure;
       const EquilibriumReport fall = fallback_.find(system, follow);
       report.steps += fall.steps;
@@ -109,19 +145,24 @@ class TwoLevel {
       report.fallen_measure += fall.fallen_measure;
       report.largest_displacement = fall.largest_displacement;
       report.unbalance_over_weight = fall.unbalance_over_weight;
-      if (detail::has_collapsed(report, accept)) break;
+      report.stopped = fall.stopped;
+      if (detail::has_collapsed<System::dim>(report, accept)) break;
       if (fall.verdict == Verdict::undecided) {
-        report.reason = "falling blocks were followed without end: " + fall.reason;
+        report.reason =
+            fall.stopped ? fall.reason : "falling blocks were followed without end: " + fall.reason;
         break;
       }
-      if (fall.fallen.empty()) {
-        // Nothing fell: go on from the slip that the relaxation has committed.
-        if (search(system, context, false, report) == Outcome::open)
-          report.reason = "neither an equilibrium nor falling blocks were found";
+      if (!fall.fallen.empty()) {
+        system = start;
+        system.remove(report.fallen);
+        continue;
+      }
+      // Nothing fell: the search goes on from the slip that the fallback has committed.
+      if (attempt > 0 && follow_to <= accept.unbalance_over_weight) {
+        report.reason = "neither an equilibrium nor falling blocks were found";
         break;
       }
-      system = start;
-      system.remove(report.fallen);
+      follow_to = std::max(0.3 * follow_to, accept.unbalance_over_weight);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason =
@@ -144,40 +185,34 @@ class TwoLevel {
   /// One search with the present bodies; `decided` with a verdict or a reason to stop.
   template <class System>
   Outcome search(System& system, const SearchContext& context, bool give_up_at_a_fall,
-                 EquilibriumReport& report) const {
+                 Elastic<System>& elastic, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     system.wall_fraction = context.wall_fraction;
-    std::optional<BlockCholesky<System::dof>> factor;
-    std::optional<Fire> fire;
-    const auto prepare = [&] {
-      const auto stiffness = system.elastic_stiffness();
-      factor.emplace(stiffness);
-      fire.emplace(stiffness.absolute_row_sums(), params_.fire);
-      ++report.factorisations;
-    };
-    prepare();
+    elastic.prepare(system, params_.fire, report);
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd f, d, trial;
     system.forces(u, f);
-    d = f;
-    factor->solve_in_place(d);
-    ++report.elastic_solves;
+    elastic.solve(f, d, report);
     u += d;
+    report.largest_displacement = System::largest_translation(u);
+    if (report.largest_displacement > 0.5 * accept.displacement_limit) {
+      report.reason = detail::moves_too_far(report.largest_displacement, accept.displacement_limit);
+      return Outcome::decided;
+    }
     report.error_estimate = 1;
     Eigen::VectorXd reach = Eigen::VectorXd::Constant(system.body_count(), 0.02);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      if (settle_locally(system, *fire, accept, reach, f, report) > accept.displacement_limit) {
+      if (settle_locally(system, elastic.fire(), accept, reach, f, report) >
+          accept.displacement_limit) {
         if (give_up_at_a_fall) return Outcome::open;
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
-        if (detail::has_collapsed(report, accept)) return Outcome::decided;
-        prepare();
+        if (detail::has_collapsed<System::dim>(report, accept)) return Outcome::decided;
+        elastic.prepare(system, params_.fire, report);
         burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
       system.forces(u, f);
-      d = f;
-      factor->solve_in_place(d);
-      ++report.elastic_solves;
+      elastic.solve(f, d, report);
       report.largest_displacement = System::largest_translation(u);
       report.error_estimate = System::relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
@@ -203,13 +238,14 @@ class TwoLevel {
 
   /// Settles the bodies that are out of balance, all others held.
   ///
-  /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far one
-  /// that nothing holds may move in a step. It grows while steps succeed; when one fails it shrinks
-  /// for the bodies that ran into something, and the others fall on.
+  /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far
+  /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
+  /// shrinks for the bodies that ran into something, and the others fall on.
   /// @return  the largest translation among the bodies [m]
   template <class System>
-  double settle_locally(System& system, Fire& fire, const Acceptance& accept, Eigen::VectorXd& reach,
-                        Eigen::VectorXd& f, EquilibriumReport& report) const {
+  double settle_locally(System& system, Fire& fire, const Acceptance& accept,
+                        Eigen::VectorXd& reach, Eigen::VectorXd& f,
+                        EquilibriumReport& report) const {
     constexpr int dim = System::dim, dof = System::dof;
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
@@ -236,7 +272,8 @@ class TwoLevel {
               part * step.template segment<dof>(dof * static_cast<Eigen::Index>(b));
           // Nobody goes further than half the displacement limit at a time.
           const double length = move.template head<dim>().norm();
-          if (length > 0.5 * accept.displacement_limit) move *= 0.5 * accept.displacement_limit / length;
+          if (length > 0.5 * accept.displacement_limit)
+            move *= 0.5 * accept.displacement_limit / length;
           u.template segment<dof>(dof * bodies[b]) =
               before.template segment<dof>(dof * bodies[b]) + move;
         }
@@ -260,8 +297,8 @@ class TwoLevel {
     return active.largest_translation(u);
   }
 
-  /// After a step that failed: shortens the reach of the bodies whose balance it has spoilt, or of all
-  /// if none stands out. `f` forces before the step, `worse` after it.
+  /// After a step that failed: shortens the reach of the bodies whose balance it has spoilt, or of
+  /// all if none stands out. `f` forces before the step, `worse` after it.
   template <class System>
   static void hold_back(const System& system, const std::vector<int>& bodies,
                         const Eigen::VectorXd& f, const Eigen::VectorXd& worse,

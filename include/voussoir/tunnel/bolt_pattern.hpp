@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 
@@ -15,11 +14,11 @@ namespace voussoir {
 
 /// Radial bolts along an arc of the wall. Angles run anticlockwise from the right-hand springing.
 struct BoltPattern {
-  double length;                     ///< [m], > 0
-  double angular_spacing = 0;        ///< [rad]; 0: use `wall_spacing`
-  double wall_spacing = 0;           ///< along the wall [m]; 0: use `angular_spacing`
-  double from = 0;                   ///< [rad]
-  double to = std::numbers::pi;      ///< [rad], from < to <= from + 2 pi
+  double length;                 ///< [m], > 0
+  double angular_spacing = 0;    ///< [rad]; 0: use `wall_spacing`
+  double wall_spacing = 0;       ///< along the wall [m]; 0: use `angular_spacing`
+  double from = 0;               ///< [rad]
+  double to = std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
 };
 
 /// The bars of a pattern, head (on the wall) first, in the order of their angle. As many as fit the
@@ -28,7 +27,8 @@ struct BoltPattern {
 /// @throws InvalidInput  a value out of range, or the tunnel centre is not inside the opening
 [[nodiscard]] inline std::vector<Segment> bolt_bars(const BoltPattern& pattern,
                                                     const SimplePolygon& opening) {
-  require(pattern.length > 0 && std::isfinite(pattern.length), "bolt length", pattern.length, "> 0 m");
+  require(pattern.length > 0 && std::isfinite(pattern.length), "bolt length", pattern.length,
+          "> 0 m");
   const double arc = pattern.to - pattern.from, circle = 2 * std::numbers::pi;
   require(arc > 0 && arc <= circle * (1 + 1e-12), "bolt arc", arc, "> 0 and <= 2 pi rad");
   const bool angular = pattern.angular_spacing > 0;

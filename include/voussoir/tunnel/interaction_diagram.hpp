@@ -8,7 +8,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 
@@ -18,10 +17,10 @@ namespace voussoir {
 struct DiagramPoint {
   std::size_t spacing, thickness;  ///< indices into the two axes
   double crown_convergence = std::numeric_limits<double>::quiet_NaN();  ///< [m]
-  double largest_bolt_force = 0;   ///< [N]
-  double mean_bolt_force = 0;      ///< mean over bolts of each one's largest [N]
-  double largest_thrust = 0;       ///< of the lining [N/m]
-  double largest_moment = 0;       ///< absolute value, of the lining [N m/m]
+  double largest_bolt_force = 0;                                        ///< [N]
+  double mean_bolt_force = 0;  ///< mean over bolts of each one's largest [N]
+  double largest_thrust = 0;   ///< of the lining [N/m]
+  double largest_moment = 0;   ///< absolute value, of the lining [N m/m]
   EquilibriumReport report;
 
   /// Rock fell, or no equilibrium was found: not a design.

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -16,8 +15,8 @@ namespace voussoir {
 
 /// A lining along the wall: the full ring, or an arc of it.
 struct LiningRing {
-  int nodes = 72;               ///< on the full outline; evenly spaced, 8 to 2000
-  double from = 0;              ///< [rad], anticlockwise from the right-hand springing
+  int nodes = 72;                    ///< on the full outline; evenly spaced, 8 to 2000
+  double from = 0;                   ///< [rad], anticlockwise from the right-hand springing
   double to = 2 * std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
 };
 
@@ -73,13 +72,15 @@ struct LiningRing {
   for (const WallPiece<Planar>& wall : wall_pieces(mass)) {
     const auto first = static_cast<int>(std::floor(wall.from / stretch));
     for (int k = std::max(0, first); k < ring.nodes && k * stretch < wall.to; ++k) {
-      const double from = std::max(wall.from, k * stretch), to = std::min(wall.to, (k + 1) * stretch);
+      const double from = std::max(wall.from, k * stretch),
+                   to = std::min(wall.to, (k + 1) * stretch);
       const int node = number[static_cast<std::size_t>(k)];
       if (node < 0 || to - from <= shortest) continue;
       const double length = wall.to - wall.from;
-      frame.contacts.push_back({node, wall.body,
-                                {wall.facet.at((from - wall.from) / length),
-                                 wall.facet.at((to - wall.from) / length)}});
+      frame.contacts.push_back(
+          {node,
+           wall.body,
+           {wall.facet.at((from - wall.from) / length), wall.facet.at((to - wall.from) / length)}});
     }
   }
   return frame;

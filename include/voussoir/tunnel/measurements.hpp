@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <vector>
-
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
 
@@ -15,9 +14,9 @@ namespace voussoir {
 
 /// Movement of a piece of the wall.
 struct WallMotion {
-  double angle;         ///< of its middle, anticlockwise from the right-hand springing [rad], 0 to 2 pi
-  double length;        ///< [m]
-  double convergence;   ///< towards the tunnel centre, positive inwards [m]
+  double angle;   ///< of its middle, anticlockwise from the right-hand springing [rad], 0 to 2 pi
+  double length;  ///< [m]
+  double convergence;  ///< towards the tunnel centre, positive inwards [m]
 };
 
 /// All pieces of the wall that have not fallen.
@@ -29,8 +28,8 @@ template <class Solver>
     const Vec2 p = piece.facet.centre();
     double angle = std::atan2(p.y(), p.x());
     if (angle < 0) angle += 2 * std::numbers::pi;
-    motion.push_back({angle, piece.facet.length(),
-                      -solver.displacement_of(piece.body, p).dot(p.normalized())});
+    motion.push_back(
+        {angle, piece.facet.length(), -solver.displacement_of(piece.body, p).dot(p.normalized())});
   }
   return motion;
 }
@@ -73,9 +72,9 @@ template <class Solver>
 /// A bolt where it crosses a joint.
 struct CrossingForce {
   int bolt;
-  double position;     ///< from the head [m]
-  double force;        ///< tension positive, of one bolt [N]
-  double extension;    ///< change of the distance between the anchors since installation [m]
+  double position;   ///< from the head [m]
+  double force;      ///< tension positive, of one bolt [N]
+  double extension;  ///< change of the distance between the anchors since installation [m]
   bool yielded, ruptured;
 };
 
@@ -106,11 +105,11 @@ template <class Solver>
 
 /// The lining at one node, per metre of tunnel.
 struct LiningForce {
-  Vec2 position;        ///< [m]
-  double thrust;        ///< N, compression positive [N/m]
-  double shear;         ///< V [N/m]
-  double moment;        ///< M, positive when the outer fibre is in tension [N m/m]
-  double convergence;   ///< towards the tunnel centre since installation [m]
+  Vec2 position;       ///< [m]
+  double thrust;       ///< N, compression positive [N/m]
+  double shear;        ///< V [N/m]
+  double moment;       ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;  ///< towards the tunnel centre since installation [m]
 };
 
 /// One entry per node: the mean of the two members that meet there.
@@ -144,11 +143,9 @@ template <class Solver>
     at.thrust *= share;
     at.shear *= share;
     at.moment *= share;
-    at.convergence =
-        -solver.displacement_of(body, at.position).dot(at.position.normalized());
+    at.convergence = -solver.displacement_of(body, at.position).dot(at.position.normalized());
   }
   return forces;
 }
-
 
 }  // namespace voussoir

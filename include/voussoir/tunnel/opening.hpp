@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 #include <vector>
-
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/rockmass/domain.hpp>

@@ -34,8 +34,8 @@ inline void draw_overview(SvgCanvas& canvas, const ViewRect& frame, const Blocks
   canvas.end_layer();
   canvas.rectangle(drawing, {.stroke = "#111"});
   const ViewRect extent = extent_of_everything(picture);
-  canvas.text({frame.low.x(), drawing.high.y() + 17},
-              readable_text(extent.width(), 2) + " m × " + readable_text(extent.height(), 2) + " m");
+  canvas.text({frame.low.x(), drawing.high.y() + 17}, readable_text(extent.width(), 2) + " m × " +
+                                                          readable_text(extent.height(), 2) + " m");
 }
 
 /// Beside the rock: diagrams of the support, and the whole model in the room that is left.
