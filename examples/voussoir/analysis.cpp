@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <mutex>
@@ -56,19 +57,55 @@ Excavated excavate(const Input& input) {
   return {std::move(tunnel), opening, unbalance};
 }
 
-std::vector<Segment> install_bolts(Tunnel& tunnel, const Input& input, const BoltSpacing& spacing,
-                                   const SimplePolygon& opening) {
+std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
+                             const SimplePolygon& opening) {
+  return bolt_bars({.length = bolts.length,
+                    .angular_spacing = spacing.is_angle ? spacing.value : 0.0,
+                    .wall_spacing = spacing.is_angle ? 0.0 : spacing.value,
+                    .from = bolts.arc.from,
+                    .to = bolts.arc.to},
+                   opening);
+}
+
+Domain<2> domain_of(const Input& input) {
+  Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
+                                   input.model.below_invert);
+  domain.site_origin = Vec2(input.model.origin[0], input.model.origin[1]);
+  return domain;
+}
+
+/// Refuses bolts that would end outside the rock, before any rock is made.
+void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
+  if (!input.bolts) return;
+  const Domain<2> domain = domain_of(input);
+  const SimplePolygon opening = opening_of(input);
+  for (const auto& spacing : spacings) {
+    if (!spacing) continue;
+    for (const Segment& bar : bars_of(*input.bolts, *spacing, opening))
+      if ((bar.end.array() < domain.low.array()).any() ||
+          (bar.end.array() > domain.high.array()).any())
+        throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
+                           " m: a bolt would end at " + text_of<2>(bar.end) +
+                           " m, outside the rock\n   = accepted: bolts that end within " +
+                           text_of<2>(domain.low) + " and " + text_of<2>(domain.high) + " m");
+  }
+}
+
+/// The bolts of a tunnel and the joints that each crossed when it was installed.
+struct InstalledBolts {
+  std::vector<Segment> bars;
+  std::vector<int> crossings;
+};
+
+InstalledBolts install_bolts(Tunnel& tunnel, const Input& input, const BoltSpacing& spacing,
+                             const SimplePolygon& opening) {
   const BoltsInput& bolts = *input.bolts;
-  const auto bars = bolt_bars({.length = bolts.length,
-                               .angular_spacing = spacing.is_angle ? spacing.value : 0.0,
-                               .wall_spacing = spacing.is_angle ? 0.0 : spacing.value,
-                               .from = bolts.arc.from,
-                               .to = bolts.arc.to},
-                              opening);
+  InstalledBolts installed{bars_of(bolts, spacing, opening), {}};
   const AxialShearBolt law = bolt_of(bolts);
   const ChosenAnchors anchors = anchors_of(bolts);
-  for (const Segment& bar : bars) tunnel.install_bolt(bar, law, bolts.out_of_plane, anchors);
-  return bars;
+  for (const Segment& bar : installed.bars)
+    installed.crossings.push_back(tunnel.install_bolt(bar, law, bolts.out_of_plane, anchors));
+  return installed;
 }
 
 void install_lining(Tunnel& tunnel, const Input& input, double thickness) {
@@ -87,15 +124,16 @@ void install_lining(Tunnel& tunnel, const Input& input, double thickness) {
 /// Builds in stages. `spacing` none: no bolts; `thickness` 0: no lining.
 std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimplePolygon& opening,
                                const std::optional<BoltSpacing>& spacing, double thickness,
-                               const Report& report, std::vector<Segment>& bars) {
+                               const Report& report, InstalledBolts& bolts) {
   std::vector<StageResult> results;
   for (const StageInput& stage : input.stages) {
-    if (stage.install_bolts && spacing) bars = install_bolts(tunnel, input, *spacing, opening);
+    if (stage.install_bolts && spacing) bolts = install_bolts(tunnel, input, *spacing, opening);
     if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
     const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
     StageResult result{stage.name, stage.wall_traction, {}, {}};
     result.report = tunnel.equilibrium(stage.wall_traction, method_of(input),
                                        acceptance_of(input, opening), progress);
+    result.wall_traction = tunnel.system().wall_fraction;
     result.convergence = convergence(tunnel);
     results.push_back(result);
     if (result.report.verdict != Verdict::stable) break;
@@ -123,14 +161,22 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   if (run.last().largest_displacement > Acceptance{}.displacement_limit)
     warn("blocks moved up to " + number(1e3 * run.last().largest_displacement) +
          " mm; contacts are those of the initial position, which is good to about 20 mm");
-  std::vector<char> holds(run.bars.size(), 0);
-  for (const CrossingForce& c : bolt_forces(run.tunnel))
-    holds[static_cast<std::size_t>(c.bolt)] = 1;
-  int idle = 0;
-  for (const char h : holds) idle += h == 0;
-  if (idle > 0)
-    warn(std::to_string(idle) + " of " + std::to_string(holds.size()) +
-         " bolts cross no joint and hold nothing");
+  std::vector<int> holds(run.bars.size(), 0);
+  for (const CrossingForce& c : bolt_forces(run.tunnel)) ++holds[static_cast<std::size_t>(c.bolt)];
+  int idle = 0, lost = 0, broken = 0, yielded = 0;
+  for (std::size_t k = 0; k < holds.size(); ++k) {
+    idle += run.crossings[k] == 0;
+    lost += run.crossings[k] > 0 && holds[k] == 0;
+  }
+  for (const CrossingForce& c : bolt_forces(run.tunnel)) {
+    broken += c.ruptured;
+    yielded += c.yielded && !c.ruptured;
+  }
+  const std::string of_all = " of " + std::to_string(holds.size()) + " bolts ";
+  if (idle > 0) warn(std::to_string(idle) + of_all + "cross no joint and hold nothing");
+  if (lost > 0) warn(std::to_string(lost) + of_all + "were lost with the rock they held");
+  if (broken > 0) warn("bolts ruptured at " + std::to_string(broken) + " joints");
+  if (yielded > 0) warn("bolts yielded at " + std::to_string(yielded) + " joints");
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
     const double node_spacing = run.opening.perimeter() / input.lining->nodes;
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
@@ -167,9 +213,7 @@ SimplePolygon opening_of(const Input& input) {
 }
 
 RockMass<Planar> rock_of(const Input& input) {
-  Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
-                                   input.model.below_invert);
-  domain.site_origin = Vec2(input.model.origin[0], input.model.origin[1]);
+  const Domain<2> domain = domain_of(input);
   std::vector<JointSet> sets;
   for (const JointSetInput& s : input.joint_sets)
     sets.push_back({s.name, s.dip,
@@ -180,7 +224,10 @@ RockMass<Planar> rock_of(const Input& input) {
   if (!input.joints_file.empty()) {
     // Mapped joints come first: what was seen takes precedence over what was drawn at random.
     std::ifstream file(input.joints_file, std::ios::binary);
-    if (!file) throw InvalidInput("joints.file: cannot open " + input.joints_file.string());
+    if (!file || std::filesystem::is_directory(input.joints_file))
+      throw InvalidInput(
+          "joints.file: cannot read " + input.joints_file.string() +
+          "\n   = accepted: the name of a file of traces, relative to the input file");
     joints = read_traces(file, input.joints_file.string(), domain.site_origin);
   }
   const auto random = joint_network(sets, domain, input.model.seed);
@@ -190,16 +237,20 @@ RockMass<Planar> rock_of(const Input& input) {
 
 RunResult run_tunnel(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
+  if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
   Excavated excavated = excavate(input);
-  RunResult run{std::move(excavated.tunnel), excavated.opening, {}, {}, 0, {}, 0, 0};
+  RunResult run{std::move(excavated.tunnel), excavated.opening, {}, {}, {}, 0, {}, 0, 0};
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
   const std::optional<BoltSpacing> spacing =
       input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
+  InstalledBolts bolts;
   run.stages = build(run.tunnel, input, run.opening, spacing,
-                     input.lining ? input.lining->thickness : 0.0, report, run.bars);
+                     input.lining ? input.lining->thickness : 0.0, report, bolts);
+  run.bars = std::move(bolts.bars);
+  run.crossings = std::move(bolts.crossings);
   run.equilibrium_seconds = seconds_since(search);
   run.warnings = warnings_of(input, run);
   return run;
@@ -207,6 +258,7 @@ RunResult run_tunnel(const Input& input, const Report& report) {
 
 DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
+  check_bolts(input, input.diagram->spacing);
   report("blocks", -1.0);
   const Excavated excavated = excavate(input);
   const DiagramInput& axes = *input.diagram;
@@ -223,9 +275,9 @@ DiagramResult run_diagram(const Input& input, unsigned threads, const Report& re
     DiagramPoint point{};
     if (!go_on) return point;
     Tunnel tunnel = excavated.tunnel;
-    std::vector<Segment> bars;
+    InstalledBolts bolts;
     const auto stages =
-        build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j], quiet, bars);
+        build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j], quiet, bolts);
     point.report = stages.back().report;
     for (std::size_t k = 0; k + 1 < stages.size(); ++k)
       point.report.fallen_measure += stages[k].report.fallen_measure;

@@ -14,7 +14,7 @@ namespace voussoir::program {
 /// A stage and what came of it.
 struct StageResult {
   std::string name;
-  double wall_traction;  ///< part of the in-situ traction left at its end [-]
+  double wall_traction;  ///< part of the in-situ traction left when it ended; stable: as asked [-]
   EquilibriumReport report;
   Convergence convergence;  ///< at its end [m]
 };
@@ -23,7 +23,8 @@ struct StageResult {
 struct RunResult {
   Tunnel tunnel;
   SimplePolygon opening;
-  std::vector<Segment> bars;  ///< of the bolts
+  std::vector<Segment> bars;   ///< of the bolts
+  std::vector<int> crossings;  ///< joints that each crossed when it was installed
   std::vector<StageResult> stages;
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
   std::vector<std::string> warnings;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <voussoir/solver/explicit.hpp>
 
 #include "input_document.hpp"
 #include "input_section.hpp"
@@ -165,7 +166,7 @@ void read_blocks(Section& s, BlocksInput& blocks) {
 }
 
 constexpr const char* spacing_form =
-    R"(above 0; an angle or a length, such as "15 deg" or "1.3 m")";
+    R"(an angle from 0.1 deg or a length from 1 cm, such as "15 deg" or "1.3 m")";
 
 /// An angle or a length, whichever its unit says.
 std::optional<BoltSpacing> read_spacing(const Value& value) {
@@ -178,7 +179,7 @@ std::optional<BoltSpacing> read_spacing(const Value& value) {
     const bool is_angle = quantity.dimension == dimension::angle;
     if (!is_angle && quantity.dimension != dimension::length) {
       value.refuse("is neither an angle nor a length", spacing_form);
-    } else if (!(quantity.value > 0)) {
+    } else if (!(quantity.value >= (is_angle ? degrees(0.1) : 0.01))) {
       value.refuse("is outside the accepted range", spacing_form);
     } else {
       return BoltSpacing{quantity.value, is_angle};
@@ -309,11 +310,12 @@ void read_run(Section& s, RunInput& run) {
   } else {
     s.unread(of_explicit);
   }
-  if (known && run.method == RunMethod::explicit_ && run.max_steps &&
-      *run.max_steps <= run.ramp_steps)
-    s.complain("max_steps",
-               "ends before the ramp of " + std::to_string(run.ramp_steps) + " steps does",
-               "a whole number above run.ramp_steps");
+  const std::int64_t most = run.max_steps.value_or(voussoir::Explicit::Params{}.max_steps);
+  if (known && run.method == RunMethod::explicit_ && most <= run.ramp_steps)
+    s.complain(run.max_steps ? "max_steps" : "ramp_steps",
+               "leaves no step after the ramp: max_steps = " + std::to_string(most) +
+                   ", ramp_steps = " + std::to_string(run.ramp_steps),
+               "max_steps above ramp_steps");
 }
 
 void read_diagram(Section& s, DiagramInput& diagram) {
@@ -375,13 +377,17 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     read_joint_set(s, set);
   });
   file.optional_table("joints", [&](Section& s) {
-    std::string name;
     const std::string form = "a file name, relative to the input file";
     const auto value = s.find("file", Need::required, form);
-    if (value) name = value->as_text().value_or("?");
-    if (value && name.empty()) value->refuse("is empty", form);
+    const auto text = value ? value->as_text() : std::nullopt;
+    if (!text) return;
+    if (text->empty()) {
+      value->refuse("is empty", form);
+      return;
+    }
     // A path in the file is UTF-8 whatever the system's own encoding.
-    input.joints_file = directory / std::filesystem::path(std::u8string(name.begin(), name.end()));
+    input.joints_file =
+        directory / std::filesystem::path(std::u8string(text->begin(), text->end()));
   });
   file.table("joint", [&](Section& s) { read_joint(s, input.joint); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
@@ -444,16 +450,16 @@ void check_size(Checker& checker, const Input& input) {
 
 void check_bolts(Checker& checker, const BoltsInput& bolts) {
   if (checker.faulty("support.bolts")) return;
-  const auto at_most = [&](const std::string& key, double value, const char* limit_key,
-                           const std::optional<double>& limit) {
-    if (!limit || value <= *limit) return;
-    checker.report("support.bolts." + key, std::string("is above ") + limit_key,
-                   "at most " + format_quantity(*limit, dimension::force));
+  const auto below = [&](const std::string& key, double value, const char* limit_key,
+                         const std::optional<double>& limit) {
+    if (!limit || value < *limit) return;
+    checker.report("support.bolts." + key, std::string("is not below ") + limit_key,
+                   "below " + format_quantity(*limit, dimension::force));
   };
-  at_most("pretension", bolts.pretension, "yield_force", bolts.yield_force);
-  at_most("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
+  below("pretension", bolts.pretension, "yield_force", bolts.yield_force);
+  below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
   if (bolts.yield_force)
-    at_most("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
+    below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
 }
 
 void check_stages(Checker& checker, Input& input) {

@@ -147,8 +147,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("voussoir ") + VOUSSOIR_VERSION_STRING);
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 finished (stable or collapsing: see run.json), 2 error in the input,\n"
-      "3 undecided at the step limit, 4 numerical fault, 130 interrupted (nothing written).");
+      "Exit status: 0 finished (stable or collapsing: see run.json), 1 results cannot be written,\n"
+      "2 error in the input, 3 undecided, 4 numerical fault, 130 interrupted (nothing written).");
   Options options;
   const auto add_common = [&options](CLI::App* verb) {
     verb->add_option("FILE", options.file, "input file (TOML)")->required();

@@ -50,7 +50,6 @@ ChosenMethod method_of(const Input& input) {
       Explicit::Params params;
       params.damping = run.damping;
       params.ramp_steps = run.ramp_steps;
-      params.gravity = input.model.gravity;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(Explicit(params));
     }

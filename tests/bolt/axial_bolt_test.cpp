@@ -221,14 +221,43 @@ TEST_SUITE("bolt/axial_bolt") {
     CHECK(modes.eigenvalues().maxCoeff() <= 1e-8 * stiffness);
   }
 
-  TEST_CASE("anchors on the joint pull along the way they part, with K_a in every direction") {
+  TEST_CASE(
+      "anchors on the joint pull along the way they part, with K_a in every direction that opens") {
     const AxialBolt bolt({.axial_stiffness = stiffness});
-    const Vec2 away(3e-3, -4e-3);
+    const Vec2 away(3e-3, 4e-3);
     const BoltForce<2> f = bolt.force<2>({Vec2::Zero(), Vec2::UnitY(), away}, {});
     CHECK((f.pull - stiffness * away).norm() <= 1e-15 * 4 * stiffness * away.norm());
     CHECK(bolt.stiffness<2>({Vec2::Zero(), Vec2::UnitY(), Vec2::Zero()}) ==
           Stress<2>(stiffness * Stress<2>::Identity()));
     CHECK(bolt.force<2>({Vec2::Zero(), Vec2::UnitY(), Vec2::Zero()}, {}).pull == Vec2::Zero());
+  }
+
+  TEST_CASE("closing a joint slackens a bolt that grips on it, opening or shearing it pulls") {
+    const AxialBolt cable({.axial_stiffness = stiffness});
+    const auto pull = [](const AxialBolt& bolt, const Vec2& motion) {
+      return bolt.force<2>({Vec2::Zero(), Vec2::UnitY(), motion}, {}).pull;
+    };
+    CHECK(pull(cable, {0, -1e-3}) == Vec2::Zero());
+    // Closed and sheared: the shear alone stretches it. Continuous where closing turns to opening.
+    CHECK((pull(cable, {2e-3, -1e-3}) - Vec2(stiffness * 2e-3, 0)).norm() <= 1e-9);
+    CHECK((pull(cable, {2e-3, -1e-12}) - pull(cable, {2e-3, 1e-12})).norm() <= stiffness * 2e-12);
+    const AxialBolt strut({.axial_stiffness = stiffness, .carries_compression = true});
+    CHECK((pull(strut, {2e-3, -1e-3}) - stiffness * Vec2(2e-3, -1e-3)).norm() <= 1e-9);
+  }
+
+  TEST_CASE(
+      "a pretension between anchors on the joint acts along the bar, from the first motion on") {
+    const double tension = 5e4;
+    const AxialBolt bolt({.axial_stiffness = stiffness, .pretension = tension});
+    const auto pull = [&](const Vec2& motion) {
+      return bolt.force<2>({Vec2::Zero(), Vec2::UnitY(), motion}, {}).pull;
+    };
+    CHECK((pull({0, 0}) - Vec2(0, tension)).norm() <= 1e-15 * 4 * tension);
+    for (const Vec2& way : {Vec2(1e-9, 0), Vec2(-1e-9, 0), Vec2(0, -1e-9)})
+      CHECK((pull(way) - Vec2(0, tension) - stiffness * way).norm() <= 1e-15 * 8 * tension);
+    // A joint that closes by T0 / K_a takes the tension away, and by more none comes back.
+    CHECK(pull({0, -tension / stiffness}).norm() <= 1e-15 * 4 * tension);
+    CHECK(pull({0, -2 * tension / stiffness}).norm() <= 1e-15 * 4 * tension);
   }
 
   TEST_CASE("a bolt that yields, turned with its motion, pulls the turned way") {

@@ -420,6 +420,45 @@ TEST_SUITE("solver/system") {
     CHECK(wall.system.unsupported() == std::vector<int>{loose});
   }
 
+  TEST_CASE("so are two blocks that touch nothing but each other, and a ring that nothing holds") {
+    Wall wall(bar());
+    auto& system = wall.system;
+    const int one = system.add_body({Vec2(5, 5), 1e4, 0.3, true});
+    const int other = system.add_body({Vec2(6, 5), 1e4, 0.3, true});
+    const Segment face{Vec2(5.5, 4.5), Vec2(5.5, 5.5)};
+    const auto points = face.gauss_points();
+    system.joints.add(one, other, face, system.body(one).centre, system.body(other).centre, points);
+    CHECK(system.unsupported() == std::vector<int>{one, other});
+    system.remove({1, 2});  // the blocks under the lining: its two nodes hang on each other
+    CHECK(system.unsupported() == std::vector<int>{4, 5, one, other});
+    CHECK(system.frames.size() == 1);
+    system.remove({4});
+    CHECK(system.frames.empty());
+  }
+
+  TEST_CASE("a broken bolt has no stiffness") {
+    Wall wall(AxialBolt({.axial_stiffness = 2e8, .rupture_force = 1e5}));
+    const Eigen::MatrixXd whole = dense(wall.system.elastic_stiffness());
+    wall.system.displacement[3 * 2] = 3e-3;  // C away from B: the second bolt breaks
+    REQUIRE(wall.system.commit() == 1);
+    const Eigen::MatrixXd rest = dense(wall.system.elastic_stiffness());
+    wall.system.bolts.pop_back();
+    CHECK(rest == dense(wall.system.elastic_stiffness()));
+    CHECK((whole - rest).norm() > 1e7);
+  }
+
+  TEST_CASE("how far lining nodes move is not how far the rock moves") {
+    PlaneSystem<AxialBolt> system(CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0}));
+    const int block = system.add_body({Vec2(0, 0), 1e4, 0.3, true});
+    const int node = system.add_body({Vec2(1, 0), 0, 0.3, true, false});
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+    u[3 * block] = 1e-3;
+    u[3 * node] = 1;
+    CHECK(system.largest_translation(u) == 1e-3);
+    // An error of a node is one all the same, measured by the motion of the rock.
+    CHECK(system.relative_correction(u, u) == doctest::Approx(1e3));
+  }
+
   TEST_CASE("unbalance is force plus moment over gyration, over the weight") {
     Wall wall(bar());
     Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * wall.system.body_count());

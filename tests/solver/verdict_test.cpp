@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
+#include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
@@ -53,6 +56,31 @@ Solver<> roof_wedge(double friction_angle) {
   return tunnel;
 }
 constexpr double roof_wedge_area = 1.5 * 1.5 * 0.8390996311772799;  // height^2 tan(40 deg)
+
+/// A joint law with a fault: no number beyond a hundredth of a millimetre of slip.
+class FaultyJoint {
+ public:
+  using role = roles::ContactLaw;
+  static constexpr const char* name = "FaultyJoint";
+  template <int Dim>
+  using State = CoulombJoint::State<Dim>;
+
+  template <int Dim>
+  [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    PointForce<Dim> f = sound_.force(load, state);
+    if (load.motion.slip.norm() > 1e-5) f.normal = std::numeric_limits<double>::quiet_NaN();
+    return f;
+  }
+  template <int Dim>
+  void commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+    sound_.commit(load, state);
+  }
+  [[nodiscard]] double joint_normal_stiffness() const { return sound_.joint_normal_stiffness(); }
+  [[nodiscard]] double joint_shear_stiffness() const { return sound_.joint_shear_stiffness(); }
+
+ private:
+  CoulombJoint sound_ = joints(40 * degree);
+};
 
 double largest_difference(const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
   return (u - v).cwiseAbs().maxCoeff();
@@ -180,6 +208,12 @@ TEST_SUITE("solver/verdict") {
     soft.excavate(opening);
     Solver<> again = soft;
     const EquilibriumReport report = soft.equilibrium();
+    CHECK(soft.system().wall_fraction == 1);  // as it was
+    for (const EquilibriumReport& other :
+         {Relaxation().find(soft.system(), {}), Explicit().find(soft.system(), {})}) {
+      CHECK(other.verdict == Verdict::undecided);
+      CHECK(other.reason == report.reason);
+    }
     CHECK(report.verdict == Verdict::undecided);
     CHECK(report.reason.find("more than half the displacement limit of 20 mm") !=
           std::string::npos);
@@ -187,6 +221,17 @@ TEST_SUITE("solver/verdict") {
     CHECK(std::isnan(report.error_estimate));
     const EquilibriumReport judged = again.equilibrium(0, {}, {.displacement_limit = 2});
     CHECK(judged.verdict == Verdict::stable);
+  }
+
+  TEST_CASE("forces that are no numbers are a fault, never an equilibrium") {
+    const auto opening = circular_opening(4, 36);
+    Solver<FaultyJoint> tunnel(jointed_rock(domain_around(opening, 22, 7, 7), 5), FaultyJoint{},
+                               {.density = 2700});
+    tunnel.excavate(opening);
+    Solver<FaultyJoint> second = tunnel, third = tunnel;
+    CHECK_THROWS_AS((void)tunnel.equilibrium(), NumericalFault);
+    CHECK_THROWS_AS((void)Relaxation().find(second.system(), {}), NumericalFault);
+    CHECK_THROWS_AS((void)Explicit().find(third.system(), {}), NumericalFault);
   }
 
   TEST_CASE("with all of the wall traction left nothing moves") {

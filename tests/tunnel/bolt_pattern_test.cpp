@@ -114,6 +114,8 @@ TEST_SUITE("tunnel/bolt_pattern") {
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .wall_spacing = 1}),
                     InvalidInput);
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = nan}), InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = 1e-12}), InvalidInput);
+    CHECK_THROWS_AS((void)bars({.length = 4, .wall_spacing = 1e-12}), InvalidInput);
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 1, .to = 1}),
                     InvalidInput);
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = 7}),

@@ -29,7 +29,7 @@ class AxialBolt {
     double yield_force = unlimited;    ///< [N], > pretension
     double rupture_force = unlimited;  ///< [N], > pretension; below the yield force: brittle
     double hardening_ratio = 0.02;     ///< stiffness after / before yield [-], 0 <= ratio < 1
-    bool carries_compression = false;
+    bool carries_compression = false;  ///< then without limit: it yields in tension only
   };
   struct State {
     double plastic_extension = 0;  ///< p [m]
@@ -82,8 +82,6 @@ class AxialBolt {
            params_.pretension / length * (Stress<Dim>::Identity() - along);
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
-
  private:
   template <int Dim>
   struct Stretch {
@@ -95,14 +93,29 @@ class AxialBolt {
   };
 
   template <int Dim>
-  [[nodiscard]] static Stretch<Dim> stretch(const BoltSpan<Dim>& span) {
+  [[nodiscard]] Stretch<Dim> stretch(const BoltSpan<Dim>& span) const {
+    const double initial = span.initial.norm();
+    if (!(initial > 0)) return stretch_from_joint(span);
     const Vec<Dim> now = span.initial + span.motion;
-    const double length = now.norm(), initial = span.initial.norm();
+    const double length = now.norm();
     if (!(length > 0)) return {span.axis, -initial};
     // l - d = (m^2 + 2 d.m)/(l + d) keeps its digits where the motion is tiny beside the span.
     const double extension =
         (span.motion.squaredNorm() + 2 * span.initial.dot(span.motion)) / (length + initial);
     return {now / length, extension};
+  }
+  /// Anchors that coincide have no line between them: the bar starts out along its axis, as long as
+  /// the pretension has stretched it, and the joint's motion bends it from there. Closing the joint
+  /// slackens it; it does not pull the bar out on the other side.
+  template <int Dim>
+  [[nodiscard]] Stretch<Dim> stretch_from_joint(const BoltSpan<Dim>& span) const {
+    const double seat = params_.pretension / params_.axial_stiffness;
+    Vec<Dim> bar = seat * span.axis + span.motion;
+    const double along = span.axis.dot(bar);
+    if (along < 0 && !params_.carries_compression) bar -= along * span.axis;
+    const double length = bar.norm();
+    if (!(length > 0)) return {span.axis, -seat};
+    return {bar / length, length - seat};
   }
 
   [[nodiscard]] Return returned(double extension, const State& state) const {

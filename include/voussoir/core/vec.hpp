@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -51,13 +52,14 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
   return turned(arm, force);
 }
 
-/// A point for a message: "(1.5, 30)".
+/// A point in metres for a message, "(1.5, 30)"; less than a nanometre is 0.
 template <int Dim>
 [[nodiscard]] std::string text_of(const Vec<Dim>& point) {
   std::string text;
   for (int k = 0; k < Dim; ++k) {
     char number[32];
-    std::snprintf(number, sizeof number, k == 0 ? "(%.6g" : ", %.6g", point[k]);
+    std::snprintf(number, sizeof number, k == 0 ? "(%.6g" : ", %.6g",
+                  std::abs(point[k]) < 1e-9 ? 0.0 : point[k]);
     text += number;
   }
   return text + ")";

@@ -21,6 +21,7 @@ struct Planar {
   using Shape = ConvexPolygon;    ///< part of a body
   using Facet = Segment;          ///< piece of a face: contact area, piece of wall
   using Trace = Segment;          ///< extent of a joint
+  using Line = Segment;           ///< a bolt, a scanline
   using Opening = SimplePolygon;  ///< outline of an excavation
 };
 

@@ -21,6 +21,8 @@ struct Segment {
   Vec2 start, end;  ///< [m]
 
   [[nodiscard]] double length() const { return (end - start).norm(); }
+  /// What an integration point of the facet weighs in all: its length, one metre thick.
+  [[nodiscard]] double measure() const { return length(); }
   [[nodiscard]] Vec2 centre() const { return 0.5 * (start + end); }
   /// Centre as seen from `origin`; exact where `origin` is near, wherever both are.
   [[nodiscard]] Vec2 centre_from(const Vec2& origin) const {

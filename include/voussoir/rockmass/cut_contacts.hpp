@@ -49,7 +49,10 @@ inline void match_cut(const RockMass<Planar>& mass, const FaceRef* first, const 
     Segment facet;  ///< in the direction of the cut
     int body;
   };
-  const Segment reference = facet_of(mass, *first);
+  // The longest face gives the best direction, and is not one that welding has shrunk to a point.
+  Segment reference = facet_of(mass, *first);
+  for (const FaceRef* f = first + 1; f != last; ++f)
+    if (const Segment s = facet_of(mass, *f); s.length() > reference.length()) reference = s;
   const Vec2 along = (reference.end - reference.start).normalized();
   thread_local std::vector<Interval> left, right;
   left.clear();

@@ -65,8 +65,7 @@ class ActiveSet {
       auto& bolt = system_->bolts[k];
       const auto& law = system_->bolt_laws[static_cast<std::size_t>(bolt.law)];
       bolt.add_force(law, u.data(), f.data());
-      if constexpr (std::is_same_v<History, Committing>)
-        law.commit(bolt.span_at(u.data()), bolt.state);
+      if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
     }
     for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
   }
@@ -86,10 +85,12 @@ class ActiveSet {
     }
     return sum;
   }
-  /// Largest translation of an active body [m].
+  /// Largest translation of an active block [m].
   [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
     double squared = 0;
-    for (const int b : bodies_) squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
+    for (const int b : bodies_)
+      if (system_->body(b).is_block)
+        squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 

@@ -50,7 +50,7 @@ struct EquilibriumReport {
   int steps = 0;                    ///< force evaluations
   int elastic_solves = 0;
   int factorisations = 0;
-  std::vector<int> fallen;    ///< bodies removed because they fell, in this search
+  std::vector<int> fallen;    ///< blocks removed because they fell, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
   int broken_bolts = 0;       ///< bolt springs that ruptured
   bool stopped = false;       ///< the caller asked to stop
@@ -78,7 +78,8 @@ concept HasEquilibriumSearch = requires(const Method method, System& system,
 /// Finds the equilibrium of a system after its load or its supports have changed.
 ///
 /// What the compiler cannot check: on return `system.displacement` holds the state that the report
-/// speaks of, its history is committed, and `wall_fraction` is that of the context.
+/// speaks of, and `system.wall_fraction` the traction at which it was reached. Only a stable state
+/// has the wall fraction of the context and its history committed for certain.
 ///
 /// Models: TwoLevel, Relaxation, Explicit.
 template <class Method, class System>

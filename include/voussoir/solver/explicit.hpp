@@ -9,7 +9,7 @@
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
-#include <voussoir/solver/relaxation.hpp>
+#include <voussoir/solver/falls.hpp>
 
 namespace voussoir {
 
@@ -21,9 +21,9 @@ namespace voussoir {
 /// taken away along a ramp unless `ramp_steps` is zero.
 ///
 /// Masses are density-scaled so that the critical step is the same for every unknown (quarter of
-/// the Gershgorin row sums) unless `real_masses`. Local damping shrinks the stable step: an unknown
-/// with damping alpha behaves as if (1 + alpha) times as stiff, so the step is
-/// safety / sqrt(1 + alpha) of the undamped critical one.
+/// the Gershgorin row sums): steps are no physical time. Local damping shrinks the stable step: an
+/// unknown with damping alpha behaves as if (1 + alpha) times as stiff, so the step is safety /
+/// sqrt(1 + alpha) of the undamped critical one.
 ///
 /// Source: Cundall (1987), Distinct element models of rock and soil structure (local damping).
 class Explicit {
@@ -37,9 +37,6 @@ class Explicit {
     double safety = 0.9;    ///< of the stable step [-], 0 < safety <= 1
     int max_steps = 200000;
     int check_every = 50;
-    bool real_masses =
-        false;              ///< true: time is physical; weightless lining nodes keep a scaled mass
-    double gravity = 9.81;  ///< turns weights into masses [m/s^2]; used with real_masses
   };
   Explicit() = default;
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -48,16 +45,19 @@ class Explicit {
     require(params.ramp_steps >= 0, "ramp_steps", params.ramp_steps, ">= 0");
     require(params.safety > 0 && params.safety <= 1, "safety", params.safety, "> 0 and <= 1");
     require(params.max_steps > params.ramp_steps, "max_steps", params.max_steps, "> ramp_steps");
+    require(params.check_every > 0, "check_every", params.check_every, "> 0");
   }
 
-  /// Accepts on the same three tests as `TwoLevel`; the elastic factor is made once, for the
-  /// estimate alone, when the unbalance test has passed.
+  /// Accepts on the same three tests as `TwoLevel`; a factor is made for the estimate alone, when
+  /// the unbalance test has passed.
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
     constexpr int dof = System::dof;
     EquilibriumReport report;
     const Acceptance& accept = context.acceptance;
-    detail::drop(system, system.unsupported(), context, report);
+    detail::drop(system, {}, context, report);
+    const auto solve = [&](Eigen::VectorXd& f) { elastic_correction(system, f, report); };
+    if (detail::moves_too_far(system, context, solve, report)) return report;
     const double from = system.wall_fraction, to = context.wall_fraction;
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
@@ -78,8 +78,8 @@ class Explicit {
         u[k] += step * velocity[k];
       }
       if (report.steps % params_.check_every != 0) continue;
-      report.largest_displacement = System::largest_translation(u);
-      if (!std::isfinite(report.largest_displacement))
+      report.largest_displacement = system.largest_translation(u);
+      if (!u.allFinite())  // a maximum does not tell: it passes over what is not a number
         throw NumericalFault("explicit stepping: displacements are not finite at step " +
                              std::to_string(report.steps) +
                              "; lower the safety factor of the step");
@@ -90,8 +90,9 @@ class Explicit {
       }
       const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
       if (!fallen.empty()) {
-        for (const int b : fallen) velocity.template segment<dof>(dof * b).setZero();
         detail::drop(system, fallen, context, report);
+        for (int b = 0; b < system.body_count(); ++b)
+          if (!system.body(b).movable) velocity.template segment<dof>(dof * b).setZero();
         if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = masses(system);
         step = stable_step(system, mass);
@@ -102,7 +103,9 @@ class Explicit {
       if (report.unbalance_over_weight >= accept.unbalance_over_weight ||
           report.unbalance_over_weight > next_estimate)
         continue;
-      report.error_estimate = estimate(system, f, report);
+      Eigen::VectorXd d = f;
+      elastic_correction(system, d, report);
+      report.error_estimate = system.relative_correction(d, u);
       if (report.error_estimate < accept.error_estimate) {
         report.verdict = Verdict::stable;
         report.reason = "error estimate, unbalance and displacements are within their limits";
@@ -112,7 +115,7 @@ class Explicit {
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.state.ruptured;
+    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
     return report;
   }
 
@@ -132,39 +135,19 @@ class Explicit {
     return params_.safety * critical_step(system, mass) / std::sqrt(1 + params_.damping);
   }
 
+  /// Of a quarter of the row sums: the critical step is then 1 for every unknown.
   template <class System>
-  [[nodiscard]] Eigen::VectorXd masses(const System& system) const {
-    constexpr int dof = System::dof, dim = System::dim;
-    Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
-    if (!params_.real_masses) return mass;
-    // Scaled masses have critical step 1; give weightless nodes the scale of the blocks.
-    double block_step = 1e300;
-    Eigen::VectorXd real = mass;
-    for (int b = 0; b < system.body_count(); ++b) {
-      const auto& body = system.body(b);
-      if (!body.movable || !(body.weight > 0)) continue;
-      const double m = body.weight / params_.gravity;
-      real.template segment<dim>(dof * b).setConstant(m);
-      real.template segment<dof - dim>(dof * b + dim)
-          .setConstant(m * body.gyration * body.gyration);
-      for (int k = 0; k < dof; ++k)
-        block_step = std::min(block_step, std::sqrt(real[dof * b + k] / mass[dof * b + k]));
-    }
-    for (int b = 0; b < system.body_count(); ++b)
-      if (!(system.body(b).weight > 0 && system.body(b).movable))
-        real.template segment<dof>(dof * b) *= block_step * block_step;
-    return real;
+  [[nodiscard]] static Eigen::VectorXd masses(const System& system) {
+    return 0.25 * system.elastic_stiffness().absolute_row_sums();
   }
 
+  /// d = K^-1 f, in place.
   template <class System>
-  [[nodiscard]] static double estimate(const System& system, const Eigen::VectorXd& f,
-                                       EquilibriumReport& report) {
-    Eigen::VectorXd d = f;
-    const BlockCholesky<System::dof> factor(system.elastic_stiffness());
-    factor.solve_in_place(d);
+  static void elastic_correction(const System& system, Eigen::VectorXd& f,
+                                 EquilibriumReport& report) {
+    BlockCholesky<System::dof>(system.elastic_stiffness()).solve_in_place(f);
     ++report.factorisations;
     ++report.elastic_solves;
-    return System::relative_correction(d, system.displacement);
   }
 
   Params params_;

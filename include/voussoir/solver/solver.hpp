@@ -88,7 +88,7 @@ class Solver {
   /// present position of the rock, free of force but for its pretension.
   /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
-  int install_bolt(const Segment& bar, const BoltLaw& law, double spacing = 1.0,
+  int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
                    const Anchors& anchors = {}) {
     require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing,
             "> 0 m");
@@ -113,14 +113,13 @@ class Solver {
       spring.b = after.body;
       spring.bolt = bolt_count_;
       spring.position = 0.5 * (before.to + after.from);
-      const Vec<dim> grip_a = bar.start + (before.to - d.before) * axis;
-      const Vec<dim> grip_b = bar.start + (after.from + d.after) * axis;
-      spring.arm_a = grip_a - system_.body(spring.a).centre;
-      spring.arm_b = grip_b - system_.body(spring.b).centre;
       const Vec<dim> crossing = bar.start + spring.position * axis;
       spring.joint_a = crossing - system_.body(spring.a).centre;
       spring.joint_b = crossing - system_.body(spring.b).centre;
-      spring.span = {grip_b - grip_a, axis, Vec<dim>::Zero()};
+      spring.arm_a = spring.joint_a - d.before * axis;
+      spring.arm_b = spring.joint_b + d.after * axis;
+      // Exactly zero for anchors on the joint, not the rounding of two positions.
+      spring.span = {(d.before + d.after) * axis, axis, Vec<dim>::Zero()};
       const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
       spring.span.motion = -present.motion;
       spring.span.jump = -present.jump;
@@ -154,7 +153,7 @@ class Solver {
     for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
       const double weight = section.mass * tributary[k] * in_situ_.gravity;
       const int node =
-          system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true});
+          system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true, false});
       system_.load[dof * node + dim - 1] = -weight;
       measures_.push_back(0.0);
     }
@@ -168,7 +167,7 @@ class Solver {
     typename SystemType::Interface interface(interface_law);
     for (const LiningContact<Geometry>& c : frame.contacts) {
       if (!system_.body(c.body).movable) continue;  // that block has fallen
-      const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.length()};
+      const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
       const int node = first_node_ + c.node;
       interface.add(node, c.body, c.facet, system_.body(node).centre, system_.body(c.body).centre,
                     {&point, 1});
@@ -255,7 +254,8 @@ class Solver {
   }
 
   /// The passages of a bar without the bodies that have fallen.
-  [[nodiscard]] std::vector<Passage> passages_of_present_rock(const Segment& bar) const {
+  [[nodiscard]] std::vector<Passage> passages_of_present_rock(
+      const typename Geometry::Line& bar) const {
     std::vector<Passage> passages = pierce(mass_, bar);
     std::erase_if(passages, [this](const Passage& p) { return !system_.body(p.body).movable; });
     return passages;

@@ -23,6 +23,7 @@ struct BoltSpring {
   double share;               ///< 1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
   int law;                    ///< index into the laws of the system
   typename Law::State state{};
+  bool broken = false;  ///< it has no stiffness any more
 
   [[nodiscard]] BoltSpan<dim> span_at(const double* u) const {
     const double *ua = u + dof * a, *ub = u + dof * b;
@@ -39,10 +40,18 @@ struct BoltSpring {
     add_force_at<dim>(f + dof * b, joint_b, -share * force.dowel);
   }
 
+  /// @return  true if it breaks now
+  bool commit(const Law& spring, const double* u) {
+    const bool breaks = spring.commit(span_at(u), state);
+    broken = broken || breaks;
+    return breaks;
+  }
+
   using Block = Eigen::Matrix<double, dof, dof>;
-  /// The stiffness of an unbroken bolt: sink(a, b, aa, ab, bb).
+  /// The stiffness at installation, none if broken: sink(a, b, aa, ab, bb).
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
+    if (broken) return;
     const Stress<dim> pull = share * spring.stiffness(span),
                       dowel = derivative(spring, span, {}, &BoltSpan<dim>::jump,
                                          &BoltForce<dim>::dowel);

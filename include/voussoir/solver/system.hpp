@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/coulomb_joint.hpp>
@@ -23,6 +24,8 @@ struct SystemBody {
   double weight;    ///< m g [N]
   double gyration;  ///< radius of gyration: turns a moment into a force for comparison [m]
   bool movable = true;
+  bool is_block =
+      true;  ///< false: a lining node, which cannot fall and is not judged by its motion
 };
 
 /// Everything that moves and every force between: the mechanical state that the equilibrium
@@ -77,7 +80,8 @@ class System {
   Eigen::VectorXd displacement;  ///< since the in-situ state
   Eigen::VectorXd load;          ///< weight, surcharge
   /// What the excavated rock exerted on the wall: with all of it the in-situ state is in
-  /// equilibrium.
+  /// equilibrium. Where joints cannot carry the in-situ shear (`InSitu::required_friction_angle`)
+  /// it also holds the blocks beside them, away from the wall, and they move when it goes.
   Eigen::VectorXd wall_load;
   double wall_fraction = 1;  ///< part of `wall_load` still acting
 
@@ -91,8 +95,7 @@ class System {
     for (auto& bolt : bolts) {
       const BoltLaw& law = bolt_laws[static_cast<std::size_t>(bolt.law)];
       bolt.add_force(law, u.data(), f.data());
-      if constexpr (std::is_same_v<History, Committing>)
-        law.commit(bolt.span_at(u.data()), bolt.state);
+      if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
     }
     for (const auto& frame : frames) frame.add_force(u.data(), f.data());
     for (int b = 0; b < body_count(); ++b)
@@ -107,13 +110,12 @@ class System {
     interface.commit(displacement.data());
     int broken = 0;
     for (auto& bolt : bolts)
-      broken += bolt_laws[static_cast<std::size_t>(bolt.law)].commit(
-          bolt.span_at(displacement.data()), bolt.state);
+      broken += bolt.commit(bolt_laws[static_cast<std::size_t>(bolt.law)], displacement.data());
     return broken;
   }
 
-  /// Stiffness with every contact closed and sticking, supports included. Bodies that cannot move
-  /// get a unit diagonal.
+  /// Stiffness with every contact closed and sticking, supports included but for broken bolts.
+  /// Bodies that cannot move get a unit diagonal.
   [[nodiscard]] Matrix elastic_stiffness() const {
     Matrix k(body_count());
     const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
@@ -134,7 +136,7 @@ class System {
     return k;
   }
 
-  /// Takes bodies out for good: their contacts and bolts go, and they stop moving.
+  /// Takes bodies out for good: their contacts, bolts and frames go, and they stop moving.
   void remove(const std::vector<int>& gone) {
     std::vector<char> is_gone(bodies_.size(), 0);
     for (const int b : gone) {
@@ -147,21 +149,34 @@ class System {
     boundary.remove(test);
     interface.remove(test);
     std::erase_if(bolts, [&](const auto& bolt) { return test(bolt.a) || test(bolt.b); });
+    std::erase_if(frames, [&](const auto& frame) { return test(frame.i) || test(frame.j); });
   }
 
-  /// Movable bodies that nothing touches: they fall whatever the forces.
+  /// Movable bodies without a chain of contacts and frames to a body that cannot move: they fall
+  /// whatever the forces, alone or as a group that holds nothing but itself. Bolts alone do not
+  /// hold: a block could still turn about them.
   [[nodiscard]] std::vector<int> unsupported() const {
-    std::vector<char> touched(bodies_.size(), 0);
-    const auto touch = [&](int a, int b) {
-      touched[static_cast<std::size_t>(a)] = touched[static_cast<std::size_t>(b)] = 1;
+    // Groups as trees: every body points towards the root of its group, that of the ground is
+    // `fixed`.
+    const std::size_t fixed = bodies_.size();
+    std::vector<std::size_t> up(bodies_.size() + 1);
+    std::iota(up.begin(), up.end(), std::size_t{0});
+    const auto root = [&](std::size_t b) {
+      while (up[b] != b) b = up[b] = up[up[b]];
+      return b;
     };
-    for (const auto& c : joints.contacts()) touch(c.a, c.b);
-    for (const auto& c : boundary.contacts()) touch(c.a, c.b);
-    for (const auto& c : interface.contacts()) touch(c.a, c.b);
-    for (const auto& f : frames) touch(f.i, f.j);
+    const auto link = [&](int a, int b) {
+      up[root(static_cast<std::size_t>(a))] = root(static_cast<std::size_t>(b));
+    };
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (!bodies_[b].movable) up[b] = fixed;
+    for (const auto& c : joints.contacts()) link(c.a, c.b);
+    for (const auto& c : boundary.contacts()) link(c.a, c.b);
+    for (const auto& c : interface.contacts()) link(c.a, c.b);
+    for (const auto& f : frames) link(f.i, f.j);
     std::vector<int> loose;
     for (int b = 0; b < body_count(); ++b)
-      if (body(b).movable && touched[static_cast<std::size_t>(b)] == 0) loose.push_back(b);
+      if (root(static_cast<std::size_t>(b)) != root(fixed)) loose.push_back(b);
     return loose;
   }
 
@@ -188,18 +203,21 @@ class System {
     return worst;
   }
 
-  /// Largest elastic correction over the largest displacement: the error estimate [-]. Below a
-  /// nanometre of displacement there is nothing to be in error.
-  [[nodiscard]] static double relative_correction(const Eigen::VectorXd& correction,
-                                                  const Eigen::VectorXd& u) {
-    return largest_translation(correction) / std::max(largest_translation(u), 1e-9);
+  /// Largest elastic correction of any body over the largest displacement of a block: the error
+  /// estimate [-]. Below a nanometre of displacement there is nothing to be in error.
+  [[nodiscard]] double relative_correction(const Eigen::VectorXd& correction,
+                                           const Eigen::VectorXd& u) const {
+    double squared = 0;
+    for (int b = 0; b < body_count(); ++b)
+      squared = std::max(squared, correction.segment<dim>(dof * b).squaredNorm());
+    return std::sqrt(squared) / std::max(largest_translation(u), 1e-9);
   }
 
-  /// Largest translation of a movable body [m].
-  [[nodiscard]] static double largest_translation(const Eigen::VectorXd& u) {
+  /// Largest translation of a block [m].
+  [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
     double squared = 0;
-    for (Eigen::Index k = 0; k + dof <= u.size(); k += dof)
-      squared = std::max(squared, u.segment<dim>(k).squaredNorm());
+    for (int b = 0; b < body_count(); ++b)
+      if (body(b).is_block) squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 

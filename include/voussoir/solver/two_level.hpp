@@ -11,6 +11,7 @@
 #include <voussoir/solver/active_set.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/solver/falls.hpp>
 #include <voussoir/solver/fire.hpp>
 #include <voussoir/solver/relaxation.hpp>
 
@@ -55,25 +56,31 @@ class TwoLevel {
   /// @throws InvalidInput  a parameter out of range
   explicit TwoLevel(const Params& params) : params_(params), fallback_(params.fallback) {
     require(params.burst_steps > 0, "burst_steps", params.burst_steps, "> 0");
+    require(params.newton_steps >= 0, "newton_steps", params.newton_steps, ">= 0");
+    require(params.newton_below >= 0, "newton_below", params.newton_below, ">= 0");
+    require(params.rings >= 0, "rings", params.rings, ">= 0");
     require(params.max_bursts > 0, "max_bursts", params.max_bursts, "> 0");
+    require(params.increments > 0, "increments", params.increments, "> 0");
     require(params.max_restarts >= 0, "max_restarts", params.max_restarts, ">= 0");
   }
 
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
+    EquilibriumReport whole;
+    detail::drop(system, {}, context, whole);
+    Elastic<System> elastic;
+    elastic.prepare(system, params_.fire, whole);
+    const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
+    if (detail::moves_too_far(system, context, solve, whole)) return whole;
     const System start = system;
     const double from = start.wall_fraction, to = context.wall_fraction;
     const bool unloading = from != to && params_.increments > 1;
-    Elastic<System> elastic;
-    EquilibriumReport report = find_in_one_step(system, context, unloading, elastic);
-    if (!unloading || !report.reason.empty()) return report;
+    const EquilibriumReport at_once = find_in_one_step(system, context, unloading, elastic);
+    add(whole, at_once);
+    if (!unloading || !at_once.reason.empty()) return whole;
     // Something fell, or no end was found. The elastic start of one large step opens joints that a
     // gradual unloading keeps closed, so only what falls then has fallen. Most falls when little
     // traction is left: the increments shrink with it.
-    EquilibriumReport whole;
-    add(whole, report);
-    whole.fallen.clear();
-    whole.fallen_measure = 0;
     system = start;
     for (int k = 1; k <= params_.increments; ++k) {
       SearchContext part = context;
@@ -94,23 +101,25 @@ class TwoLevel {
   enum class Outcome { decided, open };
 
   /// The stiffness with all contacts closed and sticking, factored, and the masses that go with it.
-  /// Within one call of `find` it depends on the bodies that are left, not on where they are: made
-  /// anew only after some have gone.
+  /// Within one call of `find` it depends on the bodies and bolts that are left, not on where they
+  /// are: made anew only after some have gone, or are back because the search starts again.
   template <class System>
   class Elastic {
    public:
     void prepare(const System& system, const Fire::Params& fire, EquilibriumReport& report) {
       std::vector<int> bodies = system.movable_bodies();
-      if (factor_ && bodies == bodies_) return;
+      std::vector<bool> broken;
+      for (const auto& bolt : system.bolts) broken.push_back(bolt.broken);
+      if (factor_ && bodies == bodies_ && broken == broken_) return;
       const auto stiffness = system.elastic_stiffness();
       factor_.emplace(stiffness);
       fire_.emplace(stiffness.absolute_row_sums(), fire);
       bodies_ = std::move(bodies);
+      broken_ = std::move(broken);
       ++report.factorisations;
     }
-    /// d = K^-1 f
-    void solve(const Eigen::VectorXd& f, Eigen::VectorXd& d, EquilibriumReport& report) const {
-      d = f;
+    /// d = K^-1 f, in place.
+    void solve(Eigen::VectorXd& d, EquilibriumReport& report) const {
       factor_->solve_in_place(d);
       ++report.elastic_solves;
     }
@@ -119,7 +128,8 @@ class TwoLevel {
    private:
     std::optional<BlockCholesky<System::dof>> factor_;
     std::optional<Fire> fire_;
-    std::vector<int> bodies_;  ///< that could move when it was made
+    std::vector<int> bodies_;   ///< that could move when it was made
+    std::vector<bool> broken_;  ///< bolts then
   };
 
   template <class System>
@@ -128,7 +138,6 @@ class TwoLevel {
                                                    Elastic<System>& elastic) const {
     EquilibriumReport report;
     const Acceptance& accept = context.acceptance;
-    detail::drop(system, system.unsupported(), context, report);
     const System start = system;  // where a search without the fallen blocks begins
     // The fallback mostly has to tell what falls: blocks at a tenth of their weight do not. One
     // that creeps to its rest is followed more closely.
@@ -139,7 +148,8 @@ class TwoLevel {
       SearchContext follow = context;
       follow.acceptance.unbalance_over_weight = follow_to;
       follow.acceptance.collapse_measure = accept.collapse_measure - report.fallen_measure;
-      const EquilibriumReport fall = fallback_.find(system, follow);
+      EquilibriumReport fall;
+      fallback_.follow(system, follow, fall);
       report.steps += fall.steps;
       report.fallen.insert(report.fallen.end(), fall.fallen.begin(), fall.fallen.end());
       report.fallen_measure += fall.fallen_measure;
@@ -154,7 +164,7 @@ class TwoLevel {
       }
       if (!fall.fallen.empty()) {
         system = start;
-        system.remove(report.fallen);
+        detail::remove_with_loose(system, report.fallen);
         continue;
       }
       // Nothing fell: the search goes on from the slip that the fallback has committed.
@@ -167,7 +177,7 @@ class TwoLevel {
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason =
           "blocks keep falling after " + std::to_string(params_.max_restarts) + " restarts";
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.state.ruptured;
+    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
     return report;
   }
 
@@ -191,19 +201,19 @@ class TwoLevel {
     elastic.prepare(system, params_.fire, report);
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd f, d, trial;
-    system.forces(u, f);
-    elastic.solve(f, d, report);
+    const auto correction = [&] {
+      system.forces(u, f);
+      ++report.steps;
+      d = f;
+      elastic.solve(d, report);
+    };
+    correction();
     u += d;
-    report.largest_displacement = System::largest_translation(u);
-    if (report.largest_displacement > 0.5 * accept.displacement_limit) {
-      report.reason = detail::moves_too_far(report.largest_displacement, accept.displacement_limit);
-      return Outcome::decided;
-    }
     report.error_estimate = 1;
     Eigen::VectorXd reach = Eigen::VectorXd::Constant(system.body_count(), 0.02);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      if (settle_locally(system, elastic.fire(), accept, reach, f, report) >
-          accept.displacement_limit) {
+      settle_locally(system, elastic.fire(), accept, reach, f, report);
+      if (system.largest_translation(u) > accept.displacement_limit) {
         if (give_up_at_a_fall) return Outcome::open;
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
@@ -211,17 +221,19 @@ class TwoLevel {
         elastic.prepare(system, params_.fire, report);
         burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
-      system.forces(u, f);
-      elastic.solve(f, d, report);
-      report.largest_displacement = System::largest_translation(u);
-      report.error_estimate = System::relative_correction(d, u);
+      correction();
+      report.largest_displacement = system.largest_translation(u);
+      report.error_estimate = system.relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (!std::isfinite(report.error_estimate))
+      if (!d.allFinite())  // a maximum does not tell: it passes over what is not a number
         throw NumericalFault("two-level search: displacements are not finite in search " +
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
-        if (system.commit() > 0) continue;  // a bolt broke: look again without it
+        if (system.commit() > 0) {  // a bolt broke: look again without it
+          elastic.prepare(system, params_.fire, report);
+          continue;
+        }
         report.verdict = Verdict::stable;
         report.reason = "error estimate, unbalance and displacements are within their limits";
         return Outcome::decided;
@@ -231,7 +243,7 @@ class TwoLevel {
         report.stopped = true;
         return Outcome::decided;
       }
-      correct(system, u, d, f, trial);
+      correct(system, u, d, f, trial, report);
     }
     return Outcome::open;
   }
@@ -241,11 +253,9 @@ class TwoLevel {
   /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far
   /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
   /// shrinks for the bodies that ran into something, and the others fall on.
-  /// @return  the largest translation among the bodies [m]
   template <class System>
-  double settle_locally(System& system, Fire& fire, const Acceptance& accept,
-                        Eigen::VectorXd& reach, Eigen::VectorXd& f,
-                        EquilibriumReport& report) const {
+  void settle_locally(System& system, Fire& fire, const Acceptance& accept, Eigen::VectorXd& reach,
+                      Eigen::VectorXd& f, EquilibriumReport& report) const {
     constexpr int dim = System::dim, dof = System::dof;
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
@@ -258,7 +268,7 @@ class TwoLevel {
       active.forces(u, f);
       ++report.steps;
     }
-    if (!(report.error_estimate < params_.newton_below)) return active.largest_translation(u);
+    if (!(report.error_estimate < params_.newton_below)) return;
     double now = active.squared_unbalance(f);
     Eigen::VectorXd before, worse;
     for (int k = 0; k < params_.newton_steps; ++k) {
@@ -294,7 +304,6 @@ class TwoLevel {
         for (const int b : bodies) reach[b] = std::min(4 * reach[b], accept.displacement_limit);
       if (active.largest_translation(u) > accept.displacement_limit) break;
     }
-    return active.largest_translation(u);
   }
 
   /// After a step that failed: shortens the reach of the bodies whose balance it has spoilt, or of
@@ -321,11 +330,12 @@ class TwoLevel {
   /// Adds the elastic correction, halved while it would make the residual four times larger.
   template <class System>
   static void correct(System& system, Eigen::VectorXd& u, const Eigen::VectorXd& d,
-                      Eigen::VectorXd& f, Eigen::VectorXd& trial) {
+                      Eigen::VectorXd& f, Eigen::VectorXd& trial, EquilibriumReport& report) {
     const double before = f.squaredNorm();
     for (double part = 1; part > 0.2; part *= 0.5) {
       trial = u + part * d;
       system.forces(trial, f);
+      ++report.steps;
       if (f.squaredNorm() <= 16 * before) {
         u = trial;
         return;

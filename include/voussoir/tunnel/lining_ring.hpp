@@ -64,7 +64,9 @@ struct LiningRing {
     const int node = static_cast<int>(frame.nodes.size());
     number[static_cast<std::size_t>(k)] = node;
     frame.nodes.push_back(p);
-    if (node > 0) frame.members.emplace_back(node - 1, node);
+    // An outline that turns back can leave the arc and come again: no member across the gap.
+    const int before = number[static_cast<std::size_t>((k + ring.nodes - 1) % ring.nodes)];
+    if (before >= 0 && before == node - 1) frame.members.emplace_back(before, node);
   }
   if (frame.nodes.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
   if (closed) frame.members.emplace_back(static_cast<int>(frame.nodes.size()) - 1, 0);

@@ -88,7 +88,7 @@ template <class Solver>
     const auto& law = system.bolt_laws[static_cast<std::size_t>(spring.law)];
     forces.push_back({spring.bolt, spring.position, law.force(span, spring.state).axial,
                       (span.initial + span.motion).norm() - span.initial.norm(),
-                      spring.state.plastic_extension > 0, spring.state.ruptured});
+                      spring.state.plastic_extension > 0, spring.broken});
   }
   return forces;
 }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+#include <voussoir/solver/equilibrium.hpp>
+
+namespace voussoir::detail {
+
+// What has fallen, and whether that can be told: one answer for every equilibrium method.
+
+/// Blocks that moved beyond the limit.
+template <class System>
+[[nodiscard]] std::vector<int> fallen_bodies(const System& system, double limit) {
+  std::vector<int> fallen;
+  for (int b = 0; b < system.body_count(); ++b)
+    if (system.body(b).movable && system.body(b).is_block &&
+        !(system.displacement.template segment<System::dim>(System::dof * b).norm() <= limit))
+      fallen.push_back(b);
+  return fallen;
+}
+
+/// Removes these bodies, and those that then hang on nothing.
+/// @return  the latter
+template <class System>
+std::vector<int> remove_with_loose(System& system, const std::vector<int>& bodies) {
+  if (!bodies.empty()) system.remove(bodies);
+  std::vector<int> loose = system.unsupported();
+  if (!loose.empty()) system.remove(loose);
+  return loose;
+}
+
+/// The same, entered in the report as fallen.
+template <class System>
+void drop(System& system, const std::vector<int>& bodies, const SearchContext& context,
+          EquilibriumReport& report) {
+  const auto enter = [&](int b) {
+    if (!system.body(b).is_block) return;
+    report.fallen.push_back(b);
+    if (context.measures != nullptr)
+      report.fallen_measure += (*context.measures)[static_cast<std::size_t>(b)];
+  };
+  for (const int b : bodies) enter(b);
+  for (const int b : remove_with_loose(system, bodies)) enter(b);
+}
+
+/// True, with the reason, if the rock as a whole is about to move so far that falling blocks cannot
+/// be told by their displacement: if one block in a hundred (of a few: the second furthest) goes
+/// beyond half the limit in one elastic step to the end of the stage. Single blocks that slid there
+/// in an earlier stage do not count.
+///
+/// @param solve  solve(f) turns forces into elastic displacements, in place
+template <class System, class Solve>
+[[nodiscard]] bool moves_too_far(System& system, const SearchContext& context, Solve&& solve,
+                                 EquilibriumReport& report) {
+  const double now = system.wall_fraction, limit = context.acceptance.displacement_limit;
+  Eigen::VectorXd u;
+  system.wall_fraction = context.wall_fraction;
+  system.forces(system.displacement, u);
+  system.wall_fraction = now;
+  solve(u);
+  u += system.displacement;
+  std::vector<double> moved;
+  for (int b = 0; b < system.body_count(); ++b)
+    if (system.body(b).movable && system.body(b).is_block)
+      moved.push_back(u.template segment<System::dim>(System::dof * b).norm());
+  if (moved.empty()) return false;
+  const auto place =
+      moved.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(moved.size() - 1));
+  std::nth_element(moved.begin(), place, moved.end());
+  if (!(*place > 0.5 * limit)) return false;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "with joints that neither slip nor open the rock would move %.3g mm, more than half "
+      "the displacement limit of %.3g mm, and blocks that fall could not be told from it: "
+      "raise displacement_limit",
+      1e3 * *place, 1e3 * limit);
+  report.reason = text;
+  report.largest_displacement = system.largest_translation(system.displacement);
+  return true;
+}
+
+/// True, with the verdict, if more has fallen than a tunnel can lose.
+template <int Dim>
+[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
+  if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
+  const char* unit = Dim == 2 ? "m2" : "m3";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu block%s of %.3g %s fell before the others came to rest; more than %.3g %s is "
+                "a collapse",
+                report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure,
+                unit, acceptance.collapse_measure, unit);
+  report.verdict = Verdict::collapsing;
+  report.reason = text;
+  return true;
+}
+
+}  // namespace voussoir::detail
