@@ -173,6 +173,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     yielded += c.yielded && !c.ruptured;
   }
   const std::string of_all = " of " + std::to_string(holds.size()) + " bolts ";
+  const int node = run.tunnel.first_lining_node();
+  if (node >= 0 && !run.tunnel.system().body(node).movable)
+    warn("the lining was lost with the rock that held it: nothing touches it any more");
   if (idle > 0) warn(std::to_string(idle) + of_all + "cross no joint and hold nothing");
   if (lost > 0) warn(std::to_string(lost) + of_all + "were lost with the rock they held");
   if (broken > 0) warn("bolts ruptured at " + std::to_string(broken) + " joints");

@@ -243,6 +243,16 @@ TEST_SUITE("bolt/axial_bolt") {
     CHECK((pull(cable, {2e-3, -1e-12}) - pull(cable, {2e-3, 1e-12})).norm() <= stiffness * 2e-12);
     const AxialBolt strut({.axial_stiffness = stiffness, .carries_compression = true});
     CHECK((pull(strut, {2e-3, -1e-3}) - stiffness * Vec2(2e-3, -1e-3)).norm() <= 1e-9);
+    // In compression a strut knows no yield: 1 mm is 2e5 N, beyond the yield force.
+    const AxialBolt limited({.axial_stiffness = stiffness,
+                             .yield_force = 1e5,
+                             .rupture_force = 1.5e5,
+                             .carries_compression = true});
+    const BoltSpan<2> closed{Vec2::Zero(), Vec2::UnitY(), {0, -1e-3}};
+    AxialBolt::State state;
+    CHECK(limited.force(closed, state).axial == doctest::Approx(-stiffness * 1e-3));
+    CHECK_FALSE(limited.commit(closed, state));
+    CHECK(state.plastic_extension == 0);
   }
 
   TEST_CASE(

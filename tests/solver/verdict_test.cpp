@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/explicit.hpp>
@@ -223,6 +224,76 @@ TEST_SUITE("solver/verdict") {
     CHECK(judged.verdict == Verdict::stable);
   }
 
+  TEST_CASE("rock that hangs on nothing from the start counts towards a collapse") {
+    // Two blocks of 1 m2 each that touch only each other, beside a block on the fixed ground.
+    const auto lost = [](double limit, const auto& method) {
+      System<Planar, CoulombJoint, AxialBolt> system(joints(30 * degree), 5e9, joints(30 * degree));
+      for (const double x : {0.0, 5.0, 6.0}) system.add_body({Vec2(x, 0), 26e3, 0.4, true});
+      const int ground = system.add_body({Vec2(0, -1), 0, 1, false});
+      const auto touch = [&](auto& group, int a, int b, const Segment& face) {
+        const auto points = face.gauss_points();
+        group.add(a, b, face, system.body(a).centre, system.body(b).centre, points);
+      };
+      touch(system.joints, 1, 2, {Vec2(5.5, -0.5), Vec2(5.5, 0.5)});
+      touch(system.boundary, 0, ground, {Vec2(-0.5, -0.5), Vec2(0.5, -0.5)});
+      touch(system.joints, 0, ground, {Vec2(-0.5, -0.5), Vec2(0.5, -0.5)});
+      for (int b = 0; b < 3; ++b) system.load[3 * b + 1] = -26e3;
+      const std::vector<double> areas{1, 1, 1, 0};
+      SearchContext context;
+      context.acceptance.collapse_measure = limit;
+      context.measures = &areas;
+      return method.find(system, context);
+    };
+    const auto check = [&](const auto& method) {
+      const EquilibriumReport some = lost(3, method), much = lost(1.5, method);
+      CHECK(some.verdict == Verdict::stable);
+      CHECK(some.fallen == std::vector<int>{1, 2});
+      CHECK(some.fallen_measure == 2);
+      CHECK(much.verdict == Verdict::collapsing);
+    };
+    check(TwoLevel());
+    check(Relaxation());
+    check(Explicit());
+  }
+
+  TEST_CASE("a dowel installed in rock that has moved is free of force") {
+    const auto opening = circular_opening(4, 36);
+    Solver<AxialShearBolt> tunnel(jointed_rock(domain_around(opening, 22, 7, 7), 5),
+                                  joints(40 * degree), {.density = 2700});
+    tunnel.excavate(opening);
+    (void)tunnel.equilibrium(0.4);
+    Eigen::VectorXd before, after;
+    auto& system = tunnel.system();
+    system.forces(system.displacement, before);
+    const AxialShearBolt law(
+        {.axial = {.axial_stiffness = 2e8, .carries_compression = true}, .shear_stiffness = 3e8});
+    for (const auto& bar : bolt_bars({.length = 2, .angular_spacing = 30 * degree}, opening))
+      tunnel.install_bolt(bar, law);
+    REQUIRE(!system.bolts.empty());
+    system.forces(system.displacement, after);
+    // Displacements of 1e-4 m are rounded at 1e-20 m, times 3e8 N/m.
+    CHECK((after - before).norm() <= 1e-9);
+    // And the tangent of a dowel is that of its force.
+    const auto& bolt = system.bolts.front();
+    const auto& spring = system.bolt_laws.front();
+    Eigen::VectorXd u = system.displacement;
+    const double step = 1e-6;
+    bolt.add_tangent(spring, u.data(),
+                     [&](int a, int b, const auto& aa, const auto&, const auto& ba, const auto&) {
+                       for (int k = 0; k < 3; ++k) {
+                         Eigen::VectorXd up = Eigen::VectorXd::Zero(u.size()), down = up, moved = u;
+                         moved[3 * a + k] += step;
+                         bolt.add_force(spring, moved.data(), up.data());
+                         moved[3 * a + k] -= 2 * step;
+                         bolt.add_force(spring, moved.data(), down.data());
+                         const Eigen::VectorXd slope = (down - up) / (2 * step);
+                         // Both are differences; rounding of 3e8 N/m * 1e-4 m over 1e-8 m.
+                         CHECK((slope.segment<3>(3 * a) - aa.col(k)).norm() <= 1e-6 * aa.norm());
+                         CHECK((slope.segment<3>(3 * b) - ba.col(k)).norm() <= 1e-6 * aa.norm());
+                       }
+                     });
+  }
+
   TEST_CASE("forces that are no numbers are a fault, never an equilibrium") {
     const auto opening = circular_opening(4, 36);
     Solver<FaultyJoint> tunnel(jointed_rock(domain_around(opening, 22, 7, 7), 5), FaultyJoint{},
@@ -344,7 +415,7 @@ TEST_SUITE("solver/verdict") {
                     InvalidInput);
     CHECK_THROWS_WITH_AS(
         tunnel.install_bolt({{0, 2}, {0, 9.5}}, AxialBolt({.axial_stiffness = 2e8})),
-        "bolt: its tip at (0, 9.5) m is not in the rock, which reaches from (-11, -9) to (11, 9) m",
+        "bolt: its tip at (0, 9.5) m is outside the domain, which reaches from (-11, -9) to (11, 9) m",
         InvalidInput);
     CHECK_THROWS_AS(tunnel.install_lining({}, section, interface_law), InvalidInput);
     tunnel.install_lining(frame, section, interface_law);

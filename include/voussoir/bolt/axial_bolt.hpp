@@ -73,7 +73,7 @@ class AxialBolt {
 
   template <int Dim>
   [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
-    // Anchors that coincide pull along whatever direction they separate in.
+    // Anchors that coincide resist motion in every direction that stretches the bar.
     const double length = span.initial.norm();
     if (!(length > 0)) return params_.axial_stiffness * Stress<Dim>::Identity();
     // A taut bar also resists being moved sideways, by T0 / d.
@@ -115,6 +115,7 @@ class AxialBolt {
     if (along < 0 && !params_.carries_compression) bar -= along * span.axis;
     const double length = bar.norm();
     if (!(length > 0)) return {span.axis, -seat};
+    if (along < 0 && params_.carries_compression) return {-bar / length, -length - seat};
     return {bar / length, length - seat};
   }
 

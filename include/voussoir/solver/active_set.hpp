@@ -64,8 +64,8 @@ class ActiveSet {
     for (const std::size_t k : bolts_) {
       auto& bolt = system_->bolts[k];
       const auto& law = system_->bolt_laws[static_cast<std::size_t>(bolt.law)];
-      bolt.add_force(law, u.data(), f.data());
       if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
+      bolt.add_force(law, u.data(), f.data());
     }
     for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
   }

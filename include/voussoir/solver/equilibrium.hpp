@@ -13,8 +13,8 @@ namespace voussoir {
 /// What is known about a state after equilibrium was sought.
 enum class Verdict {
   stable,      ///< all three tests passed, possibly after loose blocks fell
-  collapsing,  ///< more rock moved than the limit, or blocks never stop falling
-  undecided,   ///< the step limit was reached first
+  collapsing,  ///< more rock fell than the limit
+  undecided,   ///< no answer was found, or none was sought: the reason says why
 };
 
 [[nodiscard]] constexpr const char* to_string(Verdict verdict) {

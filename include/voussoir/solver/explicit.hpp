@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -57,6 +56,7 @@ class Explicit {
     const Acceptance& accept = context.acceptance;
     detail::drop(system, {}, context, report);
     const auto solve = [&](Eigen::VectorXd& f) { elastic_correction(system, f, report); };
+    if (detail::has_collapsed<System::dim>(report, accept)) return report;
     if (detail::moves_too_far(system, context, solve, report)) return report;
     const double from = system.wall_fraction, to = context.wall_fraction;
     Eigen::VectorXd& u = system.displacement;
@@ -93,6 +93,7 @@ class Explicit {
         detail::drop(system, fallen, context, report);
         for (int b = 0; b < system.body_count(); ++b)
           if (!system.body(b).movable) velocity.template segment<dof>(dof * b).setZero();
+        report.largest_displacement = system.largest_translation(u);
         if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = masses(system);
         step = stable_step(system, mass);

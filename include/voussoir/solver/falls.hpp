@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 
 namespace voussoir::detail {
@@ -49,9 +49,9 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
 }
 
 /// True, with the reason, if the rock as a whole is about to move so far that falling blocks cannot
-/// be told by their displacement: if one block in a hundred (of a few: the second furthest) goes
-/// beyond half the limit in one elastic step to the end of the stage. Single blocks that slid there
-/// in an earlier stage do not count.
+/// be told by their displacement: if more than one block in a hundred would have moved beyond half
+/// the limit after one elastic step to the end of the stage. Blocks that slid so far in an earlier
+/// stage count too: fewer than that do not matter.
 ///
 /// @param solve  solve(f) turns forces into elastic displacements, in place
 template <class System, class Solve>
@@ -63,6 +63,8 @@ template <class System, class Solve>
   system.forces(system.displacement, u);
   system.wall_fraction = now;
   solve(u);
+  if (!u.allFinite())
+    throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
   u += system.displacement;
   std::vector<double> moved;
   for (int b = 0; b < system.body_count(); ++b)
@@ -76,8 +78,8 @@ template <class System, class Solve>
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "with joints that neither slip nor open the rock would move %.3g mm, more than half "
-      "the displacement limit of %.3g mm, and blocks that fall could not be told from it: "
+      "with joints that slip and open no further the rock would have moved %.3g mm, more than "
+      "half the displacement limit of %.3g mm, and blocks that fall could not be told from it: "
       "raise displacement_limit",
       1e3 * *place, 1e3 * limit);
   report.reason = text;

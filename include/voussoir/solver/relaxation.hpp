@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -54,7 +53,9 @@ class Relaxation {
       ++report.factorisations;
       ++report.elastic_solves;
     };
-    if (!detail::moves_too_far(system, context, solve, report)) follow(system, context, report);
+    if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
+        !detail::moves_too_far(system, context, solve, report))
+      follow(system, context, report);
     return report;
   }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +35,7 @@ struct LiningFrame {
 ///
 /// The order of calls is that of the construction: the rock in its in-situ stress; excavate; then
 /// any number of stages of installing supports, changing the wall traction and finding equilibrium.
-/// History is committed at the end of every equilibrium.
+/// History is committed when an equilibrium is found.
 ///
 /// 2-D forces are per metre of tunnel; a bolt's values are per bolt, shared over its spacing.
 template <class... Policies>
@@ -88,6 +87,7 @@ class Solver {
   /// present position of the rock, free of force but for its pretension.
   /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
+  /// @throws InvalidInput  no length or spacing, or the tip is outside the domain
   int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
                    const Anchors& anchors = {}) {
     require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing,
@@ -98,8 +98,8 @@ class Solver {
     if ((bar.end.array() < domain.low.array()).any() ||
         (bar.end.array() > domain.high.array()).any())
       throw InvalidInput("bolt: its tip at " + text_of<dim>(bar.end) +
-                         " m is not in the rock, which reaches from " + text_of<dim>(domain.low) +
-                         " to " + text_of<dim>(domain.high) + " m");
+                         " m is outside the domain, which reaches from " +
+                         text_of<dim>(domain.low) + " to " + text_of<dim>(domain.high) + " m");
     const Vec<dim> axis = (bar.end - bar.start) / length;
     system_.bolt_laws.push_back(law);
     const std::vector<Passage> passages = passages_of_present_rock(bar);
@@ -113,13 +113,18 @@ class Solver {
       spring.b = after.body;
       spring.bolt = bolt_count_;
       spring.position = 0.5 * (before.to + after.from);
-      const Vec<dim> crossing = bar.start + spring.position * axis;
-      spring.joint_a = crossing - system_.body(spring.a).centre;
-      spring.joint_b = crossing - system_.body(spring.b).centre;
+      // Across a hole (a block that has fallen) the bar goes on; at a joint the two faces are one
+      // place, and the span exactly what the anchors say, not the rounding of two positions.
+      const double gap = after.from - before.to;
+      const bool is_joint = gap < same_point * domain.tolerance();
+      const Vec<dim> joint = bar.start + spring.position * axis;
+      const Vec<dim> face_a = is_joint ? joint : Vec<dim>(bar.start + before.to * axis);
+      const Vec<dim> face_b = is_joint ? joint : Vec<dim>(bar.start + after.from * axis);
+      spring.joint_a = face_a - system_.body(spring.a).centre;
+      spring.joint_b = face_b - system_.body(spring.b).centre;
       spring.arm_a = spring.joint_a - d.before * axis;
       spring.arm_b = spring.joint_b + d.after * axis;
-      // Exactly zero for anchors on the joint, not the rounding of two positions.
-      spring.span = {(d.before + d.after) * axis, axis, Vec<dim>::Zero()};
+      spring.span = {(d.before + (is_joint ? 0.0 : gap) + d.after) * axis, axis, Vec<dim>::Zero()};
       const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
       spring.span.motion = -present.motion;
       spring.span.jump = -present.jump;
@@ -138,8 +143,10 @@ class Solver {
   /// @throws InvalidInput  a lining is already there, a member has no length, or no rock touches it
   void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
                       const CoulombJoint& interface_law) {
-    if (!system_.frames.empty()) throw InvalidInput("lining: there is already one");
-    if (frame.contacts.empty()) throw InvalidInput("lining: no rock touches it");
+    if (first_node_ >= 0) throw InvalidInput("lining: there is already one");
+    if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
+                     [this](const auto& c) { return system_.body(c.body).movable; }))
+      throw InvalidInput("lining: no rock touches it");
     first_node_ = system_.body_count();
     std::vector<double> tributary(frame.nodes.size(), 0.0);
     for (const auto& [i, j] : frame.members) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/coulomb_joint.hpp>
@@ -94,8 +95,9 @@ class System {
     interface.template add_forces<History>(u.data(), f.data());
     for (auto& bolt : bolts) {
       const BoltLaw& law = bolt_laws[static_cast<std::size_t>(bolt.law)];
-      bolt.add_force(law, u.data(), f.data());
+      // First: a bolt that breaks here holds nothing any more.
       if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
+      bolt.add_force(law, u.data(), f.data());
     }
     for (const auto& frame : frames) frame.add_force(u.data(), f.data());
     for (int b = 0; b < body_count(); ++b)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +30,8 @@ namespace voussoir {
 /// The local search settles slip and openings: a burst of FIRE and, once the estimate is small,
 /// anchored Newton steps with the unsymmetric tangent. The elastic solve settles what is
 /// long-ranged, and its correction d measures the error of the displacements. The history is frozen
-/// during the search, so the answer does not depend on the path the search took.
+/// during the search, so the answer does not depend on the path the search took: on increments and
+/// the fallback only, where blocks fall.
 ///
 /// d is blind to mechanisms: a key block that falls has a tiny elastic correction. Hence the test
 /// on every block's unbalance. A block that nothing holds runs away under the Newton steps until it
@@ -48,7 +50,7 @@ class TwoLevel {
     int rings = 2;               ///< generations of neighbours searched with a body out of balance
     int max_bursts = 14;         ///< local searches without a fall or an end before the fallback
     int increments = 5;          ///< of the unloading, where blocks fall in one step
-    int max_restarts = 8;        ///< searches without the blocks that fell in the one before
+    int max_restarts = 8;        ///< searches after the first, without what has fallen
     Fire::Params fire{};
     Relaxation::Params fallback{};
   };
@@ -71,25 +73,31 @@ class TwoLevel {
     Elastic<System> elastic;
     elastic.prepare(system, params_.fire, whole);
     const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
+    if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return whole;
     if (detail::moves_too_far(system, context, solve, whole)) return whole;
+    const auto part_of_stage = [&](double wall_fraction) {
+      SearchContext part = context;
+      part.wall_fraction = wall_fraction;
+      part.acceptance.collapse_measure -= whole.fallen_measure;
+      return part;
+    };
     const System start = system;
     const double from = start.wall_fraction, to = context.wall_fraction;
     const bool unloading = from != to && params_.increments > 1;
-    const EquilibriumReport at_once = find_in_one_step(system, context, unloading, elastic);
-    add(whole, at_once);
-    if (!unloading || !at_once.reason.empty()) return whole;
-    // Something fell, or no end was found. The elastic start of one large step opens joints that a
-    // gradual unloading keeps closed, so only what falls then has fallen. Most falls when little
-    // traction is left: the increments shrink with it.
-    system = start;
-    for (int k = 1; k <= params_.increments; ++k) {
-      SearchContext part = context;
-      part.wall_fraction = k == params_.increments ? to : to + (from - to) * std::pow(0.4, k);
-      part.acceptance.collapse_measure -= whole.fallen_measure;
-      add(whole, find_in_one_step(system, part, false, elastic));
-      if (whole.verdict != Verdict::stable) break;
+    add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
+    if (unloading && whole.reason.empty()) {
+      // Something fell, or no end was found. The elastic start of one large step opens joints that
+      // a gradual unloading keeps closed, so only what falls then has fallen. Most falls when
+      // little traction is left: the increments shrink with it.
+      system = start;
+      for (int k = 1; k <= params_.increments; ++k) {
+        const bool last = k == params_.increments;
+        const double left = last ? to : to + (from - to) * std::pow(0.4, k);
+        add(whole, find_in_one_step(system, part_of_stage(left), false, elastic));
+        if (whole.verdict != Verdict::stable) break;
+      }
     }
-    // The increment that ended it speaks of its own blocks; the verdict of all of them.
+    // The search that ended it speaks of its own blocks; the verdict of all of them.
     if (whole.verdict == Verdict::collapsing)
       (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
     if (whole.verdict == Verdict::stable && !whole.fallen.empty())
@@ -156,12 +164,14 @@ class TwoLevel {
       report.largest_displacement = fall.largest_displacement;
       report.unbalance_over_weight = fall.unbalance_over_weight;
       report.stopped = fall.stopped;
+      report.error_estimate = std::numeric_limits<double>::quiet_NaN();
       if (detail::has_collapsed<System::dim>(report, accept)) break;
       if (fall.verdict == Verdict::undecided) {
         report.reason =
             fall.stopped ? fall.reason : "falling blocks were followed without end: " + fall.reason;
         break;
       }
+      if (attempt == params_.max_restarts) break;
       if (!fall.fallen.empty()) {
         system = start;
         detail::remove_with_loose(system, report.fallen);
@@ -175,8 +185,8 @@ class TwoLevel {
       follow_to = std::max(0.3 * follow_to, accept.unbalance_over_weight);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
-      report.reason =
-          "blocks keep falling after " + std::to_string(params_.max_restarts) + " restarts";
+      report.reason = "no equilibrium in " + std::to_string(params_.max_restarts + 1) +
+                      " searches, what fell taken out in between";
     for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
     return report;
   }
@@ -209,24 +219,34 @@ class TwoLevel {
     };
     correction();
     u += d;
-    report.error_estimate = 1;
-    Eigen::VectorXd reach = Eigen::VectorXd::Constant(system.body_count(), 0.02);
+    double estimate = 1;
+    Eigen::VectorXd reach =
+        Eigen::VectorXd::Constant(system.body_count(), 0.2 * accept.displacement_limit);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      settle_locally(system, elastic.fire(), accept, reach, f, report);
+      settle_locally(system, elastic.fire(), accept, estimate, reach, f, report);
+      // A maximum would not tell: it passes over what is not a number.
+      if (!u.allFinite())
+        throw NumericalFault("two-level search: displacements are not finite in search " +
+                             std::to_string(burst));
       if (system.largest_translation(u) > accept.displacement_limit) {
         if (give_up_at_a_fall) return Outcome::open;
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
-        if (detail::has_collapsed<System::dim>(report, accept)) return Outcome::decided;
+        if (detail::has_collapsed<System::dim>(report, accept)) {
+          report.largest_displacement = system.largest_translation(u);
+          report.error_estimate = report.unbalance_over_weight =
+              std::numeric_limits<double>::quiet_NaN();  // it is on its way down
+          return Outcome::decided;
+        }
         elastic.prepare(system, params_.fire, report);
         burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
       correction();
       report.largest_displacement = system.largest_translation(u);
-      report.error_estimate = system.relative_correction(d, u);
+      report.error_estimate = estimate = system.relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (!d.allFinite())  // a maximum does not tell: it passes over what is not a number
-        throw NumericalFault("two-level search: displacements are not finite in search " +
+      if (!d.allFinite())
+        throw NumericalFault("two-level search: the elastic correction is not finite in search " +
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
@@ -254,8 +274,8 @@ class TwoLevel {
   /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
   /// shrinks for the bodies that ran into something, and the others fall on.
   template <class System>
-  void settle_locally(System& system, Fire& fire, const Acceptance& accept, Eigen::VectorXd& reach,
-                      Eigen::VectorXd& f, EquilibriumReport& report) const {
+  void settle_locally(System& system, Fire& fire, const Acceptance& accept, double estimate,
+                      Eigen::VectorXd& reach, Eigen::VectorXd& f, EquilibriumReport& report) const {
     constexpr int dim = System::dim, dof = System::dof;
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
@@ -268,7 +288,7 @@ class TwoLevel {
       active.forces(u, f);
       ++report.steps;
     }
-    if (!(report.error_estimate < params_.newton_below)) return;
+    if (!(estimate < params_.newton_below)) return;
     double now = active.squared_unbalance(f);
     Eigen::VectorXd before, worse;
     for (int k = 0; k < params_.newton_steps; ++k) {

@@ -57,8 +57,7 @@ struct BoltPattern {
   const bool closed = arc > circle * (1 - 1e-9);
   constexpr double most = 10000;
   if (!(total / spacing < most))
-    throw InvalidInput("bolt spacing = " + std::to_string(spacing) + (angular ? " rad" : " m") +
-                       ": gives more than 10000 bolts");
+    throw InvalidInput("bolt spacing: so small that there would be more than 10000 bolts");
   const auto gaps = static_cast<int>(std::floor(total / spacing + 1e-9));
   const int count = closed ? std::max(gaps, 1) : gaps + 1;
   const double first = closed ? 0.0 : 0.5 * (total - gaps * spacing);

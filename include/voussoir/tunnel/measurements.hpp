@@ -74,7 +74,7 @@ struct CrossingForce {
   int bolt;
   double position;   ///< from the head [m]
   double force;      ///< tension positive, of one bolt [N]
-  double extension;  ///< change of the distance between the anchors since installation [m]
+  double extension;  ///< of the distance between the anchors since installation [m]
   bool yielded, ruptured;
 };
 
@@ -86,8 +86,11 @@ template <class Solver>
   for (const auto& spring : system.bolts) {
     const auto span = spring.span_at(system.displacement.data());
     const auto& law = system.bolt_laws[static_cast<std::size_t>(spring.law)];
-    forces.push_back({spring.bolt, spring.position, law.force(span, spring.state).axial,
-                      (span.initial + span.motion).norm() - span.initial.norm(),
+    // Anchors on the joint have no distance that could change: what opens the joint stretches them.
+    const double initial = span.initial.norm();
+    const double extension =
+        initial > 0 ? (span.initial + span.motion).norm() - initial : span.axis.dot(span.motion);
+    forces.push_back({spring.bolt, spring.position, law.force(span, spring.state).axial, extension,
                       spring.state.plastic_extension > 0, spring.broken});
   }
   return forces;
