@@ -116,7 +116,7 @@ TEST_SUITE("io/blocks_picture") {
     picture.bolts = {{}};
     CHECK(xml_fault(draw_blocks_picture(picture)) == "");
     picture.view = ViewRect{{0, 0}, {0, 1}};
-    CHECK_THROWS_AS(draw_blocks_picture(picture), InvalidInput);
+    CHECK_THROWS_AS((void)draw_blocks_picture(picture), InvalidInput);
   }
 
   TEST_CASE("the view is three diameters about the opening, what is outside is not written") {
@@ -178,15 +178,15 @@ TEST_SUITE("io/interaction_picture") {
   TEST_CASE("tables that do not fit their axes are refused") {
     InteractionPicture picture = small_diagram();
     picture.thicknesses = {0, 0.1, 0.1};
-    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
     picture = small_diagram();
     picture.spacings[1].value = {};
-    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
     picture = small_diagram();
     picture.convergence.resize(2, 3);
-    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
     picture = small_diagram();
     picture.diameter = 0;
-    CHECK_THROWS_AS(draw_interaction_picture(picture), InvalidInput);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
   }
 }

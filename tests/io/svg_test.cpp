@@ -68,7 +68,7 @@ TEST_SUITE("io/svg") {
     canvas.polyline(std::vector<Vec2>{{0, 0}, {1, 0}},
                     {.stroke = "#123456", .dash = "3 2", .round_ends = true});
     canvas.path(SvgPath(), {});  // nothing
-    CHECK_THROWS_AS(canvas.document(), std::logic_error);
+    CHECK_THROWS_AS((void)canvas.document(), std::logic_error);
     canvas.end_layer();
     canvas.text({5, 5}, "a < b & c",
                 {.anchor = TextAnchor::end, .bold = true, .rotation = -90, .halo = true});

@@ -130,10 +130,10 @@ TEST_SUITE("lining/beams") {
   TEST_CASE("sections out of range are refused") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {nan, 0.0, -0.1, std::numeric_limits<double>::infinity()}) {
-      CHECK_THROWS_AS(LiningSection::rectangular(bad, 25e9), InvalidInput);
-      CHECK_THROWS_AS(LiningSection::rectangular(0.1, bad), InvalidInput);
+      CHECK_THROWS_AS((void)LiningSection::rectangular(bad, 25e9), InvalidInput);
+      CHECK_THROWS_AS((void)LiningSection::rectangular(0.1, bad), InvalidInput);
     }
     for (const double bad : {nan, -1.0, 0.5})
-      CHECK_THROWS_AS(LiningSection::rectangular(0.1, 25e9, bad), InvalidInput);
+      CHECK_THROWS_AS((void)LiningSection::rectangular(0.1, 25e9, bad), InvalidInput);
   }
 }

@@ -166,9 +166,10 @@ TEST_SUITE("lining/polygon_ring") {
     const double pressure = 1e5;
     const std::vector<std::pair<int, std::vector<int>>> cases = {
         {8, {2, 3}}, {16, {2, 3, 4}}, {32, {2, 3, 4}}, {64, {2, 3, 4}}, {128, {2, 3, 4}}};
-    for (const auto& [n, harmonics] : cases) {
+    for (const auto& of : cases) {
+      const int n = of.first;  // clang++ 14 captures no structured binding
       const Ring<EulerBernoulliBeam> ring(n, shotcrete());
-      for (const int m : harmonics) {
+      for (const int m : of.second) {
         CAPTURE(n);
         CAPTURE(m);
         // Outward where cos(m theta) > 0: there the ring bulges and the outer fibre is in tension.

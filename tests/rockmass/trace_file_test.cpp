@@ -136,6 +136,6 @@ TEST_SUITE("rockmass/trace_file") {
       int_type underflow() override { throw 1; }
     } buffer;
     std::istream in(&buffer);
-    CHECK_THROWS_WITH_AS(read_traces(in, "map.csv"), "map.csv: cannot be read", InvalidInput);
+    CHECK_THROWS_WITH_AS((void)read_traces(in, "map.csv"), "map.csv: cannot be read", InvalidInput);
   }
 }

@@ -299,6 +299,7 @@ TEST_SUITE("solver/verdict") {
     Solver<FaultyJoint> tunnel(jointed_rock(domain_around(opening, 22, 7, 7), 5), FaultyJoint{},
                                {.density = 2700});
     tunnel.excavate(opening);
+    CHECK(tunnel.composition().find(FaultyJoint::name) != std::string::npos);
     Solver<FaultyJoint> second = tunnel, third = tunnel;
     CHECK_THROWS_AS((void)tunnel.equilibrium(), NumericalFault);
     CHECK_THROWS_AS((void)Relaxation().find(second.system(), {}), NumericalFault);

@@ -81,13 +81,13 @@ TEST_SUITE("tunnel/measurements") {
     const double under = reference("D.pinch.polygon.n32.M_load") * force * radius;
     const double beside = 0.5 * force * radius - under;
     const double tolerance = 1e-8 * under;  // the condition of the ring, about 1e7, times 1e-16
-    for (const int k : {0, count / 2}) {
+    for (const std::size_t k : {std::size_t{0}, std::size_t{count / 2}}) {
       CHECK(std::abs(at[k].moment + under) <= tolerance);
       // The two chords there carry P/2 sin(half) each.
       CHECK(std::abs(at[k].thrust - 0.5 * force * std::sin(half)) <= 1e-8 * force);
       CHECK(std::abs(at[k].shear) <= 1e-8 * force);  // equal and opposite on the two sides
     }
-    for (const int k : {count / 4, 3 * count / 4}) {
+    for (const std::size_t k : {std::size_t{count / 4}, std::size_t{3 * count / 4}}) {
       CHECK(std::abs(at[k].moment - beside) <= tolerance);
       CHECK(std::abs(at[k].thrust - 0.5 * force * std::cos(half)) <= 1e-8 * force);
       CHECK(at[k].convergence < 0);  // bulges outwards

@@ -96,13 +96,14 @@ namespace detail {
       throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
                          " m");
   const double tolerance = domain.tolerance();
-  const auto [low, high] = detail::bounding_box(opening.vertices());
+  const std::pair<Vec2, Vec2> box = detail::bounding_box(opening.vertices());
   CarvingReport& report = mass.carving;
   std::vector<Body<Planar>> kept;
   kept.reserve(mass.bodies.size());
   for (Body<Planar>& body : mass.bodies) {
-    if (std::all_of(body.parts.begin(), body.parts.end(),
-                    [&](const ConvexPolygon& part) { return detail::apart(part, low, high); })) {
+    if (std::all_of(body.parts.begin(), body.parts.end(), [&](const ConvexPolygon& part) {
+          return detail::apart(part, box.first, box.second);
+        })) {
       kept.push_back(std::move(body));
       continue;
     }
