@@ -176,6 +176,11 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   const int node = run.tunnel.first_lining_node();
   if (node >= 0 && !run.tunnel.system().body(node).movable)
     warn("the lining was lost with the rock that held it: nothing touches it any more");
+  const auto& system = run.tunnel.system();
+  if (!system.frames.empty() && system.frames.size() + 1 == lining_forces(run.tunnel).size())
+    warn(
+        "the lining is open and its feet stand on nothing: it carries what friction on the rock "
+        "gives it, next to no thrust");
   if (idle > 0) warn(std::to_string(idle) + of_all + "cross no joint and hold nothing");
   if (lost > 0) warn(std::to_string(lost) + of_all + "were lost with the rock they held");
   if (broken > 0) warn("bolts ruptured at " + std::to_string(broken) + " joints");

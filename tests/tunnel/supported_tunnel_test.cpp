@@ -117,7 +117,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
       CHECK(!forces[k].yielded);
     }
     for (std::size_t b = 0; b < bars.size(); ++b) CHECK(seen[b] == crossed[b]);
-    CHECK(seen.back() == 0);  // a stub inside one block
+    CHECK(seen.back() == 0);  // a short bolt that ends in its first block
     CHECK(largest_bolt_forces(tunnel) == largest);
   }
 
