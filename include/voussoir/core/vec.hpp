@@ -13,6 +13,7 @@ namespace voussoir {
 template <int Dim>
 using Vec = Eigen::Matrix<double, Dim, 1>;
 using Vec2 = Vec<2>;
+using Vec3 = Vec<3>;
 
 /// Number of independent rotations of a rigid body.
 template <int Dim>
@@ -34,14 +35,19 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Cross product: the area vector of the parallelogram (a, b).
+[[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
 /// Displacement of a point at `arm` from the centre of a body that turns by the small rotation
 /// `spin`.
 [[nodiscard]] inline Vec<2> turned(const Spin<2>& spin, const Vec<2>& arm) {
   return {-spin[0] * arm.y(), spin[0] * arm.x()};
 }
 [[nodiscard]] inline Vec<3> turned(const Spin<3>& spin, const Vec<3>& arm) {
-  return {spin[1] * arm[2] - spin[2] * arm[1], spin[2] * arm[0] - spin[0] * arm[2],
-          spin[0] * arm[1] - spin[1] * arm[0]};
+  return cross(spin, arm);
 }
 
 /// Moment about the centre of a force that acts at `arm` from it: the transpose of `turned`.
