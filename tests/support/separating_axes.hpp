@@ -173,8 +173,8 @@ template <int Dim>
   const long double squared = n.squaredNorm();
   if (squared > 0) {
     const long double s = long_cross(w, v).dot(n) / squared, t = long_cross(w, u).dot(n) / squared;
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
-      least = std::min(least, std::abs(w.dot(n)) / std::sqrt(squared));
+    // Between two points of them, not along n: of nearly parallel edges n is not good enough.
+    if (s >= 0 && s <= 1 && t >= 0 && t <= 1) least = std::min(least, (w + t * v - s * u).norm());
   }
   return least;
 }
