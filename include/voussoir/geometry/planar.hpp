@@ -6,6 +6,7 @@
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
+#include <voussoir/geometry/tangent_basis.hpp>
 
 namespace voussoir {
 
@@ -24,12 +25,5 @@ struct Planar {
   using Line = Segment;           ///< a bolt, a scanline
   using Opening = SimplePolygon;  ///< outline of an excavation
 };
-
-/// The unit tangents of a contact whose normal is given: columns.
-template <int Dim>
-using TangentBasis = Eigen::Matrix<double, Dim, Dim - 1>;
-[[nodiscard]] inline TangentBasis<2> tangent_basis(const Vec<2>& normal) {
-  return perpendicular(normal);
-}
 
 }  // namespace voussoir

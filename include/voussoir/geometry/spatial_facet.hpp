@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/detail/surface.hpp>
+#include <voussoir/geometry/segment.hpp>
+
+namespace voussoir {
+
+/// A flat convex polygon in space: a contact, a piece of a face, a piece of tunnel wall.
+struct SpatialFacet {
+  std::vector<Vec3> vertices;  ///< anticlockwise seen from where the area vector points [m]
+
+  /// Unit normal times area [m^2]. The sum over a closed surface is zero to rounding, which is what
+  /// puts blocks in equilibrium.
+  [[nodiscard]] Vec3 area_vector() const {
+    return 0.5 * detail::doubled_area(vertices.size(),
+                                      [&](std::size_t k) -> const Vec3& { return vertices[k]; });
+  }
+  /// Area [m^2].
+  [[nodiscard]] double measure() const { return area_vector().norm(); }
+  [[nodiscard]] Vec3 centre() const { return vertices.front() + centre_from(vertices.front()); }
+  /// Centroid as seen from `origin`; exact where `origin` is near, wherever both are.
+  [[nodiscard]] Vec3 centre_from(const Vec3& origin) const {
+    return (vertices.front() - origin) + centroid_arm();
+  }
+
+  /// Four points that integrate polynomials of degree 2 over the facet exactly: the centroid
+  /// +- sqrt(2) r_k e_k, with r_k the radii of gyration about the centroid along the principal
+  /// axes e_k.
+  ///
+  /// They lie in the facet: a convex body of n dimensions contains its ellipsoid of inertia
+  /// enlarged by sqrt((n + 2) / n), which is sqrt(2) in a plane. Source: Kannan, Lovasz &
+  /// Simonovits (1995), Isoperimetric problems for convex bodies and a localization lemma,
+  /// section 4.
+  [[nodiscard]] std::array<FacetPoint<3>, 4> gauss_points() const {
+    const Vec3 doubled = 2 * area_vector(), arm = centroid_arm();
+    const double area = 0.5 * doubled.norm();
+    const Vec3 normal = doubled / (2 * area);
+    const Vec3 first = (vertices[1] - vertices[0]).normalized(), second = cross(normal, first);
+    // Second moments of the triangles of a fan about its tip, over the area.
+    double xx = 0, xy = 0, yy = 0;
+    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+      const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
+      const double share = normal.dot(cross(a, b)) / (2 * area) / 12;
+      const double ax = a.dot(first), ay = a.dot(second), bx = b.dot(first), by = b.dot(second);
+      const double sx = ax + bx, sy = ay + by;
+      xx += share * (ax * ax + bx * bx + sx * sx);
+      yy += share * (ay * ay + by * by + sy * sy);
+      xy += share * (ax * ay + bx * by + sx * sy);
+    }
+    const double cx = arm.dot(first), cy = arm.dot(second);
+    xx -= cx * cx;
+    yy -= cy * cy;
+    xy -= cx * cy;
+    // Principal axes; along the first edge where all axes are principal.
+    const double half_difference = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
+    const double radius = std::hypot(half_difference, xy);
+    const double angle = radius > 1e-12 * mean ? 0.5 * std::atan2(xy, half_difference) : 0.0;
+    const Vec3 major = std::cos(angle) * first + std::sin(angle) * second;
+    const Vec3 minor = cross(normal, major);
+    const double large = mean + radius;
+    const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);
+    const Vec3 along = std::sqrt(2 * large) * major, across = std::sqrt(2 * small) * minor;
+    const double weight = 0.25 * area;
+    return {FacetPoint<3>{along, weight}, FacetPoint<3>{-along, weight},
+            FacetPoint<3>{across, weight}, FacetPoint<3>{-across, weight}};
+  }
+
+ private:
+  /// From the first vertex to the centroid.
+  [[nodiscard]] Vec3 centroid_arm() const {
+    const Vec3 normal = area_vector().normalized();
+    Vec3 sum = Vec3::Zero();
+    double weight = 0;
+    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+      const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
+      const double doubled = normal.dot(cross(a, b));
+      weight += doubled;
+      sum += doubled / 3.0 * (a + b);
+    }
+    return weight > 0 ? Vec3(sum / weight) : sum;
+  }
+};
+
+}  // namespace voussoir

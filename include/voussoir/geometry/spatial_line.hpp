@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// A straight piece of line in space: a bolt, a scanline.
+struct SpatialLine {
+  Vec3 start, end;  ///< [m]
+
+  [[nodiscard]] double length() const { return (end - start).norm(); }
+  [[nodiscard]] Vec3 at(double t) const { return start + t * (end - start); }
+};
+
+}  // namespace voussoir
