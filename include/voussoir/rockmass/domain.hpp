@@ -2,10 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
+#include <voussoir/geometry/convex_polyhedron.hpp>
 
 namespace voussoir {
 
@@ -25,8 +29,13 @@ struct Domain {
   [[nodiscard]] double surface() const { return high[Dim - 1]; }
   [[nodiscard]] double depth(const Vec<Dim>& p) const { return surface() - p[Dim - 1]; }
 
-  /// Vertices closer than this are one vertex; a facet shorter than this is none [m].
-  [[nodiscard]] double tolerance() const { return 1e-10 * diameter(); }
+  /// Vertices closer than this are one vertex; a facet shorter (narrower) than this is none [m].
+  /// Where the domain lies a million of its sizes from the origin the rounding of coordinates
+  /// decides.
+  [[nodiscard]] double tolerance() const {
+    const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    return std::max(1e-10 * diameter(), 8 * std::numeric_limits<double>::epsilon() * largest);
+  }
 
   /// @throws InvalidInput  a side is not positive or not finite
   void check() const {
@@ -37,6 +46,10 @@ struct Domain {
 
 /// The sides of the domain, as labels of the faces of the uncut ground.
 enum class Side { left = 0, bottom = 1, right = 2, top = 3 };
+/// The same in space: x points East, y North, z up.
+enum class SpatialSide { west = 0, bottom = 1, east = 2, top = 3, south = 4, north = 5 };
+template <int Dim>
+using SideOf = std::conditional_t<Dim == 2, Side, SpatialSide>;
 
 /// The uncut ground as one block, face k labelled with side k in the order of the faces.
 [[nodiscard]] inline ConvexPolygon as_block(const Domain<2>& domain) {
@@ -44,6 +57,19 @@ enum class Side { left = 0, bottom = 1, right = 2, top = 3 };
   return ConvexPolygon({{a.x(), b.y()}, {a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}},
                        {static_cast<int>(Side::left), static_cast<int>(Side::bottom),
                         static_cast<int>(Side::right), static_cast<int>(Side::top)});
+}
+[[nodiscard]] inline ConvexPolyhedron as_block(const Domain<3>& domain) {
+  // Corner k has the higher x, y, z where bits 0, 1, 2 of k are set.
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.emplace_back((k & 1 ? domain.high : domain.low).x(),
+                         (k & 2 ? domain.high : domain.low).y(),
+                         (k & 4 ? domain.high : domain.low).z());
+  // West, bottom, east, top, south, north; anticlockwise seen from outside.
+  return ConvexPolyhedron(
+      std::move(corners),
+      {{0, 4, 6, 2}, {0, 2, 3, 1}, {1, 3, 7, 5}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}},
+      {0, 1, 2, 3, 4, 5});
 }
 
 }  // namespace voussoir

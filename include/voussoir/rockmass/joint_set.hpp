@@ -11,16 +11,10 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/geometry/segment.hpp>
 #include <voussoir/rockmass/domain.hpp>
+#include <voussoir/rockmass/joint.hpp>
 
 namespace voussoir {
-
-/// A discontinuity: where it runs and how far it reaches.
-struct Joint {
-  Segment trace;  ///< [m]
-  int set;        ///< index of its joint set; -1: none
-};
 
 /// The direction in which a joint falls, in the plane of the section.
 enum class DipDirection { east, west };  ///< east: down to the right; west: down to the left
@@ -56,6 +50,21 @@ namespace detail {
 [[nodiscard]] inline Vec2 dip_vector(double dip, DipDirection direction) {
   const double x = std::cos(dip), y = -std::sin(dip);
   return {direction == DipDirection::east ? x : -x, y};
+}
+
+/// The joints of all sets in one random order.
+template <class Set, int Dim>
+[[nodiscard]] std::vector<JointOf<Dim>> shuffled_joints(const std::vector<Set>& sets,
+                                                        const Domain<Dim>& domain,
+                                                        std::uint64_t seed) {
+  domain.check();
+  std::vector<JointOf<Dim>> all;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed);
+    all.insert(all.end(), joints.begin(), joints.end());
+  }
+  Random(seed, 0).shuffle(all);
+  return all;
 }
 
 }  // namespace detail
@@ -99,14 +108,7 @@ namespace detail {
 /// would use up the block sizes that the minimum allows.
 [[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
                                                       const Domain<2>& domain, std::uint64_t seed) {
-  domain.check();
-  std::vector<Joint> all;
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed);
-    all.insert(all.end(), joints.begin(), joints.end());
-  }
-  Random(seed, 0).shuffle(all);
-  return all;
+  return detail::shuffled_joints(sets, domain, seed);
 }
 
 }  // namespace voussoir

@@ -6,7 +6,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/mass_properties.hpp>
 #include <voussoir/rockmass/domain.hpp>
-#include <voussoir/rockmass/joint_set.hpp>
+#include <voussoir/rockmass/joint.hpp>
 
 namespace voussoir {
 
@@ -39,7 +39,7 @@ struct SlicingReport {
       0;  ///< cuts not made: the joint only touches the block, or runs along a face
   std::size_t refused_too_small = 0;  ///< cuts refused: a child's inscribed radius
   std::size_t refused_too_long = 0;   ///< cuts refused: a child's elongation
-  std::size_t vanished_faces = 0;     ///< faces shorter than the tolerance, welded away
+  std::size_t vanished_faces = 0;     ///< faces shorter (narrower) than the tolerance, welded away
 };
 
 /// What carving an opening did.
@@ -56,7 +56,7 @@ struct CarvingReport {
 template <class Geometry>
 struct RockMass {
   Domain<Geometry::dim> domain;
-  std::vector<Joint> joints;
+  std::vector<JointOf<Geometry::dim>> joints;
   std::vector<Cut> cuts;  ///< indexed by the labels of the faces
   std::vector<Body<Geometry>> bodies;
   SlicingReport slicing;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// How a plane lies in space, as a geologist's compass reads it. Axes: x East, y North, z up.
+struct Orientation {
+  double dip;            ///< below the horizontal, along the steepest line [rad], 0 to pi/2
+  double dip_direction;  ///< azimuth of that line, clockwise from North [rad], 0 to 2 pi
+};
+
+/// Unit vector down the dip.
+[[nodiscard]] inline Vec3 dip_vector(const Orientation& plane) {
+  const double level = std::cos(plane.dip);
+  return {level * std::sin(plane.dip_direction), level * std::cos(plane.dip_direction),
+          -std::sin(plane.dip)};
+}
+
+/// Unit vector along the strike, the plane falling to its right (right-hand rule): it is a quarter
+/// turn to the left of the dip direction, and cross(dip, strike) points upward.
+[[nodiscard]] inline Vec3 strike_vector(const Orientation& plane) {
+  return {-std::cos(plane.dip_direction), std::sin(plane.dip_direction), 0};
+}
+
+/// Unit normal that points upward: 30 deg towards 090 gives (sin 30, 0, cos 30).
+[[nodiscard]] inline Vec3 upward_normal(const Orientation& plane) {
+  const double level = std::sin(plane.dip);
+  return {level * std::sin(plane.dip_direction), level * std::cos(plane.dip_direction),
+          std::cos(plane.dip)};
+}
+
+/// Dip and dip direction of the plane with this normal, of either sense and any length > 0. A
+/// horizontal plane has dip direction 0.
+[[nodiscard]] inline Orientation orientation_of(const Vec3& normal) {
+  const Vec3 up = normal.z() < 0 ? Vec3(-normal) : normal;
+  const double level = std::hypot(up.x(), up.y());
+  if (!(level > 0)) return {0, 0};
+  const double azimuth = std::atan2(up.x(), up.y());
+  return {std::atan2(level, up.z()), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
+}
+
+}  // namespace voussoir

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <voussoir/rockmass/orientation.hpp>
+
+using namespace voussoir;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+const Vec3 east(1, 0, 0), north(0, 1, 0), up(0, 0, 1);
+
+Orientation plane(double dip, double dip_direction) {
+  return {dip * degree, dip_direction * degree};
+}
+
+}  // namespace
+
+TEST_SUITE("rockmass/orientation") {
+  TEST_CASE("dip 30 towards 090: down to the East, its normal (sin 30, 0, cos 30)") {
+    const double s = 0.5, c = std::sqrt(0.75);
+    CHECK((upward_normal(plane(30, 90)) - Vec3(s, 0, c)).norm() < 1e-15);
+    CHECK((dip_vector(plane(30, 90)) - Vec3(c, 0, -s)).norm() < 1e-15);
+    CHECK((strike_vector(plane(30, 90)) - north).norm() < 1e-15);
+  }
+
+  TEST_CASE("the compass by name: towards North, South, West, level and upright planes") {
+    const double h = std::sqrt(0.5);
+    CHECK((dip_vector(plane(45, 0)) - Vec3(0, h, -h)).norm() < 1e-15);
+    CHECK((dip_vector(plane(45, 180)) - Vec3(0, -h, -h)).norm() < 1e-15);
+    CHECK((dip_vector(plane(45, 270)) - Vec3(-h, 0, -h)).norm() < 1e-15);
+    CHECK((dip_vector(plane(0, 45)) - Vec3(h, h, 0)).norm() < 1e-15);  // North-East
+    CHECK((upward_normal(plane(0, 123)) - up).norm() < 1e-15);
+    CHECK((upward_normal(plane(90, 90)) - east).norm() < 1e-15);
+    CHECK((dip_vector(plane(90, 90)) + up).norm() < 1e-15);
+  }
+
+  TEST_CASE("dip, strike and normal are a right-handed set of unit vectors") {
+    for (double dip = 0; dip <= 90; dip += 7.5)
+      for (double direction = 0; direction < 360; direction += 11.25) {
+        const Orientation p = plane(dip, direction);
+        CHECK((cross(dip_vector(p), strike_vector(p)) - upward_normal(p)).norm() < 4e-16);
+        CHECK(strike_vector(p).z() == 0);
+        CHECK(dip_vector(p).z() <= 0);
+        CHECK(upward_normal(p).z() >= 0);
+      }
+  }
+
+  TEST_CASE("a normal of either sense and any length gives dip and dip direction back") {
+    for (double dip = 2.5; dip < 90; dip += 7.5)
+      for (double direction = 0; direction < 360; direction += 11.25)
+        for (const double factor : {1.0, -1.0, -7.0, 1e-3}) {
+          const Orientation found = orientation_of(factor * upward_normal(plane(dip, direction)));
+          CHECK(std::abs(found.dip - dip * degree) < 1e-15);
+          const double turn =
+              std::remainder(found.dip_direction - direction * degree, 2 * std::numbers::pi);
+          CHECK(std::abs(turn) < 1e-14);
+          CHECK(found.dip_direction >= 0);
+          CHECK(found.dip_direction <= 2 * std::numbers::pi);
+        }
+    CHECK(orientation_of(up).dip == 0);
+    CHECK(orientation_of(-up).dip == 0);
+    CHECK(orientation_of(up).dip_direction == 0);
+    CHECK(std::abs(orientation_of(-east).dip - 90 * degree) < 1e-15);
+  }
+}
