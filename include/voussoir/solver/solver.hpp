@@ -243,7 +243,7 @@ class Solver {
     }
     for (const auto& f : boundary_facets(mass_)) {
       const auto points = f.facet.gauss_points();
-      if (f.side == Side::top) {
+      if (f.side == SideOf<dim>::top) {
         const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
         add_force_at<dim>(system_.load.data() + dof * f.body,
                           f.facet.centre_from(system_.body(f.body).centre), pressure);

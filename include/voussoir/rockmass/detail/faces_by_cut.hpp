@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+#include <voussoir/rockmass/rock_mass.hpp>
+
+namespace voussoir::detail {
+
+/// A face of a body, by name.
+struct FaceRef {
+  int cut, body, part, face;
+};
+
+/// All faces, ordered by the cut that made them; those of one cut as the bodies come.
+template <class Geometry>
+[[nodiscard]] std::vector<FaceRef> faces_by_cut(const RockMass<Geometry>& mass) {
+  std::vector<std::size_t> next(mass.cuts.size() + 1, 0);  // where the next face of a cut goes
+  for (const auto& body : mass.bodies)
+    for (const auto& part : body.parts)
+      for (std::size_t k = 0; k < part.size(); ++k)
+        ++next[static_cast<std::size_t>(part.cut(k)) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<FaceRef> faces(next.back());
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    for (std::size_t p = 0; p < mass.bodies[b].parts.size(); ++p) {
+      const auto& part = mass.bodies[b].parts[p];
+      for (std::size_t k = 0; k < part.size(); ++k)
+        faces[next[static_cast<std::size_t>(part.cut(k))]++] = {
+            part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)};
+    }
+  return faces;
+}
+
+template <class Geometry>
+[[nodiscard]] typename Geometry::Facet facet_of(const RockMass<Geometry>& mass, const FaceRef& f) {
+  return mass.bodies[static_cast<std::size_t>(f.body)].parts[static_cast<std::size_t>(f.part)].face(
+      static_cast<std::size_t>(f.face));
+}
+
+}  // namespace voussoir::detail

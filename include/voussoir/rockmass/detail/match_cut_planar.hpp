@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+#include <voussoir/geometry/contact_facet.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/rockmass/detail/faces_by_cut.hpp>
+#include <voussoir/rockmass/rock_mass.hpp>
+
+namespace voussoir::detail {
+
+/// Overlaps of the faces on the two sides of one cut: sort both sides along it and sweep.
+/// Contact ends are vertices of one side or the other, taken as they are.
+inline void match_cut(const RockMass<Planar>& mass, const FaceRef* first, const FaceRef* last,
+                      double tolerance, std::vector<ContactFacet<Planar>>& contacts) {
+  struct Interval {
+    double from, to;
+    Segment facet;  ///< in the direction of the cut
+    int body;
+  };
+  // The longest face gives the best direction, and is not one that welding has shrunk to a point.
+  Segment reference = facet_of(mass, *first);
+  for (const FaceRef* f = first + 1; f != last; ++f)
+    if (const Segment s = facet_of(mass, *f); s.length() > reference.length()) reference = s;
+  const Vec2 along = (reference.end - reference.start).normalized();
+  thread_local std::vector<Interval> left, right;
+  left.clear();
+  right.clear();
+  for (const FaceRef* f = first; f != last; ++f) {
+    const Segment s = facet_of(mass, *f);
+    const double from = along.dot(s.start), to = along.dot(s.end);
+    if (from < to) {
+      left.push_back({from, to, s, f->body});
+    } else {
+      right.push_back({to, from, {s.end, s.start}, f->body});
+    }
+  }
+  const auto by_start = [](const Interval& x, const Interval& y) { return x.from < y.from; };
+  std::sort(left.begin(), left.end(), by_start);
+  std::sort(right.begin(), right.end(), by_start);
+  for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
+    const Interval &l = left[i], &r = right[j];
+    const double from = std::max(l.from, r.from), to = std::min(l.to, r.to);
+    if (to - from > tolerance && l.body != r.body)
+      contacts.push_back({l.body,
+                          r.body,
+                          {l.from >= r.from ? l.facet.start : r.facet.start,
+                           l.to <= r.to ? l.facet.end : r.facet.end}});
+    ++(l.to <= r.to ? i : j);
+  }
+}
+
+}  // namespace voussoir::detail
