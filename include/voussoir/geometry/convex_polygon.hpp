@@ -46,6 +46,12 @@ class ConvexPolygon {
     return left_of(side.start, side.end);
   }
 
+  /// Signed distance of a point from the line of face k, positive outside [m]. As exact as the
+  /// point is near, wherever both are.
+  [[nodiscard]] double distance(std::size_t k, const Vec2& point) const {
+    return half_space(k).normal.dot(point - vertices_[k]);
+  }
+
   /// Cuts the polygon by a line into the parts below and above; nothing if the line misses it.
   ///
   /// Both parts get the very same new vertices, bit for bit, so contacts found later from shared

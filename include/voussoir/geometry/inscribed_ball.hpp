@@ -28,10 +28,9 @@ template <class Shape>
   std::vector<LinearConstraint<dim + 1>> faces;
   faces.reserve(shape.size());
   for (std::size_t k = 0; k < shape.size(); ++k) {
-    const auto side = shape.half_space(k);
     Unknowns row;
-    row << side.normal, 1.0;
-    faces.push_back({row, -side.distance(origin)});
+    row << shape.half_space(k).normal, 1.0;
+    faces.push_back({row, -shape.distance(k, origin)});
   }
   const auto best = maximise<dim + 1>(Unknowns::Unit(dim), faces, 2 * shape.diameter());
   VOUSSOIR_ASSERT(best.has_value(), "a convex shape holds a ball");

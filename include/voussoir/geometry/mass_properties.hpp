@@ -6,6 +6,7 @@
 #include <vector>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
+#include <voussoir/geometry/convex_polyhedron.hpp>
 
 namespace voussoir {
 
@@ -13,9 +14,11 @@ namespace voussoir {
 template <int Dim>
 struct MassProperties {
   using Inertia = Eigen::Matrix<double, spin_count<Dim>, spin_count<Dim>>;
-  double measure = 0;                       ///< area [m^2] or volume [m^3]
-  Vec<Dim> centroid = Vec<Dim>::Zero();     ///< [m]
-  Inertia second_moment = Inertia::Zero();  ///< about the centroid; 2-D: polar moment [m^4]
+  double measure = 0;                    ///< area [m^2] or volume [m^3]
+  Vec<Dim> centroid = Vec<Dim>::Zero();  ///< [m]
+  /// About the centroid; 2-D: polar moment [m^4]; 3-D: inertia tensor, the integral of
+  /// r.r I - r r^T [m^5].
+  Inertia second_moment = Inertia::Zero();
 };
 
 /// Area, centroid and polar second moment of a simple polygon (Green's theorem).
@@ -48,6 +51,49 @@ struct MassProperties {
   return mass_properties(std::span<const Vec2>(polygon.vertices()));
 }
 
+/// Volume, centroid and inertia tensor, from tetrahedra between one vertex and the faces that do
+/// not meet it.
+///
+/// @cost  O(vertices), no allocation
+///
+/// Works relative to that vertex, for the reason given above.
+[[nodiscard]] inline MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron) {
+  const Vec3 origin = polyhedron.vertex(0);
+  double volume = 0;
+  Vec3 first_moment = Vec3::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // integral of r r^T
+  for (std::size_t k = 0; k < polyhedron.size(); ++k) {
+    const std::span<const int> loop = polyhedron.loop(k);
+    const auto arm = [&](std::size_t i) -> Vec3 {
+      return polyhedron.vertex(static_cast<std::size_t>(loop[i])) - origin;
+    };
+    const Vec3 a = arm(0);
+    Vec3 b = arm(1);
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      const Vec3 c = arm(i), sum = a + b + c;
+      const double tetrahedron = a.dot(cross(b, c)) / 6.0;
+      volume += tetrahedron;
+      first_moment += tetrahedron / 4.0 * sum;
+      second += tetrahedron / 20.0 *
+                (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+      b = c;
+    }
+  }
+  MassProperties<3> result;
+  result.measure = volume;
+  const Vec3 offset = first_moment / volume;
+  result.centroid = origin + offset;
+  second -= volume * offset * offset.transpose();
+  // Sums of two diagonal entries, not trace minus the third: the small moment of a needle about
+  // its own axis keeps its digits.
+  result.second_moment = -second;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    result.second_moment(i, i) = second(j, j) + second(k, k);
+  }
+  return result;
+}
+
 /// Properties of several shapes that move as one rigid body (parallel-axis theorem).
 template <class Shape>
 [[nodiscard]] MassProperties<Shape::dim> mass_properties(const std::vector<Shape>& parts) {
@@ -58,9 +104,10 @@ template <class Shape>
   for (const Shape& part : parts) {
     each.push_back(mass_properties(part));
     whole.measure += each.back().measure;
-    whole.centroid += each.back().measure * each.back().centroid;
+    // Relative to the first part: far from the origin a centroid has few digits to lose.
+    whole.centroid += each.back().measure * (each.back().centroid - each.front().centroid);
   }
-  whole.centroid /= whole.measure;
+  whole.centroid = each.front().centroid + whole.centroid / whole.measure;
   for (const MassProperties<dim>& part : each) {
     const Vec<dim> r = part.centroid - whole.centroid;
     whole.second_moment += part.second_moment;
