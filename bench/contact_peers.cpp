@@ -15,7 +15,7 @@ namespace {
 using namespace voussoir_bench;
 
 struct Options {
-  std::string folder = "contact_workloads", only;
+  std::string folder = "contact_workloads.data", only;
   double budget = 0.4;  ///< [s]
 };
 
