@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -37,9 +38,10 @@ struct Domain {
     return std::max(1e-10 * diameter(), 8 * std::numeric_limits<double>::epsilon() * largest);
   }
 
-  /// @throws InvalidInput  a side is not positive or not finite
+  /// @throws InvalidInput  a side is not positive or not finite, or too long to be squared
   void check() const {
-    if (!(low.allFinite() && high.allFinite() && (size().array() > 0).all()))
+    if (!(low.allFinite() && high.allFinite() && (size().array() > 0).all() &&
+          std::isfinite(diameter()) && std::isfinite(measure())))
       throw InvalidInput("domain: every side must be positive and finite");
   }
 };
