@@ -6,17 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <type_traits>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/detail/lanes.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
 
 namespace voussoir {
-
-/// Coordinates are handled in groups of so many numbers: one vector register of AVX, two of SSE2.
-inline constexpr std::size_t lane_count = 4;
 
 /// A convex shape where it is now, coordinate by coordinate.
 ///
@@ -24,19 +24,24 @@ inline constexpr std::size_t lane_count = 4;
 /// neither a largest nor a smallest value; they are aligned for vector registers.
 template <int Dim>
 struct PlacedShape {
-  const double* data;        ///< vertices by coordinate, then normals by coordinate, then offsets
-  std::size_t vertex_count;  ///< in 2-D also the number of faces
-  std::size_t face_count;
-  std::size_t vertex_stride;  ///< `vertex_count` rounded up to whole groups
-  std::size_t face_stride;    ///< `face_count` rounded up to whole groups
+  const double* data;          ///< vertices by coordinate, normals by coordinate, offsets
+  std::uint32_t vertex_count;  ///< in 2-D also the number of faces
+  std::uint32_t face_count;
+
+  /// Counts rounded up to whole groups.
+  [[nodiscard]] std::size_t vertex_stride() const { return padded(vertex_count); }
+  [[nodiscard]] std::size_t face_stride() const { return padded(face_count); }
+  [[nodiscard]] static constexpr std::size_t padded(std::size_t count) {
+    return (count + lane_count - 1) / lane_count * lane_count;
+  }
 
   /// Coordinate `axis` of all vertices [m].
   [[nodiscard]] const double* vertices(int axis) const {
-    return data + static_cast<std::size_t>(axis) * vertex_stride;
+    return data + static_cast<std::size_t>(axis) * vertex_stride();
   }
   /// Component `axis` of the outward unit normals of all faces.
   [[nodiscard]] const double* normals(int axis) const {
-    return data + Dim * vertex_stride + static_cast<std::size_t>(axis) * face_stride;
+    return data + Dim * vertex_stride() + static_cast<std::size_t>(axis) * face_stride();
   }
   /// normal . x of the points of each face [m].
   [[nodiscard]] const double* offsets() const { return normals(Dim); }
@@ -64,8 +69,15 @@ struct Topology {
   std::span<const std::uint32_t> loop_begin;  ///< one more than faces
   std::span<const std::uint16_t> loops;       ///< vertices of each face, anticlockwise from outside
 
+  std::span<const std::uint32_t> fan_begin;  ///< one more than vertices
+  std::span<const std::uint16_t> fans;       ///< faces at each vertex
+  double diameter = 0;                       ///< longest distance between two vertices [m]
+
   [[nodiscard]] std::span<const std::uint16_t> loop(std::size_t face) const {
     return loops.subspan(loop_begin[face], loop_begin[face + 1] - loop_begin[face]);
+  }
+  [[nodiscard]] std::span<const std::uint16_t> faces_at(std::size_t vertex) const {
+    return fans.subspan(fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]);
   }
 };
 
@@ -84,10 +96,19 @@ class PlacedShapes {
   /// Adds a shape and places it where it is given.
   /// @param origin  of the shape's own frame, e.g. its centroid [m]
   /// @return  its number, from 0
+  /// @throws InvalidInput  the origin is not finite, or more than 65535 vertices or faces
   std::size_t add(const Shape& shape, const Vec<Dim>& origin) {
     const std::size_t vertex_count = shape.vertices().size(), face_count = shape.size();
-    const std::size_t vertex_stride = padded(vertex_count), face_stride = padded(face_count);
-    records_.push_back({placed_.size(), vertex_count, face_count, vertex_stride, face_stride});
+    const auto refuse = [this](const std::string& what) {
+      throw InvalidInput("placed shapes: shape " + std::to_string(size()) + what);
+    };
+    if (!origin.allFinite()) refuse(": the origin of its frame must be finite");
+    if (std::max(vertex_count, face_count) > UINT16_MAX)
+      refuse(" has more than 65535 vertices or faces");
+    const Record record{placed_.size(), static_cast<std::uint32_t>(vertex_count),
+                        static_cast<std::uint32_t>(face_count)};
+    const std::size_t vertex_stride = record.vertex_stride(), face_stride = record.face_stride();
+    records_.push_back(record);
     const std::size_t length = Dim * vertex_stride + (Dim + 1) * face_stride;
     own_.resize(own_.size() + length);
     placed_.resize(own_.size());
@@ -109,28 +130,37 @@ class PlacedShapes {
   }
 
   /// Moves a shape from its own frame to `pose`.
+  /// @throws InvalidInput  the pose is not finite; the shape stays where it was
   void place(std::size_t shape, const Pose<Dim>& pose) {
+    if (!std::isfinite(pose.position.sum() + pose.rotation.sum()))
+      throw InvalidInput("placed shapes: pose of shape " + std::to_string(shape) + " at " +
+                         text_of<Dim>(pose.position) + ": position and rotation must be finite");
     const Record& r = records_[shape];
     const double* from = own_.data() + r.begin;
     double* to = placed_.data() + r.begin;
-    const auto turn = [&](std::size_t stride, std::size_t k, int axis) {
-      double sum = pose.rotation(axis, 0) * from[k] + pose.rotation(axis, 1) * from[stride + k];
-      if constexpr (Dim == 3) sum += pose.rotation(axis, 2) * from[2 * stride + k];
+    const std::size_t vertex_stride = r.vertex_stride(), face_stride = r.face_stride();
+    using Lanes = detail::VectorLanes;
+    const auto turned = [&pose](const double* x, std::size_t stride, int axis) {
+      Lanes sum = Lanes::all(pose.rotation(axis, 0)) * Lanes::load(x) +
+                  Lanes::all(pose.rotation(axis, 1)) * Lanes::load(x + stride);
+      if constexpr (Dim == 3)
+        sum = sum + Lanes::all(pose.rotation(axis, 2)) * Lanes::load(x + 2 * stride);
       return sum;
     };
-    for (int axis = 0; axis < Dim; ++axis)
-      for (std::size_t k = 0; k < r.vertex_stride; ++k)
-        to[static_cast<std::size_t>(axis) * r.vertex_stride + k] =
-            turn(r.vertex_stride, k, axis) + pose.position[axis];
-    from += Dim * r.vertex_stride;
-    to += Dim * r.vertex_stride;
-    for (int axis = 0; axis < Dim; ++axis)
-      for (std::size_t k = 0; k < r.face_stride; ++k)
-        to[static_cast<std::size_t>(axis) * r.face_stride + k] = turn(r.face_stride, k, axis);
-    for (std::size_t k = 0; k < r.face_stride; ++k) {
-      double along = to[k] * pose.position[0] + to[r.face_stride + k] * pose.position[1];
-      if constexpr (Dim == 3) along += to[2 * r.face_stride + k] * pose.position[2];
-      to[Dim * r.face_stride + k] = from[Dim * r.face_stride + k] + along;
+    for (std::size_t k = 0; k < vertex_stride; k += lane_count)
+      for (int axis = 0; axis < Dim; ++axis)
+        (turned(from + k, vertex_stride, axis) + Lanes::all(pose.position[axis]))
+            .store(to + static_cast<std::size_t>(axis) * vertex_stride + k);
+    from += Dim * vertex_stride;
+    to += Dim * vertex_stride;
+    for (std::size_t k = 0; k < face_stride; k += lane_count) {
+      Lanes offset = Lanes::load(from + Dim * face_stride + k);
+      for (int axis = 0; axis < Dim; ++axis) {
+        const Lanes normal = turned(from + k, face_stride, axis);
+        normal.store(to + static_cast<std::size_t>(axis) * face_stride + k);
+        offset = offset + normal * Lanes::all(pose.position[axis]);
+      }
+      offset.store(to + Dim * face_stride + k);
     }
   }
 
@@ -138,40 +168,62 @@ class PlacedShapes {
 
   [[nodiscard]] PlacedShape<Dim> operator[](std::size_t shape) const {
     const Record& r = records_[shape];
-    return {placed_.data() + r.begin, r.vertex_count, r.face_count, r.vertex_stride, r.face_stride};
+    return {placed_.data() + r.begin, r.vertex_count, r.face_count};
   }
 
   [[nodiscard]] Topology topology(std::size_t shape) const requires(Dim == 3) {
     const Links& l = links_[shape];
-    const std::size_t faces = records_[shape].face_count;
+    const Record& r = records_[shape];
     return {{edges_.data() + l.first_edge, l.edge_count},
-            {loop_begin_.data() + l.first_begin, faces + 1},
-            loops_};
+            {begins_.data() + l.first_loop, r.face_count + std::size_t{1}},
+            indices_,
+            {begins_.data() + l.first_fan, r.vertex_count + std::size_t{1}},
+            indices_,
+            l.diameter};
   }
 
  private:
   /// Where a shape's numbers start, and how many there are.
   struct Record {
-    std::size_t begin, vertex_count, face_count, vertex_stride, face_stride;
+    std::size_t begin;
+    std::uint32_t vertex_count, face_count;
+    [[nodiscard]] std::size_t vertex_stride() const {
+      return PlacedShape<Dim>::padded(vertex_count);
+    }
+    [[nodiscard]] std::size_t face_stride() const { return PlacedShape<Dim>::padded(face_count); }
   };
   struct Links {
-    std::size_t first_edge, edge_count, first_begin;
+    std::size_t first_edge, edge_count, first_loop, first_fan;
+    double diameter;
   };
 
-  [[nodiscard]] static std::size_t padded(std::size_t count) {
-    return (count + lane_count - 1) / lane_count * lane_count;
-  }
-
   void add_topology(const ConvexPolyhedron& shape) {
-    links_.push_back({edges_.size(), shape.edges().size(), loop_begin_.size()});
-    const auto small = [](int index) { return static_cast<std::uint16_t>(index); };
+    if (shape.size() > 65535 || shape.vertices().size() > 65535)
+      throw InvalidInput("placed shapes: shape " + std::to_string(links_.size()) + " has " +
+                         std::to_string(shape.size()) + " faces and " +
+                         std::to_string(shape.vertices().size()) +
+                         " vertices: at most 65535 of each");
+    const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
+    Links links{edges_.size(), shape.edges().size(), begins_.size(), 0, shape.diameter()};
     for (const auto& edge : shape.edges())
       edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
+    std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
+    const auto mark = [this] { begins_.push_back(static_cast<std::uint32_t>(indices_.size())); };
     for (std::size_t face = 0; face < shape.size(); ++face) {
-      loop_begin_.push_back(static_cast<std::uint32_t>(loops_.size()));
-      for (const int vertex : shape.loop(face)) loops_.push_back(small(vertex));
+      mark();
+      for (const int vertex : shape.loop(face)) {
+        indices_.push_back(small(vertex));
+        fans[static_cast<std::size_t>(vertex)].push_back(small(face));
+      }
     }
-    loop_begin_.push_back(static_cast<std::uint32_t>(loops_.size()));
+    mark();
+    links.first_fan = begins_.size();
+    for (const auto& fan : fans) {
+      mark();
+      indices_.insert(indices_.end(), fan.begin(), fan.end());
+    }
+    mark();
+    links_.push_back(links);
   }
 
   template <class T>
@@ -180,8 +232,8 @@ class PlacedShapes {
   Aligned<double> own_, placed_;
   std::vector<Links> links_;
   std::vector<Topology::Edge> edges_;
-  std::vector<std::uint32_t> loop_begin_;
-  std::vector<std::uint16_t> loops_;
+  std::vector<std::uint32_t> begins_;   ///< where loops and fans start in `indices_`
+  std::vector<std::uint16_t> indices_;  ///< vertices of loops, faces of fans
 };
 
 }  // namespace voussoir

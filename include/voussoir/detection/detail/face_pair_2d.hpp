@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+#include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+
+namespace voussoir::detail {
+
+/// Two convex polygons: separating axes, then the touching edge clipped to the face it touches.
+///
+/// What limits it: 32 dot products for two quadrilaterals in vector lanes, the divisions of the
+/// clip, and one branch that nobody can foresee (do they touch). The face that decided last time
+/// is tried first; a pair that it still keeps apart costs four dot products.
+template <class Lanes>
+class FacePair2 {
+ public:
+  /// The face that decided last time. It saves time and never changes an answer.
+  struct Memory {
+    std::uint16_t face = 0;
+    std::uint8_t side = 0;  ///< 0: a face of a, 1: a face of b
+    bool apart = true;
+  };
+
+  explicit FacePair2(const PlacedShapes<2>& shapes) : shapes_(&shapes) {}
+
+  [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
+    return find_axis((*shapes_)[a], (*shapes_)[b], 0, memory) < 0;
+  }
+
+  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
+    return find_axis((*shapes_)[a], (*shapes_)[b], std::numeric_limits<double>::infinity(), memory);
+  }
+
+  [[nodiscard]] Contact<2> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
+    const PlacedShape<2> shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
+    const double separation = find_axis(shape_a, shape_b, reach, memory);
+    Contact<2> found;
+    if (!(separation <= reach)) return found;
+    found.separation = separation;
+    const bool of_a = memory.side == 0;
+    clip(of_a ? shape_a : shape_b, of_a ? shape_b : shape_a, memory, reach, found);
+    return found;
+  }
+
+ private:
+  /// How far face `face` of p keeps q away [m].
+  [[nodiscard]] static double separation_by(const PlacedShape<2>& p, std::size_t face,
+                                            const PlacedShape<2>& q) {
+    const Lanes nx = Lanes::all(p.normals(0)[face]), ny = Lanes::all(p.normals(1)[face]);
+    const double *x = q.vertices(0), *y = q.vertices(1);
+    Lanes low = nx * Lanes::load(x) + ny * Lanes::load(y);
+    for (std::size_t k = lane_count; k < q.vertex_stride(); k += lane_count)
+      low = min(low, nx * Lanes::load(x + k) + ny * Lanes::load(y + k));
+    return low.smallest() - p.offset(face);
+  }
+
+  /// How far the faces of p keep q away at most; one number per face is left in `separations`.
+  [[nodiscard]] static double largest_separation(const PlacedShape<2>& p, const PlacedShape<2>& q,
+                                                 double* separations) {
+    const double *x = q.vertices(0), *y = q.vertices(1);
+    Lanes best = Lanes::all(-std::numeric_limits<double>::infinity());
+    for (std::size_t group = 0; group < p.face_stride(); group += lane_count) {
+      const Lanes nx = Lanes::load(p.normals(0) + group), ny = Lanes::load(p.normals(1) + group);
+      Lanes low = nx * Lanes::all(x[0]) + ny * Lanes::all(y[0]);
+      for (std::size_t k = 1; k < q.vertex_count; ++k)
+        low = min(low, nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]));
+      low = low - Lanes::load(p.offsets() + group);
+      low.store(separations + group);
+      best = max(best, low);
+    }
+    return best.largest();
+  }
+
+  /// The largest separation, or the first one found that keeps the shapes apart by more than
+  /// `reach`; the face is left in `memory`. Written without branches that depend on the pair, but
+  /// for the one that tells whether it touches.
+  [[nodiscard]] double find_axis(const PlacedShape<2>& a, const PlacedShape<2>& b, double reach,
+                                 Memory& memory) {
+    if (memory.apart) {
+      const bool of_a = memory.side == 0;
+      const double known = separation_by(of_a ? a : b, memory.face, of_a ? b : a);
+      if (known > reach) return known;
+    }
+    const std::size_t half = std::max(a.face_stride(), b.face_stride());
+    if (separations_.size() < 2 * half) separations_.resize(2 * half);
+    double* const of_faces = separations_.data();
+    const double by_a = largest_separation(a, b, of_faces);
+    const double by_b = largest_separation(b, a, of_faces + half);
+    const bool of_a = by_a >= by_b;
+    const double best = of_a ? by_a : by_b;
+    const double* const winner = of_a ? of_faces : of_faces + half;
+    const std::size_t count = of_a ? a.face_stride() : b.face_stride();
+    std::size_t face = 0;
+    for (std::size_t k = count; k-- > 0;) face = winner[k] == best ? k : face;
+    memory.face = static_cast<std::uint16_t>(face);
+    memory.side = of_a ? 0 : 1;
+    memory.apart = best > reach;
+    return best;
+  }
+
+  /// Clips the edge of q that faces the given face of p to what lies in front of that face.
+  void clip(const PlacedShape<2>& p, const PlacedShape<2>& q, const Memory& axis, double reach,
+            Contact<2>& found) {
+    const std::size_t face = axis.face, next = following(face, p.vertex_count);
+    const Vec2 normal = p.normal(face), along = perpendicular(normal), origin = p.vertex(face);
+    const std::size_t edge = facing_edge(q, normal);
+    // From `low` to `high` the coordinate along the face rises; s is the fraction of the way.
+    const Vec2 low = q.vertex(following(edge, q.vertex_count));
+    const Vec2 span = q.vertex(edge) - low;
+    const double length = along.dot(span), start = along.dot(low - origin);
+    const double height = normal.dot(low - origin), rise = normal.dot(span);
+    const double face_length = along.dot(p.vertex(next) - origin);
+    const double scale = 1 / length;
+    // Where the edge leaves the reach; parallel to the face it never does.
+    const double leaves = (reach - height) / rise;
+    const double highest = rise > 0 ? leaves : 1.0, lowest = rise < 0 ? leaves : 0.0;
+    double from = std::max(std::max(0.0, lowest), -start * scale);
+    double to = std::min(std::min(1.0, highest), (face_length - start) * scale);
+    if (!(from <= to)) from = to = rise > 0 ? 0 : 1;  // a rounding: the deepest point
+    ends_[axis.side] = low + from * span;
+    ends_[1 - axis.side] = low + to * span;
+    found.touch = axis.side == 0 ? Touch::face_a : Touch::face_b;
+    found.normal = (1.0 - 2.0 * axis.side) * normal;
+    found.measure = (to - from) * length;
+    found.polygon = ends_;
+  }
+
+  /// Of the two edges at the vertex deepest under `normal`, the one that faces it.
+  [[nodiscard]] static std::size_t facing_edge(const PlacedShape<2>& q, const Vec2& normal) {
+    const double *x = q.vertices(0), *y = q.vertices(1);
+    std::size_t deepest = 0;
+    double depth = normal.x() * x[0] + normal.y() * y[0];
+    for (std::size_t k = 1; k < q.vertex_stride(); ++k) {
+      const double d = normal.x() * x[k] + normal.y() * y[k];
+      deepest = d < depth ? k : deepest;
+      depth = std::min(d, depth);
+    }
+    const std::size_t before = (deepest == 0 ? q.vertex_count : deepest) - 1;
+    return normal.dot(q.normal(before)) < normal.dot(q.normal(deepest)) ? before : deepest;
+  }
+
+  /// Without a branch.
+  [[nodiscard]] static std::size_t following(std::size_t k, std::size_t count) {
+    return (k + 1) * static_cast<std::size_t>(k + 1 != count);
+  }
+
+  const PlacedShapes<2>* shapes_;
+  std::array<Vec2, 2> ends_;
+  std::vector<double, Eigen::aligned_allocator<double>> separations_;  ///< by the faces of a, of b
+};
+
+}  // namespace voussoir::detail

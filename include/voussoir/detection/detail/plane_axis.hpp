@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/detection/detail/least_excess.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+
+namespace voussoir::detail {
+
+/// A separating axis in terms of planes of the shapes, so that it moves with them.
+///
+/// Where the linear program finds two shapes apart, a convex combination of its active normals is
+/// 0; the part of it that comes from a is the direction in which a ends before b begins. In the
+/// plane one shape has a single active plane, whose normal this is. In space two may come from
+/// each; then it is perpendicular to the edge that each two meet in.
+///
+/// A positive separation along any direction proves the shapes apart, so nothing has to be checked
+/// but the vertices, whatever has moved since.
+template <int Dim>
+class PlaneAxis {
+ public:
+  /// Takes the best axis of those that the active planes define, if they are to separate at all.
+  void set(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b, const ActivePlanes<Dim>& active,
+           bool apart) {
+    active_ = active;
+    choice_ = none;
+    if (!apart) return;
+    double best = 0;
+    for (std::uint8_t choice = 0; choice <= edges; ++choice)
+      if (const double separation = along(a, b, choice); separation > best) {
+        best = separation;
+        choice_ = choice;
+      }
+  }
+
+  [[nodiscard]] bool separates(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b) const {
+    return choice_ != none && along(a, b, choice_) > 0;
+  }
+  [[nodiscard]] const ActivePlanes<Dim>& active() const { return active_; }
+
+ private:
+  // Choices: the normal of active plane 0 to Dim, and
+  static constexpr std::uint8_t edges = Dim == 3 ? Dim + 1 : Dim, none = Dim + 2;
+  static constexpr double never = -std::numeric_limits<double>::infinity();
+
+  /// Separation along a direction [m]; `never` if it is not defined.
+  [[nodiscard]] double along(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b,
+                             std::uint8_t choice) const {
+    if (choice > Dim) return along_edges(a, b);
+    const std::size_t plane = active_[choice];
+    if (plane < a.face_count) return lowest(b, a.normal(plane)) - a.offset(plane);
+    const std::size_t face = plane - a.face_count;
+    if (face < b.face_count) return lowest(a, b.normal(face)) - b.offset(face);
+    return never;
+  }
+
+  [[nodiscard]] double along_edges(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b) const {
+    if constexpr (Dim == 3) {
+      std::array<Vec3, 4> normals;  // of a from the front, of b from the back
+      std::size_t of_a = 0, of_b = 0;
+      for (const std::size_t plane : active_) {
+        if (plane < a.face_count)
+          normals[of_a++] = a.normal(plane);
+        else if (plane - a.face_count < b.face_count)
+          normals[3 - of_b++] = b.normal(plane - a.face_count);
+      }
+      if (of_a != 2 || of_b != 2) return never;
+      Vec3 n = cross(cross(normals[0], normals[1]), cross(normals[2], normals[3]));
+      const double length = n.norm();
+      if (!(length > 0)) return never;
+      n *= (n.dot(normals[0] + normals[1]) < 0 ? -1 : 1) / length;
+      return lowest(b, n) + lowest(a, -n);
+    }
+    return never;
+  }
+
+  /// Least height of the vertices along a direction [m].
+  [[nodiscard]] static double lowest(const PlacedShape<Dim>& shape, const Vec<Dim>& direction) {
+    using Lanes = Eigen::Array<double, static_cast<int>(lane_count), 1>;
+    Lanes low = Lanes::Constant(std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < shape.vertex_stride(); k += lane_count) {
+      Lanes height = Eigen::Map<const Lanes>(shape.vertices(0) + k) * direction[0];
+      for (int axis = 1; axis < Dim; ++axis)
+        height += Eigen::Map<const Lanes>(shape.vertices(axis) + k) * direction[axis];
+      low = low.min(height);
+    }
+    return low.minCoeff();
+  }
+
+  ActivePlanes<Dim> active_ = no_planes<Dim>;
+  std::uint8_t choice_ = none;
+};
+
+}  // namespace voussoir::detail
