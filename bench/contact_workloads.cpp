@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the workloads of the contact benchmarks, sliced by the toolkit, with the exact answers:
-//   contact_workloads FOLDER [SEED [TIMES]]
+//   contact_workloads FOLDER [SEED [AREAS VOLUMES]]
 // W2, W2deep: a section of 70 m x 60 m; W3, W3deep: a cube of 20 m; three sets of joints without
 // end. TIMES: so many times the area and the volume, for counts of wrong decisions on more pairs.
 #include <algorithm>
@@ -47,7 +47,7 @@ RockMass<Planar> section(std::uint64_t seed, double times) {
   const double scale = std::sqrt(times);
   const Domain<2> ground{Vec2(-35, -30) * scale, Vec2(35, 30) * scale};
   const auto set = [scale](const char* name, double dip, DipDirection direction) {
-    return JointSet{name, dip * degree, direction, 1 * degree, 0.0101 / scale, 0 /* spacing */};
+    return JointSet{name, dip * degree, direction, 1 * degree, 0.0102 / scale, 0 /* spacing */};
   };
   return slice<Planar>(
       ground,
@@ -63,7 +63,7 @@ RockMass<Spatial> cube(std::uint64_t seed, double times) {
   const auto set = [](const char* name, double dip, double direction) {
     SpatialJointSet joints{name, dip * degree, direction * degree};
     joints.dip_deviation = joints.dip_direction_deviation = 1 * degree;
-    joints.area_per_volume = 0.99;
+    joints.area_per_volume = 1.02;
     return joints;
   };
   return slice<Spatial>(
@@ -255,15 +255,17 @@ void write_moved(const std::string& folder, const RockMass<Geometry>& mass, std:
 
 int main(int argc, char** argv) {
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
-  const double times = argc > 3 ? std::atof(argv[3]) : 1;
-  if (argc < 2 || argc > 4 || !(times >= 0.01 && times <= 1000)) {
-    std::fprintf(stderr, "usage: contact_workloads FOLDER [SEED [TIMES, 0.01 to 1000]]\n");
+  const double areas = argc > 3 ? std::atof(argv[3]) : 1,
+               volumes = argc > 4 ? std::atof(argv[4]) : 1;
+  const auto fits = [](double times) { return times >= 0.01 && times <= 1000; };
+  if (argc < 2 || argc > 5 || argc == 4 || !fits(areas) || !fits(volumes)) {
+    std::fprintf(stderr, "usage: contact_workloads FOLDER [SEED [AREAS VOLUMES, 0.01 to 1000]]\n");
     return 2;
   }
   try {
     std::filesystem::create_directories(argv[1]);
-    write_moved(argv[1], section(seed, times), seed);
-    write_moved(argv[1], cube(seed, times), seed);
+    write_moved(argv[1], section(seed, areas), seed);
+    write_moved(argv[1], cube(seed, volumes), seed);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_workloads: %s\n", error.what());
     return 1;
