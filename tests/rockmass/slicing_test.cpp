@@ -527,9 +527,25 @@ TEST_SUITE("rockmass/slicing") {
          {BlockLimits{-0.1, 5}, BlockLimits{nan, 5}, BlockLimits{inf, 5}, BlockLimits{0.1, 1.9},
           BlockLimits{0.1, nan}})
       CHECK_THROWS_AS((void)slice(ground, {}, limits), InvalidInput);
-    for (const Domain<2>& bad : {Domain<2>{{0, 0}, {0, 4}}, Domain<2>{{0, 0}, {4, -1}},
-                                 Domain<2>{{0, nan}, {4, 4}}, Domain<2>{{0, 0}, {inf, 4}}})
+    for (const Domain<2>& bad :
+         {Domain<2>{{0, 0}, {0, 4}}, Domain<2>{{0, 0}, {4, -1}}, Domain<2>{{0, nan}, {4, 4}},
+          Domain<2>{{0, 0}, {inf, 4}}, Domain<2>{{-1e300, 0}, {0, 4}}})
       CHECK_THROWS_AS((void)slice(bad, {}, {}), InvalidInput);
+  }
+
+  TEST_CASE("a joint that is not finite is refused by its number, in the plane and in space") {
+    const double nan = std::nan("");
+    const std::vector<Joint> flat{{{{0, 1}, {4, 1}}, 0}, {{{0, nan}, {4, 2}}, 2}};
+    CHECK_THROWS_WITH_AS((void)slice({{0, 0}, {4, 4}}, flat, {}),
+                         "joint 1 of set 2: every coordinate must be finite", InvalidInput);
+    const Domain<3> cube{{0, 0, 0}, {4, 4, 4}};
+    const JointPlane level{{Vec3(0, 0, 1), 2}, {}};
+    JointPlane no_plane = level, no_corner = level;
+    no_plane.plane.offset = inf;
+    no_corner.corners = {{0, 0, 2}, {1, 0, 2}, {1, nan, 2}};
+    for (const JointPlane& bad : {no_plane, no_corner})
+      CHECK_THROWS_WITH_AS((void)slice<Spatial>(cube, {{level, 0}, {level, 0}, {bad, 1}}, {}),
+                           "joint 2 of set 1: every coordinate must be finite", InvalidInput);
   }
 
   TEST_CASE("one metre or one kilometre, near or far: the same number of blocks") {

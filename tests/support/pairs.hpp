@@ -13,6 +13,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/convex_polyhedron.hpp>
 
 #include "support/separating_axes.hpp"
 #include "support/shapes.hpp"
@@ -35,6 +36,16 @@ struct PlainShape {
 template <int Dim>
 [[nodiscard]] LongShape<Dim> long_shape(const PlainShape<Dim>& shape, const Pose<Dim>& pose) {
   return placed<Dim>(shape.vertices, shape.faces, pose.rotation, pose.position);
+}
+
+/// The shape as the toolkit has it; face k has the label k.
+[[nodiscard]] inline ConvexPolygon convex(const PlainShape<2>& shape) {
+  return polygon(shape.vertices);
+}
+[[nodiscard]] inline voussoir::ConvexPolyhedron convex(const PlainShape<3>& shape) {
+  std::vector<int> labels;
+  for (std::size_t k = 0; k < shape.faces.size(); ++k) labels.push_back(static_cast<int>(k));
+  return {shape.vertices, shape.faces, labels};
 }
 
 /// Two shapes and where they are.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
+#include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
 #include <voussoir/geometry/segment.hpp>
 
@@ -13,6 +16,19 @@ struct JointOf {
   std::conditional_t<Dim == 2, Segment, JointPlane> trace;  ///< [m]
   int set;                                                  ///< index of its joint set; -1: none
 };
+
+namespace detail {
+
+[[nodiscard]] inline bool is_finite(const Segment& trace) {
+  return trace.start.allFinite() && trace.end.allFinite();
+}
+[[nodiscard]] inline bool is_finite(const JointPlane& trace) {
+  return trace.plane.normal.allFinite() && std::isfinite(trace.plane.offset) &&
+         std::all_of(trace.corners.begin(), trace.corners.end(),
+                     [](const Vec3& corner) { return corner.allFinite(); });
+}
+
+}  // namespace detail
 
 /// A joint in the plane of a section: its trace.
 using Joint = JointOf<2>;

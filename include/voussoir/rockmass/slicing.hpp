@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
@@ -197,7 +198,7 @@ class Slicer {
 /// Slices the domain by the joints, in their order. A joint cuts right through every block that
 /// its extent reaches, unless a child would break the limits.
 ///
-/// @throws InvalidInput  domain or limits out of range
+/// @throws InvalidInput  domain or limits out of range, a joint that is not finite
 /// @cost   about 10 microseconds per block in the plane, 6 in space (`slice<Spatial>`); linear
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 2.1 (rock slicing).
@@ -206,6 +207,10 @@ template <class Geometry = Planar>
                                        const std::vector<JointOf<Geometry::dim>>& joints,
                                        const BlockLimits& limits) {
   detail::Slicer<Geometry> slicer(domain, limits);
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (!detail::is_finite(joints[k].trace))
+      throw InvalidInput("joint " + std::to_string(k) + " of set " + std::to_string(joints[k].set) +
+                         ": every coordinate must be finite");
   for (std::size_t k = 0; k < joints.size(); ++k) slicer.cut_by(joints[k], static_cast<int>(k));
   return slicer.finish(joints);
 }
