@@ -106,7 +106,7 @@ struct AskContact {
   template <class Pair>
   static double ask(Pair& detect, const CandidatePair& pair, typename Pair::Memory& memory,
                     Answer* answer) {
-    const auto contact = detect.contact(pair.a, pair.b, memory);
+    const auto contact = detect.contact(pair.a, pair.b, memory, 0);
     if (contact.touch == Touch::none) return 0;
     if (answer) {
       answer->touch = answer->has_separation = true;
