@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -106,7 +107,7 @@ class AnalyticCentre::Pair {
     const auto program = least_excess(a, b, memory.axis.active(), detail::Until::optimum);
     planes_.move(program.point());
     memory.axis.set(a, b, program.active(), true);
-    return 2 * program.excess();
+    return std::fmax(2 * program.excess(), 0.0);  // a rounding below 0 is no overlap
   }
 
   [[nodiscard]] detail::LeastExcess<Dim> least_excess(const Shape& a, const Shape& b,
@@ -124,20 +125,58 @@ class AnalyticCentre::Pair {
     return {planes_, 2 * region.maxCoeff(), start, until};
   }
 
-  /// Unit vector from a to b up the potential of a and down that of b.
+  /// Unit vector up the potential of a and down that of b, at the point of view of `planes_`.
   [[nodiscard]] Vec<Dim> normal(std::size_t a, std::size_t b) const {
-    std::array<Lanes, Dim> sums;
+    Vec<Dim> n = rounding_ > 0 ? rounded_gradients() : barrier_gradients();
+    const double length = n.norm();
+    // Concentric shapes: the gradients vanish, or are the same, and no direction is any better.
+    return length > 1e-6 ? Vec<Dim>(n / length) : shallowest(a, b);
+  }
+
+  /// Half the gradient of a's barrier less that of b's, over the sum of the weights 1 / room.
+  [[nodiscard]] Vec<Dim> barrier_gradients() const {
+    std::array<Lanes, Dim + 1> sums;
     sums.fill(Lanes::Zero());
     for (std::size_t group = 0; group < planes_.padded_count(); group += lane_count) {
-      const Lanes weight = planes_.side(group) / planes_.room(group);
+      const Lanes weight = 1 / planes_.room(group), signed_weight = planes_.side(group) * weight;
       for (int axis = 0; axis < Dim; ++axis)
-        sums[static_cast<std::size_t>(axis)] += weight * planes_.normal(axis, group);
+        sums[static_cast<std::size_t>(axis)] += signed_weight * planes_.normal(axis, group);
+      sums[Dim] += weight;
     }
     Vec<Dim> n;
     for (int axis = 0; axis < Dim; ++axis) n[axis] = sums[static_cast<std::size_t>(axis)].sum();
-    (void)a;
-    (void)b;
-    return n.normalized();
+    return n / sums[Dim].sum();
+  }
+
+  /// The unit gradient of a's rounded inner particle less that of b's.
+  [[nodiscard]] Vec<Dim> rounded_gradients() const {
+    Vec<Dim> difference = Vec<Dim>::Zero();
+    for (const bool of_a : {true, false}) {
+      const std::size_t first = of_a ? 0 : planes_.count_a();
+      const std::size_t last = of_a ? planes_.count_a() : planes_.count();
+      Vec<Dim> gradient = Vec<Dim>::Zero();
+      std::size_t nearest = first;
+      for (std::size_t plane = first; plane < last; ++plane) {
+        gradient += std::fmax(rounding_ - planes_.room_of(plane), 0.0) * planes_.normal_of(plane);
+        if (planes_.room_of(plane) < planes_.room_of(nearest)) nearest = plane;
+      }
+      const double length = gradient.norm();
+      // Inside the inner particle its potential is flat.
+      const Vec<Dim> n =
+          length > 0 ? Vec<Dim>(gradient / length) : planes_.normal_of(nearest);
+      difference += of_a ? n : Vec<Dim>(-n);
+    }
+    return difference;
+  }
+
+  /// Normal, from a to b, of the face of either that is left by the shortest way. Of equals the
+  /// one of the shape with the lower number, so that (b, a) has the opposite normal.
+  [[nodiscard]] Vec<Dim> shallowest(std::size_t a, std::size_t b) const {
+    const Shape first = (*shapes_)[std::min(a, b)], second = (*shapes_)[std::max(a, b)];
+    const detail::ShallowFace<Dim> of_first(first, second), of_second(second, first);
+    const bool use_first = of_first.separation >= of_second.separation;
+    const Vec<Dim> n = use_first ? of_first.normal : of_second.normal;
+    return use_first == (a <= b) ? n : Vec<Dim>(-n);
   }
 
   /// Way from the point to where it leaves a along the normal, and b against it [m].

@@ -12,6 +12,38 @@
 
 namespace voussoir::detail {
 
+/// Least height of the vertices along a direction [m].
+template <int Dim>
+[[nodiscard]] double lowest(const PlacedShape<Dim>& shape, const Vec<Dim>& direction) {
+  using Lanes = Eigen::Array<double, static_cast<int>(lane_count), 1>;
+  Lanes low = Lanes::Constant(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < shape.vertex_stride(); k += lane_count) {
+    Lanes height = Eigen::Map<const Lanes>(shape.vertices(0) + k) * direction[0];
+    for (int axis = 1; axis < Dim; ++axis)
+      height += Eigen::Map<const Lanes>(shape.vertices(axis) + k) * direction[axis];
+    low = low.min(height);
+  }
+  return low.minCoeff();
+}
+
+/// The outward normal of the face of `shape` that `other` has to move least along to leave it,
+/// and how far away it is then [m], < 0.
+template <int Dim>
+struct ShallowFace {
+  Vec<Dim> normal = Vec<Dim>::Zero();
+  double separation = -std::numeric_limits<double>::infinity();
+
+  ShallowFace(const PlacedShape<Dim>& shape, const PlacedShape<Dim>& other) {
+    for (std::size_t face = 0; face < shape.face_count; ++face) {
+      const Vec<Dim> n = shape.normal(face);
+      if (const double found = lowest<Dim>(other, n) - shape.offset(face); found > separation) {
+        separation = found;
+        normal = n;
+      }
+    }
+  }
+};
+
 /// A separating axis in terms of planes of the shapes, so that it moves with them.
 ///
 /// Where the linear program finds two shapes apart, a convex combination of its active normals is
@@ -53,9 +85,9 @@ class PlaneAxis {
                              std::uint8_t choice) const {
     if (choice > Dim) return along_edges(a, b);
     const std::size_t plane = active_[choice];
-    if (plane < a.face_count) return lowest(b, a.normal(plane)) - a.offset(plane);
+    if (plane < a.face_count) return lowest<Dim>(b, a.normal(plane)) - a.offset(plane);
     const std::size_t face = plane - a.face_count;
-    if (face < b.face_count) return lowest(a, b.normal(face)) - b.offset(face);
+    if (face < b.face_count) return lowest<Dim>(a, b.normal(face)) - b.offset(face);
     return never;
   }
 
@@ -74,22 +106,9 @@ class PlaneAxis {
       const double length = n.norm();
       if (!(length > 0)) return never;
       n *= (n.dot(normals[0] + normals[1]) < 0 ? -1 : 1) / length;
-      return lowest(b, n) + lowest(a, -n);
+      return lowest<3>(b, n) + lowest<3>(a, -n);
     }
     return never;
-  }
-
-  /// Least height of the vertices along a direction [m].
-  [[nodiscard]] static double lowest(const PlacedShape<Dim>& shape, const Vec<Dim>& direction) {
-    using Lanes = Eigen::Array<double, static_cast<int>(lane_count), 1>;
-    Lanes low = Lanes::Constant(std::numeric_limits<double>::infinity());
-    for (std::size_t k = 0; k < shape.vertex_stride(); k += lane_count) {
-      Lanes height = Eigen::Map<const Lanes>(shape.vertices(0) + k) * direction[0];
-      for (int axis = 1; axis < Dim; ++axis)
-        height += Eigen::Map<const Lanes>(shape.vertices(axis) + k) * direction[axis];
-      low = low.min(height);
-    }
-    return low.minCoeff();
   }
 
   ActivePlanes<Dim> active_ = no_planes<Dim>;

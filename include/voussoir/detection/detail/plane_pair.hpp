@@ -43,6 +43,7 @@ class PlanePair {
 
   [[nodiscard]] const Vec<Dim>& point() const { return point_; }
   [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t count_a() const { return count_a_; }
   /// `count` rounded up to whole groups of lanes; groups start at multiples of `lane_count`.
   [[nodiscard]] std::size_t padded_count() const { return PlacedShape<Dim>::padded(count_); }
 

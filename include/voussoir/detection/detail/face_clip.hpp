@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+
+namespace voussoir::detail {
+
+/// Clips a face of one polyhedron to the prism over a face of another.
+///
+/// The prism stands upright on the reference face; it is open below and ends at a height above.
+/// Work is done in the plane of the face: u along its first edge and v across, both in units of
+/// that edge's length, so that no square root is needed; h is the height [m].
+class FaceClip {
+ public:
+  /// @param p, face     the reference face
+  /// @param q, other    the face of q to be clipped
+  /// @param top         what of it lies higher is cut off [m]
+  void run(const PlacedShape<3>& p, std::span<const std::uint16_t> face, const Vec3& normal,
+           const PlacedShape<3>& q, std::span<const std::uint16_t> other, double top) {
+    normal_ = normal;
+    origin_ = p.vertex(face[0]);
+    along_ = p.vertex(face[1]) - origin_;
+    across_ = cross(normal, along_);
+    scale_ = 1 / along_.squaredNorm();
+    grow(face.size() + other.size() + 2);
+    // Seen along the reference normal the other face runs clockwise: turn it round.
+    count_ = other.size();
+    for (std::size_t k = 0; k < count_; ++k) points_[k] = in_plane(q.vertex(other[count_ - 1 - k]));
+    Point from = in_plane(p.vertex(face.back()));
+    for (const std::uint16_t vertex : face) {
+      const Point to = in_plane(p.vertex(vertex));
+      const double du = to.u - from.u, dv = to.v - from.v;
+      keep([&](const Point& x) { return du * (x.v - from.v) - dv * (x.u - from.u); });
+      from = to;
+    }
+    keep([top](const Point& x) { return top - x.h; });
+  }
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+  /// Area of the polygon as seen along the reference normal [m^2].
+  [[nodiscard]] double area() const {
+    double doubled = 0;
+    for (std::size_t k = 2; k < count_; ++k) {
+      const Point &o = points_[0], &a = points_[k - 1], &b = points_[k];
+      doubled += (a.u - o.u) * (b.v - o.v) - (a.v - o.v) * (b.u - o.u);
+    }
+    // u and v are lengths along vectors as long as the first edge: an area is so many times too
+    // big.
+    return 0.5 * doubled * scale_;
+  }
+
+  /// Square of a length that no two points of the polygon are further apart than [m^2].
+  [[nodiscard]] double squared_extent() const {
+    if (count_ == 0) return 0;
+    Point low = points_[0], high = points_[0];
+    for (std::size_t k = 1; k < count_; ++k) {
+      const Point& x = points_[k];
+      low = {std::min(low.u, x.u), std::min(low.v, x.v), std::min(low.h, x.h)};
+      high = {std::max(high.u, x.u), std::max(high.v, x.v), std::max(high.h, x.h)};
+    }
+    const double u = high.u - low.u, v = high.v - low.v, h = high.h - low.h;
+    return (u * u + v * v) * scale_ + h * h;
+  }
+
+  /// The polygon, anticlockwise about the reference normal, or the other way round.
+  void write(std::vector<Vec3>& out, bool reversed) const {
+    out.resize(count_);
+    for (std::size_t k = 0; k < count_; ++k) {
+      const Point& x = points_[reversed ? count_ - 1 - k : k];
+      out[k] = origin_ + (x.u * scale_) * along_ + (x.v * scale_) * across_ + x.h * normal_;
+    }
+  }
+
+ private:
+  struct Point {
+    double u, v, h;
+  };
+
+  [[nodiscard]] Point in_plane(const Vec3& x) const {
+    const Vec3 r = x - origin_;
+    return {r.dot(along_), r.dot(across_), r.dot(normal_)};
+  }
+
+  void grow(std::size_t size) {
+    if (points_.size() >= size) return;
+    points_.resize(size);
+    spare_.resize(size);
+    sides_.resize(size);
+  }
+
+  /// Keeps the part of the polygon where `side`, linear, is not negative.
+  template <class Side>
+  void keep(Side&& side) {
+    double lowest = 0;
+    for (std::size_t k = 0; k < count_; ++k) {
+      sides_[k] = side(points_[k]);
+      lowest = std::min(lowest, sides_[k]);
+    }
+    if (!(lowest < 0)) return;
+    std::size_t kept = 0;
+    for (std::size_t k = 0, before = count_ - 1; k < count_; before = k++) {
+      const double here = sides_[k], there = sides_[before];
+      const Point &a = points_[before], &b = points_[k];
+      if ((here < 0) != (there < 0)) {
+        const double t = there / (there - here);
+        spare_[kept++] = {a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.h + t * (b.h - a.h)};
+      }
+      if (!(here < 0)) spare_[kept++] = b;
+    }
+    count_ = kept;
+    points_.swap(spare_);
+  }
+
+  Vec3 normal_, origin_, along_, across_;
+  double scale_ = 1;
+  std::size_t count_ = 0;
+  std::vector<Point> points_, spare_;
+  std::vector<double> sides_;
+};
+
+}  // namespace voussoir::detail

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+#include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/detail/edge_pairs.hpp>
+#include <voussoir/detection/detail/face_clip.hpp>
+#include <voussoir/detection/detail/section.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+
+namespace voussoir::detail {
+
+/// Two convex polyhedra: separating axes of faces and of pairs of edges, then the touching face
+/// clipped to the face it touches.
+///
+/// Most pairs of edges need not be tried. Let K be the touching face q of b, clipped to the prism
+/// over the touching face p of a (or the other way round), and d the separation by p. A point x of
+/// K is in b, and x shifted to the plane of p is in a; therefore along any unit vector n
+///     separation(n) <= -(width of K along n) + max(reach, -d).
+/// K is flat, so its width is at least w sin(n, normal of q), with w >= area / extent its least
+/// width in its plane. An axis better than d thus makes an angle with the normal of q of at most
+///     sin(angle) < (max(0, -d) + max(reach, -d)) / w,
+/// and edges that support it lie near the plane of q. Between neighbours in a rock mass some four
+/// edges of each block are left of twelve.
+template <class Lanes>
+class FacePair3 {
+ public:
+  /// What decided last time. It saves time and never changes an answer.
+  struct Memory {
+    std::uint16_t first = 0, second = 0;  ///< a face, or an edge of a and an edge of b
+    Touch by = Touch::face_a;
+    bool apart = true;
+  };
+
+  explicit FacePair3(const PlacedShapes<3>& shapes) : shapes_(&shapes) {}
+
+  [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
+    return find_axis(a, b, 0, 0, memory) < 0;
+  }
+
+  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
+    return find_axis(a, b, std::numeric_limits<double>::infinity(), 0, memory);
+  }
+
+  [[nodiscard]] Contact<3> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
+    Contact<3> found;
+    const double separation = find_axis(a, b, reach, reach, memory);
+    if (!(separation <= reach)) return found;
+    found.separation = separation;
+    found.normal = normal_;
+    // An edge pair whose normal is that of the face, but for the small angle between two faces
+    // that touch, limits the depth of a contact of faces.
+    if (memory.by == Touch::edge_edge && !(area_ > 0 && normal_.dot(face_normal_) > flat)) {
+      found.touch = Touch::edge_edge;
+      section_.run((*shapes_)[a], (*shapes_)[b], (*shapes_).topology(a), (*shapes_).topology(b),
+                   memory.first, memory.second, normal_, polygon_);
+      found.measure = section_.area();
+    } else {
+      found.touch = face_side_ == 0 ? Touch::face_a : Touch::face_b;
+      if (clip_.size() > 0) {
+        clip_.write(polygon_, face_side_ == 1);
+      } else {
+        polygon_.assign(1, deepest_);  // a rounding: the deepest point
+      }
+      found.measure = area_;
+    }
+    found.polygon = polygon_;
+    return found;
+  }
+
+ private:
+  static constexpr double flat = 0.995;  ///< cosine of 0.1 rad
+
+  using Shape = PlacedShape<3>;
+
+  [[nodiscard]] static Lanes along(const Vec3& n, const Shape& shape, std::size_t k) {
+    return Lanes::all(n[0]) * Lanes::load(shape.vertices(0) + k) +
+           Lanes::all(n[1]) * Lanes::load(shape.vertices(1) + k) +
+           Lanes::all(n[2]) * Lanes::load(shape.vertices(2) + k);
+  }
+  /// Smallest n . x of a shape [m].
+  [[nodiscard]] static double lowest(const Vec3& n, const Shape& shape) {
+    Lanes low = along(n, shape, 0);
+    for (std::size_t k = lane_count; k < shape.vertex_stride(); k += lane_count)
+      low = min(low, along(n, shape, k));
+    return low.smallest();
+  }
+
+  /// What kept the pair apart last time, tried again [m].
+  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, const Shape& a,
+                                        const Shape& b, const Memory& memory) const {
+    if (memory.by == Touch::face_a)
+      return lowest(a.normal(memory.first), b) - a.offset(memory.first);
+    if (memory.by == Touch::face_b)
+      return lowest(b.normal(memory.first), a) - b.offset(memory.first);
+    const Topology::Edge& edge_a = shapes_->topology(i).edges[memory.first];
+    const Topology::Edge& edge_b = shapes_->topology(j).edges[memory.second];
+    Vec3 normal = cross(a.vertex(edge_a.to) - a.vertex(edge_a.from),
+                        b.vertex(edge_b.to) - b.vertex(edge_b.from));
+    normal /=
+        std::copysign(normal.norm(), normal.dot(a.normal(edge_a.left) + a.normal(edge_a.right)));
+    return lowest(normal, b) + lowest(-normal, a);
+  }
+
+  /// How far the faces of p keep q away at most; one number per face is left in `separations`.
+  [[nodiscard]] static double largest_separation(const Shape& p, const Shape& q,
+                                                 double* separations) {
+    const double *x = q.vertices(0), *y = q.vertices(1), *z = q.vertices(2);
+    Lanes best = Lanes::all(-std::numeric_limits<double>::infinity());
+    for (std::size_t group = 0; group < p.face_stride(); group += lane_count) {
+      const Lanes nx = Lanes::load(p.normals(0) + group), ny = Lanes::load(p.normals(1) + group),
+                  nz = Lanes::load(p.normals(2) + group);
+      Lanes low = nx * Lanes::all(x[0]) + ny * Lanes::all(y[0]) + nz * Lanes::all(z[0]);
+      for (std::size_t k = 1; k < q.vertex_count; ++k)
+        low = min(low, nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]) + nz * Lanes::all(z[k]));
+      low = low - Lanes::load(p.offsets() + group);
+      low.store(separations + group);
+      best = max(best, low);
+    }
+    return best.largest();
+  }
+
+  /// The largest separation, or the first one found that keeps the shapes apart by more than
+  /// `limit`. What decided is left in `memory`, and its normal and clipped face in the members.
+  [[nodiscard]] double find_axis(std::size_t i, std::size_t j, double limit, double reach,
+                                 Memory& memory) {
+    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
+    if (memory.apart) {
+      const double known = known_separation(i, j, a, b, memory);
+      if (known > limit) return known;
+    }
+    const std::size_t half = std::max(a.face_stride(), b.face_stride());
+    if (separations_.size() < 2 * half) separations_.resize(2 * half);
+    double* const of_faces = separations_.data();
+    const double by_a = largest_separation(a, b, of_faces);
+    const double by_b = largest_separation(b, a, of_faces + half);
+    const bool of_a = by_a >= by_b;
+    double best = of_a ? by_a : by_b;
+    const double* const winner = of_a ? of_faces : of_faces + half;
+    std::size_t face = 0;
+    for (std::size_t k = of_a ? a.face_stride() : b.face_stride(); k-- > 0;)
+      face = winner[k] == best ? k : face;
+    memory = {static_cast<std::uint16_t>(face), 0, of_a ? Touch::face_a : Touch::face_b,
+              best > limit};
+    if (memory.apart) return best;
+
+    face_side_ = of_a ? 0 : 1;
+    const Shape &p = of_a ? a : b, &q = of_a ? b : a;
+    clip_face(p, q, of_a ? i : j, of_a ? j : i, face, reach);
+    face_normal_ = normal_ = of_a ? p.normal(face) : Vec3(-p.normal(face));
+    choose_edges(i, j, a, b, best, reach);
+    const auto edges = edge_pairs_.run(a, shapes_->topology(i), edges_of_a_, b,
+                                       shapes_->topology(j), edges_of_b_, best);
+    if (edges.separation > best) {
+      best = edges.separation;
+      normal_ = edges.normal;
+      memory = {edges.edge_a, edges.edge_b, Touch::edge_edge, best > limit};
+    }
+    return best;
+  }
+
+  /// Finds the face of q that faces the reference face of p at q's deepest vertex, and clips it.
+  void clip_face(const Shape& p, const Shape& q, std::size_t of_p, std::size_t of_q,
+                 std::size_t face, double reach) {
+    const Vec3 normal = p.normal(face);
+    if (heights_.size() < q.vertex_stride()) heights_.resize(q.vertex_stride());
+    for (std::size_t k = 0; k < q.vertex_stride(); k += lane_count)
+      along(normal, q, k).store(heights_.data() + k);
+    std::size_t deepest = 0;
+    double depth = heights_[0];
+    for (std::size_t k = 1; k < q.vertex_count; ++k) {
+      deepest = heights_[k] < depth ? k : deepest;
+      depth = std::min(depth, heights_[k]);
+    }
+    const Topology topology_p = shapes_->topology(of_p), topology_q = shapes_->topology(of_q);
+    double facing = std::numeric_limits<double>::infinity();
+    std::size_t other = 0;
+    for (const std::uint16_t candidate : topology_q.faces_at(deepest)) {
+      const double cosine = normal.dot(q.normal(candidate));
+      other = cosine < facing ? candidate : other;
+      facing = std::min(facing, cosine);
+    }
+    deepest_ = q.vertex(deepest);
+    other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other)) : q.normal(other);
+    clip_.run(p, topology_p.loop(face), normal, q, topology_q.loop(other), reach);
+    area_ = clip_.area();
+  }
+
+  /// The edges that could support an axis better than `best` (see the class).
+  void choose_edges(std::size_t i, std::size_t j, const Shape& a, const Shape& b, double best,
+                    double reach) {
+    const double depth = std::max(0.0, -best), bound = depth + std::max(reach, depth);
+    const double extent = clip_.squared_extent();
+    const Topology of_a = shapes_->topology(i), of_b = shapes_->topology(j);
+    const double squared_sine = bound * bound * extent / (area_ * area_);
+    const double size = of_a.diameter + of_b.diameter;
+    if (squared_sine < 0.5) {  // false without an area
+      const double sine = std::sqrt(squared_sine), cosine = std::sqrt(1 - squared_sine);
+      const double slope = sine / cosine;
+      double low_a = 0, high_b = 0;
+      const double top_a = project(other_normal_, a, heights_a_, low_a);
+      const double bottom_b = -project(-other_normal_, b, heights_b_, high_b);
+      // Axes near the opposite direction would have to push a and b through each other.
+      if (cosine * (-high_b - low_a) - sine * size >= depth) {
+        pick(of_a, heights_a_, top_a - slope * of_a.diameter, edges_of_a_);
+        pick(of_b, heights_b_, -bottom_b - slope * of_b.diameter, edges_of_b_);
+        return;
+      }
+    }
+    all(of_a, edges_of_a_);
+    all(of_b, edges_of_b_);
+  }
+
+  /// n . x of all vertices. @return the largest; `low`: the smallest [m]
+  static double project(const Vec3& n, const Shape& shape, std::vector<double>& heights,
+                        double& low) {
+    if (heights.size() < shape.vertex_stride()) heights.resize(shape.vertex_stride());
+    Lanes smallest = along(n, shape, 0), largest = smallest;
+    smallest.store(heights.data());
+    for (std::size_t k = lane_count; k < shape.vertex_stride(); k += lane_count) {
+      const Lanes here = along(n, shape, k);
+      here.store(heights.data() + k);
+      smallest = min(smallest, here);
+      largest = max(largest, here);
+    }
+    low = smallest.smallest();
+    return largest.largest();
+  }
+
+  /// The edges with both ends at `floor` or above.
+  static void pick(const Topology& topology, const std::vector<double>& heights, double floor,
+                   std::vector<std::uint16_t>& list) {
+    list.resize(topology.edges.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < topology.edges.size(); ++k) {
+      const Topology::Edge& edge = topology.edges[k];
+      list[count] = static_cast<std::uint16_t>(k);
+      count +=
+          static_cast<std::size_t>(std::min(heights[edge.from], heights[edge.to]) >= floor);
+    }
+    list.resize(count);
+  }
+  static void all(const Topology& topology, std::vector<std::uint16_t>& list) {
+    list.resize(topology.edges.size());
+    for (std::size_t k = 0; k < list.size(); ++k) list[k] = static_cast<std::uint16_t>(k);
+  }
+
+  const PlacedShapes<3>* shapes_;
+  FaceClip clip_;
+  Section section_;
+  EdgePairs<Lanes> edge_pairs_;
+  // Of the pair at hand, from `find_axis` to `contact`.
+  int face_side_ = 0;  ///< whose face is the best: 0 a's, 1 b's
+  double area_ = 0;    ///< of the clipped face [m^2]
+  Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero(), other_normal_ = Vec3::Zero(),
+       deepest_ = Vec3::Zero();
+  std::vector<Vec3> polygon_;
+  std::vector<std::uint16_t> edges_of_a_, edges_of_b_;
+  std::vector<double> separations_, heights_, heights_a_, heights_b_;
+};
+
+}  // namespace voussoir::detail
