@@ -36,4 +36,17 @@ inline void require(bool holds, const char* name, double value, const char* rang
   throw InvalidInput(std::string(name) + " = " + std::to_string(value) + ": must be " + range);
 }
 
+/// Runs `make`; if it refuses its data, the refusal says of what: "block 17: convex polygon: ...".
+/// A shape does not know its number, whoever builds it from a list does.
+///
+///   blocks.push_back(naming("block " + std::to_string(k), [&] { return ConvexPolygon(...); }));
+template <class Make>
+auto naming(const std::string& what, Make&& make) {
+  try {
+    return make();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(what + ": " + error.what());
+  }
+}
+
 }  // namespace voussoir

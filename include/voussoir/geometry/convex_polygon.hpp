@@ -27,7 +27,8 @@ class ConvexPolygon {
   /// @param vertices  anticlockwise, first not repeated [m]
   /// @param cuts      label of each face; as many as vertices
   /// @throws InvalidInput  fewer than 3 vertices, a number that is not finite, a repeated vertex, a
-  ///                       clockwise or non-convex corner; the message names the vertex
+  ///                       clockwise or non-convex corner, no area, an outline that crosses
+  ///                       itself; the message names the vertex, the value and the rule
   ConvexPolygon(std::vector<Vec2> vertices, std::vector<int> cuts)
       : vertices_(std::move(vertices)), cuts_(std::move(cuts)) {
     check();
@@ -121,26 +122,41 @@ class ConvexPolygon {
   }
 
   void check() const {
-    const auto fail = [](std::size_t k, const char* rule) {
-      throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule);
+    const auto fail = [this](std::size_t k, const std::string& rule) {
+      throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule +
+                         ": it is at " + text_of<2>(vertices_[k]) + " m");
     };
-    if (size() < 3) throw InvalidInput("convex polygon: needs at least 3 vertices");
-    if (cuts_.size() != size()) throw InvalidInput("convex polygon: needs one label per face");
+    if (size() < 3)
+      throw InvalidInput("convex polygon: needs at least 3 vertices, has " +
+                         std::to_string(size()));
+    if (cuts_.size() != size())
+      throw InvalidInput("convex polygon: needs one label per face, has " +
+                         std::to_string(cuts_.size()) + " for " + std::to_string(size()));
     for (std::size_t k = 0; k < size(); ++k)
       if (!vertices_[k].allFinite()) fail(k, "is not finite");
     double turning = 0, doubled_area = 0;
     for (std::size_t k = 0; k < size(); ++k) {
       doubled_area +=
           cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
-      const Segment in = face(k), out = face(k + 1 == size() ? 0 : k + 1);
-      if (!(in.length() > 0)) fail(k, "is repeated");
+      const std::size_t corner = k + 1 == size() ? 0 : k + 1;
+      const Segment in = face(k), out = face(corner);
+      if (!(in.length() > 0)) fail(k, "is repeated by the next one");
       const Vec2 u = in.end - in.start, v = out.end - out.start;
-      if (!(cross(u, v) >= 0)) fail((k + 1) % size(), "is a non-convex or clockwise corner");
-      turning += std::atan2(cross(u, v), u.dot(v));
+      const double turn = std::atan2(cross(u, v), u.dot(v));
+      if (!(cross(u, v) >= 0))
+        fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
+                         std::to_string(turn * 180 / 3.141592653589793) +
+                         " degrees where it must turn left, by 0 or more");
+      turning += turn;
     }
     // Every corner turns left; a star polygon does so too, but turns more than once.
-    if (std::abs(turning - 6.283185307179586) > 1e-6 || !(doubled_area > 0))
-      throw InvalidInput("convex polygon: the outline crosses itself or encloses no area");
+    if (!(doubled_area > 0))
+      throw InvalidInput("convex polygon: encloses an area of " +
+                         std::to_string(0.5 * doubled_area) + " m^2, must be > 0");
+    if (!(std::abs(turning - 6.283185307179586) <= 1e-6))
+      throw InvalidInput("convex polygon: the outline crosses itself: it turns by " +
+                         std::to_string(turning * 180 / 3.141592653589793) +
+                         " degrees in all, must be 360");
   }
 
   std::vector<Vec2> vertices_;

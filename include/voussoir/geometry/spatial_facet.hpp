@@ -31,17 +31,36 @@ struct SpatialFacet {
 
   /// Four points that integrate polynomials of degree 2 over the facet exactly: the centroid
   /// +- sqrt(2) r_k e_k, with r_k the radii of gyration about the centroid along the principal
-  /// axes e_k.
+  /// axes e_k. Where all axes are principal (a square) the longest edge is one of them.
   ///
   /// They lie in the facet: a convex body of n dimensions contains its ellipsoid of inertia
   /// enlarged by sqrt((n + 2) / n), which is sqrt(2) in a plane. Source: Kannan, Lovasz &
-  /// Simonovits (1995), Isoperimetric problems for convex bodies and a localization lemma,
-  /// section 4.
+  /// Simonovits (1995), Isoperimetric problems for convex bodies and a localization lemma.
+  ///
+  /// A facet without area gives points at its centre that weigh nothing.
   [[nodiscard]] std::array<FacetPoint<3>, 4> gauss_points() const {
-    const Vec3 doubled = 2 * area_vector(), arm = centroid_arm();
+    const Vec3 doubled = 2 * area_vector();
     const double area = 0.5 * doubled.norm();
+    if (!(area > 0)) return {};
     const Vec3 normal = doubled / (2 * area);
-    const Vec3 first = (vertices[1] - vertices[0]).normalized(), second = cross(normal, first);
+    const auto [along, across] = gyration(normal, area);
+    const double weight = 0.25 * area;
+    return {FacetPoint<3>{along, weight}, FacetPoint<3>{-along, weight},
+            FacetPoint<3>{across, weight}, FacetPoint<3>{-across, weight}};
+  }
+
+ private:
+  /// Principal axes, as long as sqrt(2) times the radius of gyration along them.
+  [[nodiscard]] std::array<Vec3, 2> gyration(const Vec3& normal, double area) const {
+    // Along the longest edge the second moments of a thin facet are nearly uncoupled, and its small
+    // one keeps its digits.
+    Vec3 first = Vec3::Zero();
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Vec3 edge = vertices[k + 1 == vertices.size() ? 0 : k + 1] - vertices[k];
+      if (edge.squaredNorm() > (1 + 1e-9) * first.squaredNorm()) first = edge;
+    }
+    first.normalize();
+    const Vec3 second = cross(normal, first), centre = centroid_arm();
     // Second moments of the triangles of a fan about its tip, over the area.
     double xx = 0, xy = 0, yy = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
@@ -53,25 +72,19 @@ struct SpatialFacet {
       yy += share * (ay * ay + by * by + sy * sy);
       xy += share * (ax * ay + bx * by + sx * sy);
     }
-    const double cx = arm.dot(first), cy = arm.dot(second);
+    const double cx = centre.dot(first), cy = centre.dot(second);
     xx -= cx * cx;
     yy -= cy * cy;
     xy -= cx * cy;
-    // Principal axes; along the first edge where all axes are principal.
     const double half_difference = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
     const double radius = std::hypot(half_difference, xy);
     const double angle = radius > 1e-12 * mean ? 0.5 * std::atan2(xy, half_difference) : 0.0;
     const Vec3 major = std::cos(angle) * first + std::sin(angle) * second;
-    const Vec3 minor = cross(normal, major);
     const double large = mean + radius;
-    const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);
-    const Vec3 along = std::sqrt(2 * large) * major, across = std::sqrt(2 * small) * minor;
-    const double weight = 0.25 * area;
-    return {FacetPoint<3>{along, weight}, FacetPoint<3>{-along, weight},
-            FacetPoint<3>{across, weight}, FacetPoint<3>{-across, weight}};
+    const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);  // the determinant over large
+    return {std::sqrt(2 * large) * major, std::sqrt(2 * small) * cross(normal, major)};
   }
 
- private:
   /// From the first vertex to the centroid.
   [[nodiscard]] Vec3 centroid_arm() const {
     const Vec3 normal = area_vector().normalized();

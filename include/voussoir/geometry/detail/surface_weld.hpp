@@ -64,7 +64,10 @@ inline std::size_t merge_equal_vertices(Surface& surface) {
     }
     merged.faces.push_back({face.plane, face.cut, begin, static_cast<int>(merged.loops.size())});
   }
-  if (merged.faces.size() < 4 || find_twins(merged)) return 0;
+  // One closed surface still, by Euler: not two that a vertex has pinched off.
+  if (merged.faces.size() < 4 || find_twins(merged) ||
+      merged.vertices.size() + merged.faces.size() != merged.loops.size() / 2 + 2)
+    return 0;
   const std::size_t dropped = surface.faces.size() - merged.faces.size();
   surface = std::move(merged);
   return dropped;
