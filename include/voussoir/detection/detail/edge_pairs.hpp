@@ -107,11 +107,15 @@ class EdgePairs {
                        const PlacedShape<3>& b, const Topology& of_b, std::uint16_t j, Best& best) {
     const Topology::Edge& edge = of_b.edges[j];
     const Vec3 other = b.vertex(edge.from), direction = b.vertex(edge.to) - other;
+    const Vec3 both = cross(along, direction);
+    const double squared = both.squaredNorm();
     // Of edges that are parallel but for 1e-6 rad the common normal is noise, and the normals of
     // the faces beside them say as much.
-    if (cross(along, direction).squaredNorm() <
-        1e-12 * along.squaredNorm() * direction.squaredNorm())
-      return;
+    if (squared < 1e-12 * along.squaredNorm() * direction.squaredNorm()) return;
+    // Most pairs are far from the best: told without a root. The margin covers the rounding.
+    const double product = std::copysign(1.0, both.dot(outward)) * both.dot(other - start);
+    const double least = best.separation - 1e-9 * std::abs(best.separation);
+    if (product < 0 && (least >= 0 || product * product > least * least * squared)) return;
     Vec3 normal;
     const double separation = between(start, along, other, direction, outward, normal);
     if (separation > best.separation) best = {separation, i, j, normal};

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/detail/edge_pairs.hpp>
@@ -212,8 +214,61 @@ class FacePair3 {
         return;
       }
     }
-    all(of_a, edges_of_a_);
-    all(of_b, edges_of_b_);
+    if (clip_.size() > 0) {
+      near(i, j, a, b, depth);
+    } else {
+      all(of_a, edges_of_a_);
+      all(of_b, edges_of_b_);
+    }
+  }
+
+  /// The edges that come near enough to the other shape. If a pair of edges has the least depth of
+  /// all, d* <= depth, the edges touch once b is moved by d* along their normal: they pass each
+  /// other within d*. So an edge of a that lies further inside a face of a than b reaches and d*,
+  /// or further outside a face of b than d*, plays no part. The two faces of each shape that are
+  /// entered least are looked at. If the shapes are apart, although no face says so, the axis
+  /// wanted is that of two edges as near as the shapes are, and these are within `depth` too, for
+  /// so far below the reference face there is a point of the clipped one.
+  void near(std::size_t i, std::size_t j, const Shape& a, const Shape& b, double depth) {
+    alignas(32) std::array<double, lane_count> x, y, z, limit_a, limit_b;
+    const std::size_t half = std::max(a.face_stride(), b.face_stride());
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Shape& shape = side == 0 ? a : b;
+      const double* const separations = separations_.data() + side * half;
+      std::size_t first = 0, second = 0;
+      for (std::size_t k = 1; k < shape.face_count; ++k) {
+        if (separations[k] > separations[first]) {
+          second = first;
+          first = k;
+        } else if (second == first || separations[k] > separations[second]) {
+          second = k;
+        }
+      }
+      // Along the normals so taken a point counts if it is high enough.
+      const double sign = side == 0 ? 1 : -1;
+      for (const auto& [lane, face] : {std::pair{2 * side, first}, {2 * side + 1, second}}) {
+        x[lane] = sign * shape.normals(0)[face];
+        y[lane] = sign * shape.normals(1)[face];
+        z[lane] = sign * shape.normals(2)[face];
+        const double outside = shape.offset(face) + depth;
+        const double inside = shape.offset(face) + separations[face] - depth;
+        limit_a[lane] = side == 0 ? inside : -outside;
+        limit_b[lane] = side == 0 ? outside : -inside;
+      }
+    }
+    const Lanes nx = Lanes::load(x.data()), ny = Lanes::load(y.data()), nz = Lanes::load(z.data());
+    const auto score = [&](const Shape& shape, std::size_t k) {
+      return nx * Lanes::all(shape.vertices(0)[k]) + ny * Lanes::all(shape.vertices(1)[k]) +
+             nz * Lanes::all(shape.vertices(2)[k]);
+    };
+    scores_.resize(lane_count * std::max(a.vertex_count, b.vertex_count));
+    const Lanes low = Lanes::load(limit_a.data()), high = Lanes::load(limit_b.data());
+    for (std::size_t k = 0; k < a.vertex_count; ++k)
+      (score(a, k) - low).store(scores_.data() + lane_count * k);
+    pick_near(shapes_->topology(i), edges_of_a_);
+    for (std::size_t k = 0; k < b.vertex_count; ++k)
+      (high - score(b, k)).store(scores_.data() + lane_count * k);
+    pick_near(shapes_->topology(j), edges_of_b_);
   }
 
   /// n . x of all vertices. @return the largest; `low`: the smallest [m]
@@ -240,14 +295,26 @@ class FacePair3 {
     for (std::size_t k = 0; k < topology.edges.size(); ++k) {
       const Topology::Edge& edge = topology.edges[k];
       list[count] = static_cast<std::uint16_t>(k);
-      count +=
-          static_cast<std::size_t>(std::min(heights[edge.from], heights[edge.to]) >= floor);
+      count += static_cast<std::size_t>(std::min(heights[edge.from], heights[edge.to]) >= floor);
     }
     list.resize(count);
   }
   static void all(const Topology& topology, std::vector<std::uint16_t>& list) {
     list.resize(topology.edges.size());
     for (std::size_t k = 0; k < list.size(); ++k) list[k] = static_cast<std::uint16_t>(k);
+  }
+  /// The edges with a point that is near enough to each of the four planes.
+  void pick_near(const Topology& topology, std::vector<std::uint16_t>& list) const {
+    list.resize(topology.edges.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < topology.edges.size(); ++k) {
+      const Topology::Edge& edge = topology.edges[k];
+      list[count] = static_cast<std::uint16_t>(k);
+      const Lanes highest = max(Lanes::load(scores_.data() + lane_count * edge.from),
+                                Lanes::load(scores_.data() + lane_count * edge.to));
+      count += static_cast<std::size_t>(highest.smallest() >= 0);
+    }
+    list.resize(count);
   }
 
   const PlacedShapes<3>* shapes_;
@@ -261,7 +328,7 @@ class FacePair3 {
        deepest_ = Vec3::Zero();
   std::vector<Vec3> polygon_;
   std::vector<std::uint16_t> edges_of_a_, edges_of_b_;
-  std::vector<double> separations_, heights_, heights_a_, heights_b_;
+  std::vector<double> separations_, heights_, heights_a_, heights_b_, scores_;
 };
 
 }  // namespace voussoir::detail
