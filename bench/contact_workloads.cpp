@@ -125,10 +125,18 @@ void move(Random& random, double shift, double turn, Place<Dim>& place) {
 }
 
 template <int Dim>
+Vec<Dim> vector_of(const std::array<double, Dim>& numbers) {
+  return Eigen::Map<const Vec<Dim>>(numbers.data());
+}
+
+template <int Dim>
 LongShape<Dim> in_space(const WorkloadBlock<Dim>& block, const Place<Dim>& place) {
+  std::vector<Vec<Dim>> own;
+  for (const auto& vertex : block.vertices) own.push_back(vector_of<Dim>(vertex));
   auto faces = block.faces;
-  if constexpr (Dim == 2) faces = voussoir_test::ring_of_faces(block.vertices.size());
-  return voussoir_test::placed<Dim>(block.vertices, faces, rotation_of(place.turn), place.position);
+  if constexpr (Dim == 2) faces = voussoir_test::ring_of_faces(own.size());
+  return voussoir_test::placed<Dim>(own, faces, rotation_of(place.turn),
+                                    vector_of<Dim>(place.position));
 }
 
 /// Least width over diameter.
