@@ -86,8 +86,10 @@ class LeastExcess {
 
   /// Multiplied by (x, s): normal . x - s.
   [[nodiscard]] Column row_of(std::size_t plane) const {
-    Column row;
-    row << planes_->normal_of(plane), -1;
+    const Vec<Dim> normal = planes_->normal_of(plane);
+    Column row;  // component by component: g++ 12 warns of what operator<< makes of it
+    for (int axis = 0; axis < Dim; ++axis) row[axis] = normal[axis];
+    row[Dim] = -1;
     return row;
   }
   void activate(int k, std::size_t plane) {
@@ -181,7 +183,7 @@ class LeastExcess {
       if (!(share[k] > 1e-12)) continue;
       const double ratio = std::fmax(weight(k), 0.0) / share[k];
       if (ratio < least ||
-          (by_number && ratio == least &&
+          (by_number && leaving >= 0 && ratio == least &&
            active_[static_cast<std::size_t>(k)] < active_[static_cast<std::size_t>(leaving)])) {
         leaving = k;
         least = ratio;
