@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The toolkit's own detectors as queries. Compiled twice, see CMakeLists.txt.
+// The toolkit's own detectors as queries. Compiled twice, see contact.cmake.
 #include <Eigen/Core>
+#include <array>
 #include <memory>
-#include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 #include <voussoir/core/pose.hpp>
-#if __has_include(<voussoir/detection/analytic_centre.hpp>) && !defined(VOUSSOIR_BENCH_FACES_ONLY)
 #include <voussoir/detection/analytic_centre.hpp>
-#define VOUSSOIR_BENCH_CENTRE
-#endif
 #include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -159,19 +158,13 @@ std::vector<Query> all_queries(const Workload<Dim>& workload) {
   const auto prepared = std::make_shared<Prepared<Dim>>(workload);
   std::vector<Query> all;
   add<FaceContacts>(all, "Voussoir FaceContacts", 1, prepared, workload);
-#ifdef VOUSSOIR_BENCH_CENTRE
   add<AnalyticCentre>(all, "Voussoir AnalyticCentre", Dim == 2 ? 1 : 4, prepared, workload);
-#endif
   return all;
 }
 
 }  // namespace
 
 std::vector<Query> queries(const Workload<2>& workload) { return all_queries(workload); }
-#ifdef VOUSSOIR_BENCH_PLANE_ONLY
-std::vector<Query> queries(const Workload<3>&) { return {}; }
-#else
 std::vector<Query> queries(const Workload<3>& workload) { return all_queries(workload); }
-#endif
 
 }  // namespace voussoir_bench
