@@ -21,33 +21,91 @@
 
 namespace voussoir {
 
+/// Contacts by the method of Boon, Houlsby and Utili (2012), to compare with.
+///
+/// Both shapes are half spaces, normal_i . x <= offset_i. Their distances seen from a point x,
+/// room_i = offset_i - normal_i . x, say it all:
+///
+///  1. They overlap if the linear program "least s with -room_i <= s for all planes" has s < 0.
+///  2. The contact point is the analytic centre of the overlap, the least of -sum log(room_i).
+///  3. The normal is the gradient there of the barrier of a, n ~ sum over a of normal_i / room_i;
+///     that of b is equal and opposite.
+///  4. The depth is the way from the point along n to where it leaves a, plus the way against n to
+///     where it leaves b.
+///
+/// **It is not the least penetration depth**, and not meant to be: it is the thickness of the
+/// overlap in one place, and along a direction that is no face normal near corners. A corner that
+/// dips by d into a face makes a triangle with feet at p < 0 < q from below the tip (|p| <= q); its
+/// centre is the centroid, where the triangle is d (2 q - p) / (3 q) thick: d for an upright
+/// corner, 2 d / 3 where one side is upright, as where a block has turned on its neighbour. In
+/// space the same goes down to d / 2. The normal adds to it: between two corners it leans to the
+/// diagonal, and a chord that leans is longer. Measured on masses of three joint sets, blocks of
+/// about 1 m moved at random by 0.1 mm and 0.1 mrad, and by 30 mm and 20 mrad:
+///
+///     touching pairs           depth over least depth                   normal turned by
+///                              off by > 1 %   5 %  median  95 %         median  95 %
+///     plane, small    6 679    92 %           0.51  0.86   1.11         0.005   26 deg
+///     plane, large    6 566    94 %           0.55  0.89   1.14         1.2     32 deg
+///     space, small   32 750    98 %           0.38  0.66   1.17         0.4     40 deg
+///     space, large   31 145    98 %           0.42  0.71   1.17         4.6     42 deg
+///
+/// The centre depends on planes, not on faces: a plane that no longer bounds
+/// the overlap still pushes it a little. There is no contact area: `measure` is 0.
+///
+/// Two deviations from the source. It takes the normal from a smooth "inner potential particle"
+/// whose corners have a radius, a parameter; this is `Pair`'s `rounding`, and the default is the
+/// barrier itself, which needs no parameter and leans less: with a radius of 0.1 m a quarter of the
+/// normals in the plane are more than 24 degrees off and depths reach 300 times the least. And
+/// rays meet planes in closed form instead of by bracketing.
+///
+/// Decisions are right where corners are not needles beyond the rounding of the planes: an overlap
+/// is missed if the largest ball in it is smaller than about 1e-14 m, that is, 1e-14 m deep between
+/// faces, 1e-10 m at an edge of 1e-4 rad.
+///
+/// @cost  a candidate pair with memory about 0.15 us in the plane and 0.2 us in space (g++ 12, -O3
+///        -march=native; 0.1 us per Newton step), without memory 0.7 and 1.2 us
+///
+/// Source: Boon, Houlsby and Utili (2012), A new algorithm for contact detection between convex
+/// polygonal and polyhedral particles in the discrete element method, Computers and Geotechnics 44,
+/// 73-82.
 struct AnalyticCentre {
   using role = roles::ContactDetector;
   static constexpr const char* name = "AnalyticCentre";
+
   template <int Dim>
   class Pair;
 };
 
+/// The queries of one pair of shapes; one object per thread, since it holds scratch memory.
 template <int Dim>
 class AnalyticCentre::Pair {
  public:
+  /// What decided last time: a point in the overlap, or the planes that kept the shapes apart. It
+  /// changes answers by roundings only.
   struct Memory {
-    detail::PlaneAxis<Dim> axis;           ///< kept the shapes apart
-    Vec<Dim> inside = Vec<Dim>::Constant(  ///< was inside both [m]
-        std::numeric_limits<double>::quiet_NaN());
+    detail::PlaneAxis<Dim> axis{};
+    Vec<Dim> inside = Vec<Dim>::Zero();  ///< [m]
     bool overlapping = false;
   };
 
+  /// @param rounding  radius r of the corners of the inner particles [m]: the normal is then the
+  ///                  unit gradient of sum <r - room_i>^2 over a less that over b (Macaulay
+  ///                  brackets), where all room_i > r the normal of the nearest face. 0: barrier
+  /// @throws InvalidInput  rounding is negative or not finite
   explicit Pair(const PlacedShapes<Dim>& shapes, double rounding = 0)
       : shapes_(&shapes), rounding_(rounding) {
     require(rounding >= 0 && std::isfinite(rounding), "analytic centre: rounding [m]", rounding,
-            ">= 0");
+            ">= 0 and finite");
   }
 
+  /// Whether the interiors have a point in common.
   [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
     return find_inside((*shapes_)[a], (*shapes_)[b], memory);
   }
 
+  /// Overlapping: minus the depth [m]. Apart: twice the least s of the linear program, by half of
+  /// which both shapes must be swollen, every plane moved outwards, to touch: the gap between two
+  /// faces, at most the distance elsewhere [m].
   [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
     const Shape shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
     if (!find_inside(shape_a, shape_b, memory)) return gap(shape_a, shape_b, memory);
@@ -56,6 +114,8 @@ class AnalyticCentre::Pair {
     return -depth_along(normal(a, b));
   }
 
+  /// One contact point; Touch::none if further apart than `reach` by `separation`. Shapes that are
+  /// apart are swollen by half of `reach` each, which gives them a point and a normal.
   [[nodiscard]] Contact<Dim> contact(std::size_t a, std::size_t b, Memory& memory,
                                      double reach = 0) {
     const Shape shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
@@ -162,8 +222,7 @@ class AnalyticCentre::Pair {
       }
       const double length = gradient.norm();
       // Inside the inner particle its potential is flat.
-      const Vec<Dim> n =
-          length > 0 ? Vec<Dim>(gradient / length) : planes_.normal_of(nearest);
+      const Vec<Dim> n = length > 0 ? Vec<Dim>(gradient / length) : planes_.normal_of(nearest);
       difference += of_a ? n : Vec<Dim>(-n);
     }
     return difference;

@@ -28,7 +28,7 @@ class FaceClip {
     along_ = p.vertex(face[1]) - origin_;
     across_ = cross(normal, along_);
     scale_ = 1 / along_.squaredNorm();
-    grow(face.size() + other.size() + 2);
+    grow(face.size() + other.size() + 3);
     // Seen along the reference normal the other face runs clockwise: turn it round.
     count_ = other.size();
     for (std::size_t k = 0; k < count_; ++k) points_[k] = in_plane(q.vertex(other[count_ - 1 - k]));
@@ -98,23 +98,31 @@ class FaceClip {
   /// Keeps the part of the polygon where `side`, linear, is not negative.
   template <class Side>
   void keep(Side&& side) {
+    const std::size_t count = count_;
+    const Point* const from = points_.data();
+    double* const sides = sides_.data();
     double lowest = 0;
-    for (std::size_t k = 0; k < count_; ++k) {
-      sides_[k] = side(points_[k]);
-      lowest = std::min(lowest, sides_[k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      sides[k] = side(from[k]);
+      lowest = std::min(lowest, sides[k]);
     }
     if (!(lowest < 0)) return;
-    std::size_t kept = 0;
-    for (std::size_t k = 0, before = count_ - 1; k < count_; before = k++) {
-      const double here = sides_[k], there = sides_[before];
-      const Point &a = points_[before], &b = points_[k];
+    Point* to = spare_.data();
+    double there = sides[count - 1];
+    Point a = from[count - 1];
+    for (std::size_t k = 0; k < count; ++k) {
+      const double here = sides[k];
+      const Point b = from[k];
       if ((here < 0) != (there < 0)) {
         const double t = there / (there - here);
-        spare_[kept++] = {a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.h + t * (b.h - a.h)};
+        *to++ = {a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.h + t * (b.h - a.h)};
       }
-      if (!(here < 0)) spare_[kept++] = b;
+      *to = b;
+      to += here < 0 ? 0 : 1;
+      a = b;
+      there = here;
     }
-    count_ = kept;
+    count_ = static_cast<std::size_t>(to - spare_.data());
     points_.swap(spare_);
   }
 

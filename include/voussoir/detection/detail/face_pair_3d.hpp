@@ -94,8 +94,8 @@ class FacePair3 {
   }
 
   /// What kept the pair apart last time, tried again [m].
-  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, const Shape& a,
-                                        const Shape& b, const Memory& memory) const {
+  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, const Memory& memory) const {
+    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
     if (memory.by == Touch::face_a)
       return lowest(a.normal(memory.first), b) - a.offset(memory.first);
     if (memory.by == Touch::face_b)
@@ -131,33 +131,32 @@ class FacePair3 {
   /// `limit`. What decided is left in `memory`, and its normal and clipped face in the members.
   [[nodiscard]] double find_axis(std::size_t i, std::size_t j, double limit, double reach,
                                  Memory& memory) {
-    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
     if (memory.apart) {
-      const double known = known_separation(i, j, a, b, memory);
+      const double known = known_separation(i, j, memory);
       if (known > limit) return known;
     }
-    const std::size_t half = std::max(a.face_stride(), b.face_stride());
+    const LinkedShape a{(*shapes_)[i], shapes_->topology(i)};
+    const LinkedShape b{(*shapes_)[j], shapes_->topology(j)};
+    const std::size_t half = std::max(a.shape.face_stride(), b.shape.face_stride());
     if (separations_.size() < 2 * half) separations_.resize(2 * half);
     double* const of_faces = separations_.data();
-    const double by_a = largest_separation(a, b, of_faces);
-    const double by_b = largest_separation(b, a, of_faces + half);
+    const double by_a = largest_separation(a.shape, b.shape, of_faces);
+    const double by_b = largest_separation(b.shape, a.shape, of_faces + half);
     const bool of_a = by_a >= by_b;
     double best = of_a ? by_a : by_b;
     const double* const winner = of_a ? of_faces : of_faces + half;
     std::size_t face = 0;
-    for (std::size_t k = of_a ? a.face_stride() : b.face_stride(); k-- > 0;)
+    for (std::size_t k = (of_a ? a : b).shape.face_stride(); k-- > 0;)
       face = winner[k] == best ? k : face;
     memory = {static_cast<std::uint16_t>(face), 0, of_a ? Touch::face_a : Touch::face_b,
               best > limit};
     if (memory.apart) return best;
 
     face_side_ = of_a ? 0 : 1;
-    const Shape &p = of_a ? a : b, &q = of_a ? b : a;
-    clip_face(p, q, of_a ? i : j, of_a ? j : i, face, reach);
-    face_normal_ = normal_ = of_a ? p.normal(face) : Vec3(-p.normal(face));
-    choose_edges(i, j, a, b, best, reach);
-    const auto edges = edge_pairs_.run(a, shapes_->topology(i), edges_of_a_, b,
-                                       shapes_->topology(j), edges_of_b_, best);
+    face_normal_ = normal_ = of_a ? a.shape.normal(face) : Vec3(-b.shape.normal(face));
+    clip_face(of_a ? a : b, of_a ? b : a, face, reach);
+    choose_edges(a, b, best, reach);
+    const auto edges = edge_pairs_.run(a, edges_of_a_, b, edges_of_b_, best);
     if (edges.separation > best) {
       best = edges.separation;
       normal_ = edges.normal;
@@ -167,8 +166,9 @@ class FacePair3 {
   }
 
   /// Finds the face of q that faces the reference face of p at q's deepest vertex, and clips it.
-  void clip_face(const Shape& p, const Shape& q, std::size_t of_p, std::size_t of_q,
-                 std::size_t face, double reach) {
+  void clip_face(const LinkedShape& reference, const LinkedShape& incident, std::size_t face,
+                 double reach) {
+    const Shape &p = reference.shape, &q = incident.shape;
     const Vec3 normal = p.normal(face);
     if (heights_.size() < q.vertex_stride()) heights_.resize(q.vertex_stride());
     for (std::size_t k = 0; k < q.vertex_stride(); k += lane_count)
@@ -179,34 +179,32 @@ class FacePair3 {
       deepest = heights_[k] < depth ? k : deepest;
       depth = std::min(depth, heights_[k]);
     }
-    const Topology topology_p = shapes_->topology(of_p), topology_q = shapes_->topology(of_q);
     double facing = std::numeric_limits<double>::infinity();
     std::size_t other = 0;
-    for (const std::uint16_t candidate : topology_q.faces_at(deepest)) {
+    for (const std::uint16_t candidate : incident.topology.faces_at(deepest)) {
       const double cosine = normal.dot(q.normal(candidate));
       other = cosine < facing ? candidate : other;
       facing = std::min(facing, cosine);
     }
     deepest_ = q.vertex(deepest);
     other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other)) : q.normal(other);
-    clip_.run(p, topology_p.loop(face), normal, q, topology_q.loop(other), reach);
+    clip_.run(p, reference.topology.loop(face), normal, q, incident.topology.loop(other), reach);
     area_ = clip_.area();
   }
 
   /// The edges that could support an axis better than `best` (see the class).
-  void choose_edges(std::size_t i, std::size_t j, const Shape& a, const Shape& b, double best,
-                    double reach) {
+  void choose_edges(const LinkedShape& a, const LinkedShape& b, double best, double reach) {
     const double depth = std::max(0.0, -best), bound = depth + std::max(reach, depth);
     const double extent = clip_.squared_extent();
-    const Topology of_a = shapes_->topology(i), of_b = shapes_->topology(j);
+    const Topology &of_a = a.topology, &of_b = b.topology;
     const double squared_sine = bound * bound * extent / (area_ * area_);
     const double size = of_a.diameter + of_b.diameter;
     if (squared_sine < 0.5) {  // false without an area
       const double sine = std::sqrt(squared_sine), cosine = std::sqrt(1 - squared_sine);
       const double slope = sine / cosine;
       double low_a = 0, high_b = 0;
-      const double top_a = project(other_normal_, a, heights_a_, low_a);
-      const double bottom_b = -project(-other_normal_, b, heights_b_, high_b);
+      const double top_a = project(other_normal_, a.shape, heights_a_, low_a);
+      const double bottom_b = -project(-other_normal_, b.shape, heights_b_, high_b);
       // Axes near the opposite direction would have to push a and b through each other.
       if (cosine * (-high_b - low_a) - sine * size >= depth) {
         pick(of_a, heights_a_, top_a - slope * of_a.diameter, edges_of_a_);
@@ -215,7 +213,7 @@ class FacePair3 {
       }
     }
     if (clip_.size() > 0) {
-      near(i, j, a, b, depth);
+      near(a, b, depth);
     } else {
       all(of_a, edges_of_a_);
       all(of_b, edges_of_b_);
@@ -229,7 +227,8 @@ class FacePair3 {
   /// entered least are looked at. If the shapes are apart, although no face says so, the axis
   /// wanted is that of two edges as near as the shapes are, and these are within `depth` too, for
   /// so far below the reference face there is a point of the clipped one.
-  void near(std::size_t i, std::size_t j, const Shape& a, const Shape& b, double depth) {
+  void near(const LinkedShape& linked_a, const LinkedShape& linked_b, double depth) {
+    const Shape &a = linked_a.shape, &b = linked_b.shape;
     alignas(32) std::array<double, lane_count> x, y, z, limit_a, limit_b;
     const std::size_t half = std::max(a.face_stride(), b.face_stride());
     for (std::size_t side = 0; side < 2; ++side) {
@@ -261,14 +260,15 @@ class FacePair3 {
       return nx * Lanes::all(shape.vertices(0)[k]) + ny * Lanes::all(shape.vertices(1)[k]) +
              nz * Lanes::all(shape.vertices(2)[k]);
     };
-    scores_.resize(lane_count * std::max(a.vertex_count, b.vertex_count));
+    const std::size_t needed = lane_count * std::max(a.vertex_count, b.vertex_count);
+    if (scores_.size() < needed) scores_.resize(needed);
     const Lanes low = Lanes::load(limit_a.data()), high = Lanes::load(limit_b.data());
     for (std::size_t k = 0; k < a.vertex_count; ++k)
       (score(a, k) - low).store(scores_.data() + lane_count * k);
-    pick_near(shapes_->topology(i), edges_of_a_);
+    pick_near(linked_a.topology, edges_of_a_);
     for (std::size_t k = 0; k < b.vertex_count; ++k)
       (high - score(b, k)).store(scores_.data() + lane_count * k);
-    pick_near(shapes_->topology(j), edges_of_b_);
+    pick_near(linked_b.topology, edges_of_b_);
   }
 
   /// n . x of all vertices. @return the largest; `low`: the smallest [m]
@@ -289,32 +289,28 @@ class FacePair3 {
 
   /// The edges with both ends at `floor` or above.
   static void pick(const Topology& topology, const std::vector<double>& heights, double floor,
-                   std::vector<std::uint16_t>& list) {
-    list.resize(topology.edges.size());
-    std::size_t count = 0;
+                   EdgeList& list) {
+    list.start(topology.edges.size());
+    const double* const height = heights.data();
     for (std::size_t k = 0; k < topology.edges.size(); ++k) {
       const Topology::Edge& edge = topology.edges[k];
-      list[count] = static_cast<std::uint16_t>(k);
-      count += static_cast<std::size_t>(std::min(heights[edge.from], heights[edge.to]) >= floor);
+      list.add_if(k, std::min(height[edge.from], height[edge.to]) >= floor);
     }
-    list.resize(count);
   }
-  static void all(const Topology& topology, std::vector<std::uint16_t>& list) {
-    list.resize(topology.edges.size());
-    for (std::size_t k = 0; k < list.size(); ++k) list[k] = static_cast<std::uint16_t>(k);
+  static void all(const Topology& topology, EdgeList& list) {
+    list.start(topology.edges.size());
+    for (std::size_t k = 0; k < topology.edges.size(); ++k) list.add_if(k, true);
   }
   /// The edges with a point that is near enough to each of the four planes.
-  void pick_near(const Topology& topology, std::vector<std::uint16_t>& list) const {
-    list.resize(topology.edges.size());
-    std::size_t count = 0;
+  void pick_near(const Topology& topology, EdgeList& list) const {
+    list.start(topology.edges.size());
+    const double* const score = scores_.data();
     for (std::size_t k = 0; k < topology.edges.size(); ++k) {
       const Topology::Edge& edge = topology.edges[k];
-      list[count] = static_cast<std::uint16_t>(k);
-      const Lanes highest = max(Lanes::load(scores_.data() + lane_count * edge.from),
-                                Lanes::load(scores_.data() + lane_count * edge.to));
-      count += static_cast<std::size_t>(highest.smallest() >= 0);
+      const Lanes highest = max(Lanes::load(score + lane_count * edge.from),
+                                Lanes::load(score + lane_count * edge.to));
+      list.add_if(k, highest.smallest() >= 0);
     }
-    list.resize(count);
   }
 
   const PlacedShapes<3>* shapes_;
@@ -327,7 +323,7 @@ class FacePair3 {
   Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero(), other_normal_ = Vec3::Zero(),
        deepest_ = Vec3::Zero();
   std::vector<Vec3> polygon_;
-  std::vector<std::uint16_t> edges_of_a_, edges_of_b_;
+  EdgeList edges_of_a_, edges_of_b_;
   std::vector<double> separations_, heights_, heights_a_, heights_b_, scores_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -58,7 +59,8 @@ class LeastExcess {
         solution_[Dim] = worst.excess;
         return;
       }
-      const bool done = worst.excess <= excess() + tolerance ||
+      // An active plane is beyond s by a rounding only.
+      const bool done = worst.excess <= excess() + tolerance || is_active(worst.plane) ||
                         (until == Until::sign && excess() > 0 && walls_ == 0);
       if (done && exact_) return;
       if (done)
@@ -96,6 +98,9 @@ class LeastExcess {
     rows_.row(k) = row_of(plane).transpose();
     sides_[k] = planes_->room_of(plane);
     active_[static_cast<std::size_t>(k)] = static_cast<std::uint16_t>(plane);
+  }
+  [[nodiscard]] bool is_active(std::size_t plane) const {
+    return std::find(active_.begin(), active_.end(), plane) != active_.end();
   }
   /// Of active plane k in the convex combination that is 0.
   [[nodiscard]] double weight(int k) const { return -inverse_(Dim, k); }
@@ -169,7 +174,7 @@ class LeastExcess {
   [[nodiscard]] PlaneExcess first_above(double bound) const {
     for (std::size_t plane = 0; plane < planes_->count(); ++plane)
       if (const double excess = planes_->normal_of(plane).dot(point()) - planes_->room_of(plane);
-          excess > bound)
+          excess > bound && !is_active(plane))
         return {plane, excess};
     return largest();
   }
