@@ -160,6 +160,23 @@ TEST_SUITE("geometry/joint_plane") {
     CHECK_FALSE(flat.above);
   }
 
+  TEST_CASE("a plane through corners divides a joint at them") {
+    const JointPlane square = joint_rectangle({0, 0, 3}, {1, 0, 0}, {0, 1, 0});
+    const JointPlaneSplit halves =
+        split(square, HalfSpace<3>::through({0, 0, 0}, Vec3(1, -1, 0.0).normalized()), 1e-9);
+    REQUIRE((halves.below && halves.above));
+    for (const JointPlane& half : {*halves.below, *halves.above}) {
+      CHECK(half.corners.size() == 3);
+      CHECK(std::abs(half.area() - 2) < 1e-15);
+    }
+    // Through one corner and the middle of a side.
+    const JointPlaneSplit parts =
+        split(square, HalfSpace<3>::through({-1, -1, 0}, Vec3(1, -2, 0).normalized()), 1e-9);
+    REQUIRE((parts.below && parts.above));
+    CHECK(std::abs(parts.below->area() - 3) < 1e-15);
+    CHECK(std::abs(parts.above->area() - 1) < 1e-15);
+  }
+
   TEST_CASE("a joint without end covers any ball, and stays in its plane") {
     Random random(3);
     for (int trial = 0; trial < 50; ++trial) {

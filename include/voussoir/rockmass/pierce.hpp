@@ -2,11 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
-#include <voussoir/geometry/convex_polygon.hpp>
-#include <voussoir/geometry/segment.hpp>
+#include <voussoir/geometry/line_clip.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {
@@ -21,45 +19,15 @@ struct Passage {
 /// tolerance over the sine of the angle at which the line meets the face.
 inline constexpr double same_point = 10;
 
-namespace detail {
-
-/// Clips the line to a convex polygon. A line along a face is taken to run a hair to its left, so
-/// that every point of a bolt along a joint, or through a vertex, belongs to exactly one body.
-[[nodiscard]] inline bool clip(const Segment& line, const ConvexPolygon& shape, double tolerance,
-                               double& from, double& to) {
-  const double length = line.length();
-  const Vec2 direction = (line.end - line.start) / length, left = perpendicular(direction);
-  from = 0;
-  to = length;
-  for (std::size_t k = 0; k < shape.size(); ++k) {
-    const HalfSpace<2> side = shape.half_space(k);
-    const double here = side.distance(line.start), there = side.distance(line.end);
-    if (std::abs(here) <= tolerance && std::abs(there) <= tolerance) {
-      if (side.normal.dot(left) > 0) return false;
-      continue;
-    }
-    if (here >= -tolerance && there >= -tolerance) return false;
-    if (here * there >= 0) continue;
-    const double t = length * here / (here - there);
-    if (here < 0) {
-      to = std::min(to, t);
-    } else {
-      from = std::max(from, t);
-    }
-  }
-  return to - from > tolerance;
-}
-
-}  // namespace detail
-
 /// The bodies that a straight line runs through, in the order of their distance from its start.
 ///
 /// Passages through several parts of one body are joined. Gaps (outside the domain, inside an
-/// opening) simply do not appear.
+/// opening) simply do not appear. A line along a joint belongs to one side of it, see `clip`.
 ///
 /// @cost  one bounding test per body
 template <class Geometry>
-[[nodiscard]] std::vector<Passage> pierce(const RockMass<Geometry>& mass, const Segment& line) {
+[[nodiscard]] std::vector<Passage> pierce(const RockMass<Geometry>& mass,
+                                          const typename Geometry::Line& line) {
   const double tolerance = mass.domain.tolerance();
   const auto low = line.start.cwiseMin(line.end).eval(),
              high = line.start.cwiseMax(line.end).eval();
@@ -75,7 +43,7 @@ template <class Geometry>
           (part_high.array() < low.array() - tolerance).any())
         continue;
       double from = 0, to = 0;
-      if (detail::clip(line, part, tolerance, from, to))
+      if (clip(line, part, tolerance, from, to))
         passages.push_back({static_cast<int>(b), from, to});
     }
   }

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/pierce.hpp>
@@ -28,7 +30,7 @@ struct Scanline {
 
 /// Adds what the line meets to `found`.
 template <class Geometry>
-void scan(const RockMass<Geometry>& mass, const Segment& line, Scanline& found) {
+void scan(const RockMass<Geometry>& mass, const typename Geometry::Line& line, Scanline& found) {
   const std::vector<Passage> passages = pierce(mass, line);
   for (std::size_t k = 0; k < passages.size(); ++k) {
     found.length += passages[k].to - passages[k].from;
@@ -41,7 +43,8 @@ void scan(const RockMass<Geometry>& mass, const Segment& line, Scanline& found) 
 /// Mean joint spacing along a scanline: length inside the rock / number of joints crossed [m].
 /// Infinite when no joint is crossed.
 template <class Geometry>
-[[nodiscard]] double scanline_spacing(const RockMass<Geometry>& mass, const Segment& line) {
+[[nodiscard]] double scanline_spacing(const RockMass<Geometry>& mass,
+                                      const typename Geometry::Line& line) {
   Scanline found;
   scan(mass, line, found);
   return found.spacing();
@@ -58,6 +61,28 @@ template <class Geometry>
     scan(mass, {centre + inner * out, centre + (inner + length) * out}, found);
   }
   return found.spacing();
+}
+
+/// Area of joints per volume of rock, P32 [m^2/m^3]; in a section their length per area, P21.
+///
+/// Counted are the faces that joints made, two to a joint: what slicing has made of the joints,
+/// which it lengthens to the ends of the blocks they reach and leaves out where limits say so.
+/// @param set  joints of this set only
+/// @cost  linear in the faces
+template <class Geometry>
+[[nodiscard]] double joint_intensity(const RockMass<Geometry>& mass, std::optional<int> set = {}) {
+  double faces = 0, rock = 0;
+  for (const auto& body : mass.bodies) {
+    rock += body.properties.measure;
+    for (const auto& part : body.parts)
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const Cut& cut = mass.cuts[static_cast<std::size_t>(part.cut(k))];
+        if (cut.kind == Cut::Kind::joint &&
+            (!set || mass.joints[static_cast<std::size_t>(cut.source)].set == *set))
+          faces += part.face(k).measure();
+      }
+  }
+  return 0.5 * faces / rock;
 }
 
 /// Distribution of block sizes.
@@ -88,5 +113,39 @@ template <class Geometry>
   result.mean /= static_cast<double>(sizes.size());
   return result;
 }
+
+/// Which part of the rock lies in blocks up to which size: the grading curve of the rock mass.
+/// Weighted by size, so that many small blocks do not hide the large ones.
+class BlockSizeCurve {
+ public:
+  /// @throws InvalidInput  no body
+  template <class Geometry>
+  explicit BlockSizeCurve(const RockMass<Geometry>& mass) {
+    if (mass.bodies.empty()) throw InvalidInput("block size curve: needs at least one block");
+    for (const auto& body : mass.bodies) sizes_.push_back(body.properties.measure);
+    std::sort(sizes_.begin(), sizes_.end());
+    double sum = 0;
+    for (const double size : sizes_) passing_.push_back(sum += size);
+    for (double& part : passing_) part /= sum;
+  }
+
+  /// All block sizes, ascending [m^2] or [m^3].
+  [[nodiscard]] const std::vector<double>& sizes() const { return sizes_; }
+  /// Part of the rock in blocks up to and including each of them: from 0 to 1 [-].
+  [[nodiscard]] const std::vector<double>& passing() const { return passing_; }
+
+  /// The smallest block size up to which blocks make the given part of the rock: V50 is
+  /// `size_at(0.5)` [m^2] or [m^3].
+  /// @throws InvalidInput  a part outside 0 to 1
+  [[nodiscard]] double size_at(double part) const {
+    require(part >= 0 && part <= 1, "part of the rock", part, "0 to 1");
+    const auto found = std::lower_bound(passing_.begin(), passing_.end(), part);
+    const auto last = static_cast<std::ptrdiff_t>(sizes_.size()) - 1;
+    return sizes_[static_cast<std::size_t>(std::min(found - passing_.begin(), last))];
+  }
+
+ private:
+  std::vector<double> sizes_, passing_;
+};
 
 }  // namespace voussoir

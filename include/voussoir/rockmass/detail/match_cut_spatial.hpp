@@ -141,9 +141,10 @@ class CutOverlay {
     SpatialFacet facet;
     facet.vertices.reserve(inside_.size());
     for (Corner& corner : inside_) {
-      for (const Corner& of_clip : clip)
-        if ((corner.flat - of_clip.flat).squaredNorm() <= tolerance * tolerance)
-          corner.point = of_clip.point;
+      for (const FlatFace* face : {&under, &over})
+        for (const Corner& given : corners(*face))
+          if ((corner.flat - given.flat).squaredNorm() <= tolerance * tolerance)
+            corner.point = given.point;
       if (facet.vertices.empty() || facet.vertices.back() != corner.point)
         facet.vertices.push_back(corner.point);
     }
