@@ -23,7 +23,8 @@ class FacePair2 {
   /// The face that decided last time. It saves time and never changes an answer.
   struct Memory {
     std::uint16_t face = 0;
-    std::uint8_t side = 0;  ///< 0: a face of a, 1: a face of b
+    std::uint16_t edge = 0;  ///< of the other shape, facing it
+    std::uint8_t side = 0;   ///< 0: a face of a, 1: a face of b
     bool apart = true;
   };
 
@@ -39,12 +40,23 @@ class FacePair2 {
 
   [[nodiscard]] Contact<2> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
     const PlacedShape<2> shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
+    Memory guess = memory;
     const double separation = find_axis(shape_a, shape_b, reach, memory);
     Contact<2> found;
     if (!(separation <= reach)) return found;
     found.separation = separation;
     const bool of_a = memory.side == 0;
-    clip(of_a ? shape_a : shape_b, of_a ? shape_b : shape_a, memory, reach, found);
+    const PlacedShape<2>&p = of_a ? shape_a : shape_b, &q = of_a ? shape_b : shape_a;
+    memory.edge = facing_edge(q, p.normal(memory.face));
+    // Almost always all is as it was. The processor foresees that, and clips what was remembered
+    // while it still looks for the axis.
+    if (memory.face == guess.face && memory.edge == guess.edge && memory.side == guess.side) {
+      opaque(guess);
+      const bool was_of_a = guess.side == 0;
+      clip(was_of_a ? shape_a : shape_b, was_of_a ? shape_b : shape_a, guess, reach, found);
+    } else {
+      clip_anew(p, q, memory, reach, found);
+    }
     return found;
   }
 
@@ -67,9 +79,13 @@ class FacePair2 {
     Lanes best = Lanes::all(-std::numeric_limits<double>::infinity());
     for (std::size_t group = 0; group < p.face_stride(); group += lane_count) {
       const Lanes nx = Lanes::load(p.normals(0) + group), ny = Lanes::load(p.normals(1) + group);
-      Lanes low = nx * Lanes::all(x[0]) + ny * Lanes::all(y[0]);
-      for (std::size_t k = 1; k < q.vertex_count; ++k)
-        low = min(low, nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]));
+      const auto along = [&](std::size_t k) {
+        return nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]);
+      };
+      // By whole groups: how many vertices there are is then seldom a surprise to the processor.
+      Lanes low = min(min(along(0), along(1)), min(along(2), along(3)));
+      for (std::size_t k = lane_count; k < q.vertex_stride(); k += lane_count)
+        low = min(low, min(min(along(k), along(k + 1)), min(along(k + 2), along(k + 3))));
       low = low - Lanes::load(p.offsets() + group);
       low.store(separations + group);
       best = max(best, low);
@@ -109,7 +125,7 @@ class FacePair2 {
             Contact<2>& found) {
     const std::size_t face = axis.face, next = following(face, p.vertex_count);
     const Vec2 normal = p.normal(face), along = perpendicular(normal), origin = p.vertex(face);
-    const std::size_t edge = facing_edge(q, normal);
+    const std::size_t edge = axis.edge;
     // From `low` to `high` the coordinate along the face rises; s is the fraction of the way.
     const Vec2 low = q.vertex(following(edge, q.vertex_count));
     const Vec2 span = q.vertex(edge) - low;
@@ -131,18 +147,32 @@ class FacePair2 {
     found.polygon = ends_;
   }
 
-  /// Of the two edges at the vertex deepest under `normal`, the one that faces it.
-  [[nodiscard]] static std::size_t facing_edge(const PlacedShape<2>& q, const Vec2& normal) {
-    const double *x = q.vertices(0), *y = q.vertices(1);
-    std::size_t deepest = 0;
-    double depth = normal.x() * x[0] + normal.y() * y[0];
-    for (std::size_t k = 1; k < q.vertex_stride(); ++k) {
-      const double d = normal.x() * x[k] + normal.y() * y[k];
-      deepest = d < depth ? k : deepest;
-      depth = std::min(d, depth);
+  void clip_anew(const PlacedShape<2>& p, const PlacedShape<2>& q, const Memory& axis, double reach,
+                 Contact<2>& found) {
+    clip(p, q, axis, reach, found);
+  }
+
+  /// Hides from the compiler that a value is known.
+  static void opaque(Memory& memory) {
+#if defined(__GNUC__)
+    asm("" : "+m"(memory));
+#else
+    (void)memory;
+#endif
+  }
+
+  /// The edge of q that faces `normal` most squarely: one of the two at the deepest vertex, for the
+  /// normals of a polygon go round in order and the opposite of `normal` lies between theirs.
+  [[nodiscard]] static std::uint16_t facing_edge(const PlacedShape<2>& q, const Vec2& normal) {
+    const double *x = q.normals(0), *y = q.normals(1);
+    std::size_t facing = 0;
+    double cosine = normal.x() * x[0] + normal.y() * y[0];
+    for (std::size_t k = 1; k < q.face_stride(); ++k) {
+      const double c = normal.x() * x[k] + normal.y() * y[k];
+      facing = c < cosine ? k : facing;
+      cosine = std::min(c, cosine);
     }
-    const std::size_t before = (deepest == 0 ? q.vertex_count : deepest) - 1;
-    return normal.dot(q.normal(before)) < normal.dot(q.normal(deepest)) ? before : deepest;
+    return static_cast<std::uint16_t>(facing);
   }
 
   /// Without a branch.

@@ -117,9 +117,13 @@ class FacePair3 {
     for (std::size_t group = 0; group < p.face_stride(); group += lane_count) {
       const Lanes nx = Lanes::load(p.normals(0) + group), ny = Lanes::load(p.normals(1) + group),
                   nz = Lanes::load(p.normals(2) + group);
-      Lanes low = nx * Lanes::all(x[0]) + ny * Lanes::all(y[0]) + nz * Lanes::all(z[0]);
-      for (std::size_t k = 1; k < q.vertex_count; ++k)
-        low = min(low, nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]) + nz * Lanes::all(z[k]));
+      const auto project = [&](std::size_t k) {
+        return nx * Lanes::all(x[k]) + ny * Lanes::all(y[k]) + nz * Lanes::all(z[k]);
+      };
+      // By whole groups: how many vertices there are is then seldom a surprise to the processor.
+      Lanes low = min(min(project(0), project(1)), min(project(2), project(3)));
+      for (std::size_t k = lane_count; k < q.vertex_stride(); k += lane_count)
+        low = min(low, min(min(project(k), project(k + 1)), min(project(k + 2), project(k + 3))));
       low = low - Lanes::load(p.offsets() + group);
       low.store(separations + group);
       best = max(best, low);
