@@ -71,7 +71,8 @@ struct MassProperties {
     Vec3 b = arm(1);
     for (std::size_t i = 2; i < loop.size(); ++i) {
       const Vec3 c = arm(i), sum = a + b + c;
-      const double tetrahedron = a.dot(cross(b, c)) / 6.0;
+      // Edges, not arms: of a needle one is short, and the product is exact to its own size.
+      const double tetrahedron = a.dot(cross(b - a, c - b)) / 6.0;
       volume += tetrahedron;
       first_moment += tetrahedron / 4.0 * sum;
       second += tetrahedron / 20.0 *

@@ -65,7 +65,7 @@ struct SpatialFacet {
     double xx = 0, xy = 0, yy = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
       const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double share = normal.dot(cross(a, b)) / (2 * area) / 12;
+      const double share = normal.dot(cross(a, b - a)) / (2 * area) / 12;
       const double ax = a.dot(first), ay = a.dot(second), bx = b.dot(first), by = b.dot(second);
       const double sx = ax + bx, sy = ay + by;
       xx += share * (ax * ax + bx * bx + sx * sx);
@@ -92,7 +92,7 @@ struct SpatialFacet {
     double weight = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
       const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double doubled = normal.dot(cross(a, b));
+      const double doubled = normal.dot(cross(a, b - a));
       weight += doubled;
       sum += doubled / 3.0 * (a + b);
     }

@@ -19,20 +19,17 @@ using TangentBasis = Eigen::Matrix<double, Dim, Dim - 1>;
 ///
 /// @param normal  of unit length
 ///
-/// A mirror carries a fixed unit vector s to -normal, hence the two tangents of s to tangents of
-/// the normal; a mirror is orthogonal to rounding whatever the normal.
+/// The mirror that carries a fixed unit vector s to -normal carries a tangent of s to a tangent of
+/// the normal. Near -s the mirror itself is known badly; made perpendicular again, the tangent is
+/// exact everywhere.
 [[nodiscard]] inline TangentBasis<3> tangent_basis(const Vec<3>& normal) {
-  const Vec3 s(2.0 / 7, 3.0 / 7, 6.0 / 7);                                   // exact unit vector:
-  const Vec3 u(6.0 / 7, 2.0 / 7, -3.0 / 7), v(-3.0 / 7, 6.0 / 7, -2.0 / 7);  // 4 + 9 + 36 = 49
+  const Vec3 s(2.0 / 7, 3.0 / 7, 6.0 / 7), u(6.0 / 7, 2.0 / 7, -3.0 / 7);  // 4 + 9 + 36 = 49
   const Vec3 h = s + normal;
   const double length_squared = h.squaredNorm();
+  Vec3 first = length_squared > 0 ? Vec3(u - (2 * h.dot(u) / length_squared) * h) : u;
+  first = (first - normal.dot(first) * normal).normalized();
   TangentBasis<3> basis;
-  if (!(length_squared > 0)) {
-    basis << v, u;
-    return basis;
-  }
-  const double scale = 2 / length_squared;
-  basis << u - (scale * h.dot(u)) * h, v - (scale * h.dot(v)) * h;
+  basis << first, cross(normal, first);
   return basis;
 }
 

@@ -73,7 +73,7 @@ template <class Corner>
   Vec3 previous = corner(1) - origin;
   for (std::size_t k = 2; k < count; ++k) {
     const Vec3 next = corner(k) - origin;
-    sum += cross(previous, next);
+    sum += cross(previous, next - previous);  // the edge: exact to its own size, if short
     previous = next;
   }
   return sum;
