@@ -3,6 +3,7 @@
 
 #include <type_traits>
 #include <voussoir/core/roles.hpp>
+#include <voussoir/detection/detail/contact_facets.hpp>
 #include <voussoir/detection/detail/face_pair_2d.hpp>
 #include <voussoir/detection/detail/face_pair_3d.hpp>
 #include <voussoir/detection/detail/lanes.hpp>
@@ -31,6 +32,15 @@ struct FaceContacts {
   /// `Memory` keeps, per pair, what decided last time. It never changes an answer, only its cost.
   template <int Dim, class Lanes = detail::VectorLanes>
   using Pair = std::conditional_t<Dim == 2, detail::FacePair2<Lanes>, detail::FacePair3<Lanes>>;
+
+  /// The contacts of a rock mass as it lies, found by search: what CutContacts knows from the cuts.
+  ///
+  /// Faces nearer than some tolerances of the domain touch. Blocks that share no more than an edge
+  /// or a corner do not.
+  template <class Mass>
+  [[nodiscard]] static auto find(const Mass& mass) {
+    return detail::contact_facets<FaceContacts>(mass);
+  }
 };
 
 }  // namespace voussoir

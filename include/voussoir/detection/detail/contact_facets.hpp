@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+#include <voussoir/detection/contact_search.hpp>
+#include <voussoir/geometry/contact_facet.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+
+namespace voussoir::detail {
+
+template <class Mass>
+struct GeometryOf;
+template <template <class> class Mass, class Geometry>
+struct GeometryOf<Mass<Geometry>> {
+  using type = Geometry;
+};
+
+/// The contacts between the bodies of a mass, each part of a body a shape of its own.
+template <class Detector, class Mass>
+[[nodiscard]] auto contact_facets(const Mass& mass) {
+  using Geometry = typename GeometryOf<Mass>::type;
+  constexpr int dim = Geometry::dim;
+  PlacedShapes<dim> shapes;
+  std::vector<int> body_of;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    for (const auto& part : mass.bodies[b].parts) {
+      shapes.add(part, mass.bodies[b].properties.centroid);
+      body_of.push_back(static_cast<int>(b));
+    }
+  // Welded vertices of one place differ by nothing, planes through them by roundings.
+  const double reach = 10 * mass.domain.tolerance();
+  ContactSearch<Detector, dim> search(reach, 0);
+  const ContactList<dim>& found = search.run(shapes);
+  std::vector<ContactFacet<Geometry>> facets;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const int a = body_of[found[k].a], b = body_of[found[k].b];
+    if (a == b) continue;
+    const auto polygon = found.polygon(k);
+    double outline = 0;
+    for (std::size_t p = 0; p < polygon.size(); ++p)
+      outline += (polygon[p] - polygon[p == 0 ? polygon.size() - 1 : p - 1]).norm();
+    if constexpr (dim == 2) {
+      if (found[k].measure <= reach) continue;
+      facets.push_back({a, b, {polygon[0], polygon[1]}});
+    } else {
+      if (found[k].measure <= reach * outline) continue;
+      facets.push_back({a, b, {{polygon.begin(), polygon.end()}}});
+    }
+  }
+  return facets;
+}
+
+}  // namespace voussoir::detail

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+
+namespace voussoir {
+
+/// A box whose sides are parallel to the axes.
+template <int Dim>
+struct Box {
+  Vec<Dim> low, high;  ///< corners [m]
+
+  [[nodiscard]] bool meets(const Box& other, double margin) const {
+    return (low.array() <= other.high.array() + margin).all() &&
+           (other.low.array() <= high.array() + margin).all();
+  }
+  [[nodiscard]] bool contains(const Box& other) const {
+    return (low.array() <= other.low.array()).all() && (high.array() >= other.high.array()).all();
+  }
+};
+
+template <int Dim>
+[[nodiscard]] Box<Dim> bounding_box(const PlacedShape<Dim>& shape) {
+  Box<Dim> box;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double* const x = shape.vertices(axis);
+    box.low[axis] = *std::min_element(x, x + shape.vertex_count);
+    box.high[axis] = *std::max_element(x, x + shape.vertex_count);
+  }
+  return box;
+}
+
+/// The broad phase: pairs of shapes that are near each other, kept until shapes have moved.
+///
+/// Every pair whose boxes are nearer than `reach` is in the list, and others that may come so near
+/// soon: boxes are enlarged by half the margin, and the list holds good until one leaves its
+/// enlarged box. Boxes are found in a grid of cells about as large as they are.
+///
+/// Within a pair the shape whose box lies lower in x (then y, z) comes first, so that what is
+/// computed from a pair does not depend on how shapes are numbered.
+template <int Dim>
+class NeighbourList {
+ public:
+  struct Pair {
+    std::uint32_t a, b;
+    friend bool operator==(const Pair&, const Pair&) = default;
+  };
+
+  /// @param margin  how much nearer two shapes may come before the list is made anew [m], >= 0
+  /// @param reach   how far apart the boxes of a wanted pair may be [m], >= 0
+  explicit NeighbourList(double margin, double reach = 0) : margin_(margin), reach_(reach) {
+    require(margin >= 0 && std::isfinite(margin), "margin of the neighbour list", margin, ">= 0 m");
+    require(reach >= 0 && std::isfinite(reach), "reach of the neighbour list", reach, ">= 0 m");
+  }
+
+  /// @return  true if the list was made anew
+  /// @throws InvalidInput  a shape has a coordinate that is not finite
+  /// @cost    O(vertices) where it still holds; O(shapes) to make it, for shapes of like size
+  bool update(const PlacedShapes<Dim>& shapes) {
+    bool holds = boxes_.size() == shapes.size();
+    for (std::size_t k = 0; holds && k < shapes.size(); ++k)
+      holds = boxes_[k].contains(bounding_box(shapes[k]));
+    if (holds) return false;
+    make(shapes);
+    return true;
+  }
+
+  /// Ordered by the smaller number, then the larger.
+  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+
+ private:
+  using Cell = std::array<std::int64_t, Dim>;
+  struct Entry {
+    Cell cell;
+    std::uint32_t shape;
+    friend auto operator<=>(const Entry&, const Entry&) = default;
+  };
+
+  void make(const PlacedShapes<Dim>& shapes) {
+    boxes_.clear();
+    Vec<Dim> extent = Vec<Dim>::Zero();
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      Box<Dim> box = bounding_box(shapes[k]);
+      if (!(box.low.allFinite() && box.high.allFinite()))
+        throw InvalidInput("neighbour list: shape " + std::to_string(k) +
+                           " has a coordinate that is not finite");
+      extent += box.high - box.low;
+      box.low.array() -= 0.5 * margin_;
+      box.high.array() += 0.5 * margin_;
+      boxes_.push_back(box);
+    }
+    pairs_.clear();
+    if (boxes_.empty()) return;
+    // Cells as large as the mean box; larger while large boxes fill too many of them.
+    origin_ = boxes_.front().low;
+    size_ = extent / static_cast<double>(boxes_.size()) + Vec<Dim>::Constant(margin_ + reach_);
+    size_ = size_.cwiseMax(1e-3 * size_.maxCoeff());
+    if (!(size_.maxCoeff() > 0)) size_.setOnes();
+    while (entries_needed() > 32.0 * static_cast<double>(boxes_.size())) size_ *= 2;
+    std::vector<Entry> entries;
+    for (std::size_t k = 0; k < boxes_.size(); ++k) {
+      const Cell low = cell_of(boxes_[k].low.array() - 0.5 * reach_);
+      const Cell high = cell_of(boxes_[k].high.array() + 0.5 * reach_);
+      for (Cell cell = low;;) {
+        entries.push_back({cell, static_cast<std::uint32_t>(k)});
+        int axis = 0;
+        while (axis < Dim && cell[index(axis)] == high[index(axis)]) {
+          cell[index(axis)] = low[index(axis)];
+          ++axis;
+        }
+        if (axis == Dim) break;
+        ++cell[index(axis)];
+      }
+    }
+    std::sort(entries.begin(), entries.end());
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j)
+        add(entries[i].shape, entries[j].shape, entries[i].cell);
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
+      return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
+    });
+  }
+
+  /// Adds the pair if its boxes meet, and if this cell is the first they have in common.
+  void add(std::uint32_t i, std::uint32_t j, const Cell& cell) {
+    const Box<Dim>&a = boxes_[i], &b = boxes_[j];
+    if (!a.meets(b, reach_)) return;
+    if (cell_of(a.low.cwiseMax(b.low).array() - 0.5 * reach_) != cell) return;
+    bool swap = false;
+    for (int axis = Dim; axis-- > 0;)
+      if (a.low[axis] != b.low[axis]) swap = a.low[axis] > b.low[axis];
+    pairs_.push_back(swap ? Pair{j, i} : Pair{i, j});
+  }
+
+  [[nodiscard]] double entries_needed() const {
+    double sum = 0;
+    for (const Box<Dim>& box : boxes_)
+      sum += ((box.high - box.low).array() / size_.array() + 2.0).prod();
+    return sum;
+  }
+  [[nodiscard]] Cell cell_of(const Vec<Dim>& point) const {
+    Cell cell;
+    for (int axis = 0; axis < Dim; ++axis)
+      cell[index(axis)] =
+          static_cast<std::int64_t>(std::floor((point[axis] - origin_[axis]) / size_[axis]));
+    return cell;
+  }
+  [[nodiscard]] static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
+
+  double margin_, reach_;
+  Vec<Dim> origin_ = Vec<Dim>::Zero(), size_ = Vec<Dim>::Ones();
+  std::vector<Box<Dim>> boxes_;  ///< enlarged
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace voussoir
