@@ -2,7 +2,8 @@
 // One table of all libraries, from one run:
 //   contact_table [--dir FOLDER] [--budget SECONDS per query] [--rounds N] [--only PART OF LABEL]
 // Runs every `contact_peers_*` that lies beside it, one after the other, N times round, and prints
-// Markdown. What is missing in FOLDER is written first, by `contact_workloads`.
+// Markdown: a summary, then all queries. What is missing in FOLDER is written first, by
+// `contact_workloads`.
 #include <stdio.h>  // popen, of POSIX
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,7 +56,8 @@ struct Row {
 };
 
 /// By workload, then in the order in which the programs spoke first.
-using Table = std::map<std::string, std::vector<std::pair<std::string, Row>>>;
+using Rows = std::vector<std::pair<std::string, Row>>;
+using Table = std::map<std::string, Rows>;
 
 void read(const std::string& command, int round, Table& table) {
   std::fprintf(stderr, "round %d: %s\n", round + 1, command.c_str());
@@ -98,7 +101,73 @@ std::optional<double> ratio(const Row& row, const Row& measure) {
   return *middle;
 }
 
-void print(const std::string& workload, std::vector<std::pair<std::string, Row>> rows) {
+const Row* measure_of(const Rows& rows) {
+  for (const auto& [key, row] : rows)
+    if (is_measure(row.accuracy)) return &row;
+  return nullptr;
+}
+
+std::string formatted(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string ratio_text(const Row& row, const Row* measure) {
+  const auto value = measure != nullptr ? ratio(row, *measure) : std::nullopt;
+  return value ? formatted("%.2f", *value) : "";
+}
+
+std::string built(const Line& line) {
+  const std::string build = line.text("build");
+  return build.rfind("O2-", 0) == 0 ? "plain -O2" : build == "O3-native" ? "native -O3" : build;
+}
+
+std::string described(const Line& line) {
+  return line.text("peer") + ", " + line.text("op") + " | " + line.text("precision") + ", " +
+         (line.number("warm") > 0 ? "warm" : "cold") + " | " + built(line);
+}
+
+/// True for the most that a library gives: its manifold, else its depth.
+bool is_fullest(const Line& line) {
+  const std::string peer = line.text("peer"), operation = line.text("op");
+  const bool has_manifold = peer.rfind("libccd", 0) != 0 && peer.rfind("FCL", 0) != 0;
+  return operation == (has_manifold ? "manifold" : "depth");
+}
+
+/// The fullest answers on the two workloads of one dimension, one line for each library.
+void print_summary(const Table& table, const std::string& name) {
+  const auto near = table.find(name), deep = table.find(name + "deep");
+  if (near == table.end() || deep == table.end()) return;
+  Rows rows;
+  std::copy_if(near->second.begin(), near->second.end(), std::back_inserter(rows),
+               [](const auto& row) { return is_fullest(row.second.accuracy); });
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& p, const auto& q) {
+    return p.second.least() < q.second.least();
+  });
+  std::printf(
+      "\n| query | | built | %s: ns | ratio | %sdeep: ns | ratio | wrong | depth error, m |\n",
+      name.c_str(), name.c_str());
+  std::printf("|---|---|---|---|---|---|---|---|---|\n");
+  for (const auto& row : rows) {
+    const auto other = std::find_if(deep->second.begin(), deep->second.end(),
+                                    [&row](const auto& r) { return r.first == row.first; });
+    if (other == deep->second.end()) continue;
+    double wrong = 0, error = 0;
+    for (const Row* each : {&row.second, &other->second}) {
+      for (const char* key : {"false_pos", "false_neg", "fail"})
+        wrong += each->accuracy.number(key);
+      error = std::max(error, each->accuracy.number("depth_err_max"));
+    }
+    std::printf("| %s | %.0f | %s | %.0f | %s | %.0f | %.1e |\n",
+                described(row.second.accuracy).c_str(), row.second.least(),
+                ratio_text(row.second, measure_of(near->second)).c_str(), other->second.least(),
+                ratio_text(other->second, measure_of(deep->second)).c_str(), wrong, error);
+  }
+}
+
+/// All queries on one workload.
+void print(const std::string& workload, Rows rows) {
   const auto rank = [](const Row& row) {
     const std::string operation = row.accuracy.text("op");
     return operation == "manifold" ? 0 : operation == "depth" ? 1 : 2;
@@ -107,34 +176,19 @@ void print(const std::string& workload, std::vector<std::pair<std::string, Row>>
     return rank(p.second) != rank(q.second) ? rank(p.second) < rank(q.second)
                                             : p.second.least() < q.second.least();
   });
-  const Row* measure = nullptr;
-  for (const auto& [key, row] : rows)
-    if (is_measure(row.accuracy)) measure = &row;
+  const Row* measure = measure_of(rows);
   std::printf("\n### %s\n\n", workload.c_str());
-  if (measure != nullptr)
-    std::printf("`ratio`: to %s, within one round\n\n", measure->accuracy.text("peer").c_str());
   std::printf(
       "| query | | built | ns per pair | ratio | invented / missed | failed | depth error, m | deep wrong by > 10 um |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& [key, row] : rows) {
     const Line& line = row.accuracy;
-    const std::string build = line.text("build");
-    const std::string built = build.rfind("O2-x86", 0) == 0 ? "plain -O2"
-                              : build == "O3-native"        ? "native -O3"
-                                                            : "package";
-    const auto to_measure = measure != nullptr ? ratio(row, *measure) : std::nullopt;
-    char share[32] = "";
-    if (to_measure) std::snprintf(share, sizeof share, "%.2f", *to_measure);
-    char error[32] = "", deep[32] = "";
-    if (line.number("both_touch") > 0) {
-      std::snprintf(error, sizeof error, "%.1e", line.number("depth_err_max"));
-      std::snprintf(deep, sizeof deep, "%.0f", line.number("depth_err_over_10um"));
-    }
-    std::printf("| %s, %s | %s, %s | %s | %.1f (%.1f) | %s | %.0f / %.0f | %.0f | %s | %s |\n",
-                line.text("peer").c_str(), line.text("op").c_str(), line.text("precision").c_str(),
-                line.number("warm") > 0 ? "warm" : "cold", built.c_str(), row.least(), row.most(),
-                share, line.number("false_pos"), line.number("false_neg"), line.number("fail"),
-                error, deep);
+    const bool has_depth = line.number("both_touch") > 0;
+    std::printf("| %s | %.1f (%.1f) | %s | %.0f / %.0f | %.0f | %s | %s |\n",
+                described(line).c_str(), row.least(), row.most(), ratio_text(row, measure).c_str(),
+                line.number("false_pos"), line.number("false_neg"), line.number("fail"),
+                has_depth ? formatted("%.1e", line.number("depth_err_max")).c_str() : "",
+                has_depth ? formatted("%.0f", line.number("depth_err_over_10um")).c_str() : "");
   }
 }
 
@@ -172,8 +226,10 @@ int main(int argc, char** argv) {
                " --only " + in_quotes(only),
            round, table);
   std::printf(
-      "Nanoseconds per candidate pair: least of the medians of %d rounds (greatest in brackets), one thread.\n",
+      "Nanoseconds per candidate pair, one thread: least of the medians of %d rounds (greatest in brackets). `ratio`: to the manifold of Box2D in the plane, of ODE in space, within one round. `wrong`: decisions on both workloads.\n",
       rounds);
+  print_summary(table, "W2");
+  print_summary(table, "W3");
   for (const auto& [workload, rows] : table) print(workload, rows);
   return table.empty() ? 1 : 0;
 }
