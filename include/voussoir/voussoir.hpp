@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The toolkit: everything an analysis in two dimensions needs. Pictures and files (io/) are apart.
+/// The toolkit: everything an analysis in two dimensions needs, and rock masses and contact
+/// detection in three. Pictures and files (io/) are apart.
 
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
@@ -10,12 +11,17 @@
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/detection/analytic_centre.hpp>
+#include <voussoir/detection/contact_search.hpp>
+#include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/explicit.hpp>

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <vector>
 #include <voussoir/core/roles.hpp>
+#include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 
 namespace voussoir {
@@ -19,7 +22,7 @@ concept HasInitialContacts = requires(const Mass& mass) {
 /// not depend on anything but the mass, and the facets of a body cover its faces exactly where it
 /// has neighbours.
 ///
-/// Models: CutContacts (rockmass/cut_contacts.hpp).
+/// Models: CutContacts (rockmass/cut_contacts.hpp), FaceContacts.
 template <class Detector, class Mass, class Geometry>
 concept ContactDetector =
     Fills<Detector, roles::ContactDetector> && HasInitialContacts<Detector, Mass, Geometry>;
@@ -29,6 +32,39 @@ consteval bool explain_contact_detector() {
   static_assert(HasInitialContacts<Detector, Mass, Geometry>,
                 "contact detector: add `static std::vector<ContactFacet<Geometry>> find(const "
                 "RockMass<Geometry>&)`");
+  return true;
+}
+
+template <class Detector, int Dim>
+concept HasPairQueries = requires(const PlacedShapes<Dim>& shapes,
+                                  typename Detector::template Pair<Dim>& pair,
+                                  typename Detector::template Pair<Dim>::Memory& memory,
+                                  std::size_t shape, double reach) {
+  typename Detector::template Pair<Dim>;
+  {typename Detector::template Pair<Dim>(shapes)};
+  requires std::default_initializable<typename Detector::template Pair<Dim>::Memory>;
+  { pair.overlap(shape, shape, memory) } -> std::same_as<bool>;
+  { pair.separation(shape, shape, memory) } -> std::same_as<double>;
+  { pair.contact(shape, shape, memory, reach) } -> std::same_as<Contact<Dim>>;
+};
+
+/// Tells how two shapes touch, wherever they are: the narrow phase of ContactSearch.
+///
+/// What the compiler cannot check: `Memory` changes the cost of an answer, never the answer; the
+/// normal points from the first shape to the second; the polygon stays valid until the next query.
+///
+/// Models: FaceContacts, AnalyticCentre.
+template <class Detector, int Dim>
+concept PairDetector = Fills<Detector, roles::ContactDetector> && HasPairQueries<Detector, Dim>;
+
+template <class Detector, int Dim>
+consteval bool explain_pair_detector() {
+  static_assert(
+      HasPairQueries<Detector, Dim>,
+      "contact search: the detector needs `template <int Dim> class Pair`, made from "
+      "`const PlacedShapes<Dim>&`, with `struct Memory`, `bool overlap(a, b, Memory&)`, "
+      "`double separation(a, b, Memory&)` and `Contact<Dim> contact(a, b, Memory&, double "
+      "reach)`");
   return true;
 }
 

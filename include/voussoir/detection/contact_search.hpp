@@ -10,6 +10,7 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/contact_detector.hpp>
 #include <voussoir/detection/neighbour_list.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -61,8 +62,12 @@ class ContactList {
 ///
 /// The contacts come ordered by shapes, and do not depend on the number of threads; nor, but for
 /// that order, on how the shapes are numbered.
+///
+/// @tparam Detector  FaceContacts, AnalyticCentre or another PairDetector
 template <class Detector, int Dim>
 class ContactSearch {
+  static_assert(explain_pair_detector<Detector, Dim>());
+
  public:
   /// @param reach   contacts may be so far open [m], >= 0
   /// @param margin  see NeighbourList

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 #include <voussoir/detection/contact_search.hpp>
@@ -30,7 +31,7 @@ template <class Detector, class Mass>
       body_of.push_back(static_cast<int>(b));
     }
   // Welded vertices of one place differ by nothing, planes through them by roundings.
-  const double reach = 10 * mass.domain.tolerance();
+  const double tolerance = mass.domain.tolerance(), reach = 10 * tolerance;
   ContactSearch<Detector, dim> search(reach, 0);
   const ContactList<dim>& found = search.run(shapes);
   std::vector<ContactFacet<Geometry>> facets;
@@ -38,14 +39,20 @@ template <class Detector, class Mass>
     const int a = body_of[found[k].a], b = body_of[found[k].b];
     if (a == b) continue;
     const auto polygon = found.polygon(k);
-    double outline = 0;
-    for (std::size_t p = 0; p < polygon.size(); ++p)
+    double outline = 0, low = 0, high = 0;
+    for (std::size_t p = 0; p < polygon.size(); ++p) {
       outline += (polygon[p] - polygon[p == 0 ? polygon.size() - 1 : p - 1]).norm();
+      const double height = found[k].normal.dot(polygon[p] - polygon[0]);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    // Inclined faces that share an edge are within reach along a strip beside it.
+    if (high - low > 0.2 * reach) continue;
     if constexpr (dim == 2) {
-      if (found[k].measure <= reach) continue;
+      if (found[k].measure <= tolerance) continue;
       facets.push_back({a, b, {polygon[0], polygon[1]}});
     } else {
-      if (found[k].measure <= reach * outline) continue;
+      if (2 * found[k].measure <= tolerance * (outline + tolerance)) continue;
       facets.push_back({a, b, {{polygon.begin(), polygon.end()}}});
     }
   }
