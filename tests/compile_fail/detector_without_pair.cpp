@@ -1,4 +1,5 @@
 // expect: contact search: the detector needs `template <int Dim> class Pair`
+// SPDX-License-Identifier: MIT
 #include <voussoir/detection/contact_search.hpp>
 
 struct NoPairs {
