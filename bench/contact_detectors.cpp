@@ -90,7 +90,13 @@ struct AskSeparation {
   template <class Pair>
   static double ask(Pair& detect, const CandidatePair& pair, typename Pair::Memory& memory,
                     Answer* answer) {
-    const double separation = detect.separation(pair.a, pair.b, memory);
+    double separation = 0;
+    // How far apart they are nobody asks.
+    if constexpr (requires { detect.separation(pair.a, pair.b, memory, 0.0); }) {
+      separation = detect.separation(pair.a, pair.b, memory, 0.0);
+    } else {
+      separation = detect.separation(pair.a, pair.b, memory);
+    }
     if (answer) {
       answer->touch = separation < 0;
       answer->has_separation = true;

@@ -25,8 +25,10 @@ struct FaceContacts {
   /// The queries of one pair of shapes; one object per thread, since it holds scratch memory.
   ///
   ///  - `overlap(a, b, memory)`     true if they interpenetrate
-  ///  - `separation(a, b, memory)`  exact [m]; < 0: minus the least penetration depth; > 0: the
-  ///                                largest over the axes, at most the distance
+  ///  - `separation(a, b, memory, enough)`  exact [m]; < 0: minus the least penetration depth; > 0:
+  ///                                the largest over the axes, at most the distance. Shapes that
+  ///                                are further apart than `enough` (default: infinity) may get
+  ///                                any value above it, which is ten times faster
   ///  - `contact(a, b, memory, reach)`  how they touch; Touch::none if further apart than `reach`
   ///
   /// `Memory` keeps, per pair, what decided last time. It never changes an answer, only its cost.

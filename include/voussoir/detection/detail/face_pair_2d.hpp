@@ -34,8 +34,9 @@ class FacePair2 {
     return find_axis((*shapes_)[a], (*shapes_)[b], 0, memory) < 0;
   }
 
-  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
-    return find_axis((*shapes_)[a], (*shapes_)[b], std::numeric_limits<double>::infinity(), memory);
+  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory,
+                                  double enough = std::numeric_limits<double>::infinity()) {
+    return find_axis((*shapes_)[a], (*shapes_)[b], enough, memory);
   }
 
   [[nodiscard]] Contact<2> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {

@@ -45,8 +45,9 @@ class FacePair3 {
     return find_axis(a, b, 0, 0, memory) < 0;
   }
 
-  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
-    return find_axis(a, b, std::numeric_limits<double>::infinity(), 0, memory);
+  [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory,
+                                  double enough = std::numeric_limits<double>::infinity()) {
+    return find_axis(a, b, enough, 0, memory);
   }
 
   [[nodiscard]] Contact<3> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
