@@ -79,4 +79,26 @@ TEST_SUITE("detection/least_excess") {
     }
     CHECK(overlapping > 20);
   }
+
+  TEST_CASE_TEMPLATE("blocks of metres: the filling of the last group of planes is no plane", D,
+                     Dimensions<2>, Dimensions<3>) {
+    constexpr int dim = D::dim;
+    using V = Vec<dim>;
+    // Twice an equilateral triangle, inscribed radius 5 m, or a prism on it that is 20 m high:
+    // 6 planes, or 10, in groups of 4.
+    PlacedShapes<dim> shapes;
+    for (int copy = 0; copy < 2; ++copy) {
+      if constexpr (dim == 2)
+        shapes.add(convex(plain(regular(3, 10))), V::Zero());
+      else
+        shapes.add(convex(prism(regular(3, 10), Vec3(0, 0, 20))), V::Zero());
+    }
+    detail::PlanePair<dim> planes;
+    planes.gather(shapes[0], shapes[1], V::Zero());
+    REQUIRE(planes.padded_count() > planes.count());
+    const detail::LeastExcess<dim> program(planes, 20, detail::no_planes<dim>,
+                                           detail::Until::optimum);
+    CHECK(std::abs(program.excess() + 5) < 2e-14);
+    CHECK(std::abs(planes.smallest_room() - 5) < 2e-14);
+  }
 }
