@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 #include <voussoir/rockmass/orientation.hpp>
 
 using namespace voussoir;
@@ -64,5 +65,18 @@ TEST_SUITE("rockmass/orientation") {
     CHECK(orientation_of(-up).dip == 0);
     CHECK(orientation_of(up).dip_direction == 0);
     CHECK(std::abs(orientation_of(-east).dip - 90 * degree) < 1e-15);
+  }
+
+  TEST_CASE("the mean of normals of either sense, also of upright planes") {
+    for (const double dip : {0.0, 40.0, 88.0, 90.0}) {
+      CAPTURE(dip);
+      // Four planes about the mean, two of them given by the normal that points the other way.
+      const Vec3 n = upward_normal(plane(dip, 70));
+      const Vec3 u = dip_vector(plane(dip, 70)), v = strike_vector(plane(dip, 70));
+      const std::vector<Vec3> normals = {n + 0.2 * u, -n + 0.2 * u, -(n + 0.2 * v), n - 0.2 * v};
+      const Orientation mean = mean_orientation(normals);
+      // The normal of an upright plane may be turned round: its dip direction by 180 degrees.
+      CHECK(std::abs(std::abs(upward_normal(mean).dot(n)) - 1) < 1e-15);
+    }
   }
 }

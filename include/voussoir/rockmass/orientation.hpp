@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -41,6 +42,20 @@ struct Orientation {
   if (!(level > 0)) return {0, 0};
   const double azimuth = std::atan2(up.x(), up.y());
   return {std::atan2(level, up.z()), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
+}
+
+/// Mean orientation of planes given by their normals, of either sense: the direction of the sum of
+/// the normals, each turned to their common side. For sets that scatter less than 90
+/// degrees about their mean.
+/// @pre  at least one normal
+[[nodiscard]] inline Orientation mean_orientation(std::span<const Vec3> normals) {
+  Vec3 side = normals.front();
+  for (int round = 0; round < 2; ++round) {  // the first normal may be an outlier, its mean is not
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& normal : normals) sum += normal.dot(side) < 0 ? Vec3(-normal) : normal;
+    side = sum;
+  }
+  return orientation_of(side);
 }
 
 }  // namespace voussoir
