@@ -322,5 +322,8 @@ TEST_SUITE("geometry/convex_polyhedron") {
     ConvexPolyhedron gone = voussoir_test::box({0, 0, 0}, {1, 1, 1});
     CHECK(gone.move_vertices([](const Vec3&) { return Vec3(0, 0, 0); }) == 0);
     CHECK(gone.size() == 6);
+    ConvexPolyhedron flat = voussoir_test::box({0, 0, 0}, {1, 1, 1});
+    CHECK(flat.move_vertices([](const Vec3& v) { return Vec3(v.x(), v.y(), 0); }) == 0);
+    CHECK(flat.size() == 6);
   }
 }

@@ -296,6 +296,68 @@ TEST_SUITE("geometry/polyhedron_split") {
     CHECK(cuts > 1000);
   }
 
+  TEST_CASE("a face whose corners lie now above, now below the tolerance does not tear the parts") {
+    // The top of a prism, uneven by as much as faces may be, against a plane one tolerance below.
+    Random random(7);
+    const double tolerance = 1e-10;
+    int whole = 0, divided = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+      CAPTURE(trial);
+      const int corners = 4 + trial % 9;
+      const ConvexPolyhedron even = voussoir_test::regular_prism(corners, 1, 1);
+      ConvexPolyhedron shape = even;
+      shape.move_vertices([&](const Vec3& v) {
+        const double up = std::array{0.2, 0.9, 1.1, 1.5, 2.5}[random.below(5)];
+        return v.z() > 0 ? Vec3(v.x(), v.y(), 1 + up * tolerance) : v;
+      });
+      const Vec3 tilt = trial % 2 == 0 ? 1e-10 * random_direction(random) : Vec3(0, 0, 0);
+      const auto parts = shape.split(
+          HalfSpace<3>::through({0, 0, 1}, (Vec3(0, 0, 1) + tilt).normalized()), 99, tolerance);
+      if (!parts) {
+        ++whole;
+        continue;
+      }
+      ++divided;
+      for (const auto* part : {&parts->first, &parts->second}) {
+        CHECK(closed(*part));
+        CHECK(bulge(*part) < 16 * tolerance);
+      }
+      CHECK(parts->first.size() > static_cast<std::size_t>(corners));
+    }
+    CHECK(whole > 50);
+    CHECK(divided > 50);
+  }
+
+  TEST_CASE(
+      "where the plane meets a rough top in several places, the parts are closed or none are made") {
+    // A top of a dozen faces, rough by as much as the tolerance, which is a thousandth here: what
+    // lies above comes in islands, islands that touch in a vertex, and faces crossed twice.
+    Random random(8);
+    const double tolerance = 1e-3;
+    int divided = 0;
+    for (int trial = 0; trial < 600; ++trial) {
+      CAPTURE(trial);
+      ConvexPolyhedron shape = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+      for (int k = 0; k < 12; ++k) {
+        const Vec3 normal(3e-3 * random.normal(), 3e-3 * random.normal(), 1);
+        const double height = 0.497 + 1e-3 * random.uniform();
+        if (auto parts = shape.split({normal.normalized(), height}, k, 1e-9))
+          shape = std::move(parts->first);
+      }
+      shape.move_vertices([&](const Vec3& v) {
+        return v.z() > 0 ? Vec3(v.x(), v.y(), v.z() + tolerance * random.normal()) : v;
+      });
+      const auto parts = shape.split({{0, 0, 1}, 0.497}, 99, tolerance);
+      if (!parts) continue;
+      ++divided;
+      CHECK(closed(parts->first));
+      CHECK(closed(parts->second));
+      CHECK(std::abs(volume(parts->first) + volume(parts->second) - volume(shape)) <
+            16 * tolerance);
+    }
+    CHECK(divided > 305);  // 322; 294 if no more than one tolerance were tried
+  }
+
   TEST_CASE("mirrored and turned, the parts are the mirrored and turned parts") {
     Random random(6);
     for (int trial = 0; trial < 100; ++trial) {
