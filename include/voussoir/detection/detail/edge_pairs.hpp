@@ -46,6 +46,11 @@ class EdgeList {
 /// sphere of normals, one from face to face of a and one from face to face of b reversed, must
 /// cross. Four pairs are tested at once by the signs of four dot products.
 ///
+/// Nearly parallel edges are where roundings bite: two that cross at 1e-6 rad and are 1e-4 m long
+/// have a normal that is off by a right angle at 100 m from the origin. Tests that leave out a pair
+/// therefore have a margin for the rounding, and what is left is measured over all vertices, which
+/// can never give more than the truth.
+///
 /// Source: the crossing of Gauss maps after Gregorius (2013), The separating axis test between
 /// convex polyhedra, Game Developers Conference.
 template <class Lanes>
@@ -63,6 +68,8 @@ class EdgePairs {
   [[nodiscard]] Best run(const LinkedShape& a, const EdgeList& list_a, const LinkedShape& b,
                          const EdgeList& list_b, double floor) {
     gather(b, list_b);
+    const double size = a.topology.diameter + b.topology.diameter;
+    slack_ = 10001 * (rounding * size * size) * (rounding * size * size);
     Best best;
     best.separation = floor;
     for (std::size_t i = 0; i < list_a.size(); ++i) {
@@ -73,36 +80,72 @@ class EdgePairs {
         const Lanes left_b = dot(along, 3, j), right_b = dot(along, 6, j);
         const Lanes left_a = dot(left, 0, j), right_a = dot(right, 0, j);
         const Lanes crossing = max(max(left_b * right_b, left_a * right_a), left_b * right_a);
-        if (!(crossing.smallest() < 0)) continue;
-        const Lanes worse = max(crossing, excess(start, along, left + right, best.separation, j));
+        if (!(crossing.smallest() < margin)) continue;
+        const Lanes worse = max(crossing - Lanes::all(margin),
+                                excess(start, along, left + right, best.separation, j));
         if (!(worse.smallest() < 0)) continue;
         alignas(32) std::array<double, lane_count> signs;
         worse.store(signs.data());
         for (std::size_t lane = 0; lane < lane_count; ++lane)
           if (signs[lane] < 0)
-            consider(start, along, left + right, list_a[i], b, list_b[j + lane], best);
+            consider(a, list_a[i], b, list_b[std::min(j + lane, list_b.size() - 1)], best);
       }
     }
     return best;
   }
 
+  /// Room between two shapes along the common normal of two edges [m], and that normal, from a to
+  /// b; -infinity for parallel ones.
+  /// @param enough  what is not above this is of no interest: -infinity may be returned
+  [[nodiscard]] static double separation(const LinkedShape& a, std::uint16_t i,
+                                         const LinkedShape& b, std::uint16_t j, double enough,
+                                         Vec3& normal) {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    const Topology::Edge &of_a = a.topology.edges[i], &of_b = b.topology.edges[j];
+    const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
+    const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
+    const Vec3 outward = a.shape.normal(of_a.left) + a.shape.normal(of_a.right);
+    const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    normal = cross(u, v);
+    if (normal.squaredNorm() <= 1e-24 * uu * vv) return none;
+    // Its rounding matters along the longer edge only; across it, it moves neither of the two.
+    const Vec3& longer = uu > vv ? u : v;
+    normal -= (normal.dot(longer) / std::max(uu, vv)) * longer;
+    normal *= (normal.dot(outward) < 0 ? -1 : 1) / normal.norm();
+    if (!(normal.dot(q - p) > enough)) return none;  // there is not more room than between them
+    return lowest(normal, b.shape) + lowest(-normal, a.shape);
+  }
+
  private:
-  /// Of every edge of b: direction, normals of the faces left and right of it, one end.
+  /// Of coordinates, in 1 m: a few roundings at 100 m from the origin.
+  static constexpr double rounding = 4e-14;
+  /// Of the products that tell whether arcs cross [m^2].
+  static constexpr double margin = 1e-12;
+
+  [[nodiscard]] static double lowest(const Vec3& n, const PlacedShape<3>& shape) {
+    const double *const x = shape.vertices(0), *const y = shape.vertices(1);
+    const double* const z = shape.vertices(2);
+    const Lanes nx = Lanes::all(n[0]), ny = Lanes::all(n[1]), nz = Lanes::all(n[2]);
+    Lanes low = nx * Lanes::load(x) + ny * Lanes::load(y) + nz * Lanes::load(z);
+    for (std::size_t k = lane_count; k < shape.vertex_stride(); k += lane_count)
+      low = min(low, nx * Lanes::load(x + k) + ny * Lanes::load(y + k) + nz * Lanes::load(z + k));
+    return low.smallest();
+  }
+
+  /// Of every edge of b: direction, normals of the faces left and right of it, one end;
+  /// filled up with the last.
   void gather(const LinkedShape& b, const EdgeList& list) {
     stride_ = PlacedShape<3>::padded(list.size());
     if (packed_.size() < 12 * stride_) packed_.resize(12 * stride_);
     const std::size_t vertex_stride = b.shape.vertex_stride(), face_stride = b.shape.face_stride();
     const double *const x = b.shape.vertices(0), *const n = b.shape.normals(0);
     for (std::size_t j = 0; j < stride_; ++j) {
-      const bool inside = j < list.size();
-      const Topology::Edge edge = b.topology.edges[list[inside ? j : 0]];
-      // Past the end a direction of zero: its arcs cross nothing.
-      const double scale = inside ? 1 : 0;
+      const Topology::Edge edge = b.topology.edges[list[std::min(j, list.size() - 1)]];
       double* to = packed_.data() + j;
       for (std::size_t axis = 0; axis < 3; ++axis, to += stride_) {
         const double* const coordinate = x + axis * vertex_stride;
         const double* const component = n + axis * face_stride;
-        to[0] = scale * (coordinate[edge.to] - coordinate[edge.from]);
+        to[0] = coordinate[edge.to] - coordinate[edge.from];
         to[3 * stride_] = component[edge.left];
         to[6 * stride_] = component[edge.right];
         to[9 * stride_] = coordinate[edge.from];
@@ -124,11 +167,10 @@ class EdgePairs {
     const Lanes product = (row(9) - all(start[0])) * cx + (row(10) - all(start[1])) * cy +
                           (row(11) - all(start[2])) * cz;
     const Lanes squared = cx * cx + cy * cy + cz * cz;
-    const double least = best < 0 ? best * best * (1 + 1e-8) : -1;
     // Separation = product / root of `squared`, with the sign that turns the normal outward: it is
-    // positive, or negative and small.
-    if (least < 0) return product * inward;
-    return min(product * inward, product * product - all(least) * squared);
+    // positive, or negative and small. (x + e)^2 <= 1.0001 x^2 + 10001 e^2.
+    const double least = best < 0 ? 1.0001 * best * best : 0.0;
+    return min(product * inward, product * product - all(least) * squared - all(slack_));
   }
 
   /// Dot products of v with four columns of three rows.
@@ -140,26 +182,15 @@ class EdgePairs {
   }
 
   /// Takes the pair of edges if it keeps the shapes further apart than the best so far.
-  static void consider(const Vec3& start, const Vec3& along, const Vec3& outward, std::uint16_t i,
-                       const LinkedShape& b, std::uint16_t j, Best& best) {
-    const Topology::Edge& edge = b.topology.edges[j];
-    const Vec3 other = b.shape.vertex(edge.from), direction = b.shape.vertex(edge.to) - other;
-    const Vec3 both = cross(along, direction), offset = other - start;
-    const double squared = both.squaredNorm();
-    // Of edges that are parallel but for 1e-6 rad the common normal is noise, and the normals of
-    // the faces beside them say as much.
-    if (squared < 1e-12 * along.squaredNorm() * direction.squaredNorm()) return;
-    const double sign = both.dot(outward) < 0 ? -1 : 1;
-    const Vec3 normal = both * (sign / std::sqrt(squared));
-    // Measured between the closest points of the edges: between others the rounding of the normal
-    // of nearly parallel edges would count with their distance.
-    const double s = std::clamp(cross(offset, direction).dot(both) / squared, 0.0, 1.0);
-    const double t = std::clamp(cross(offset, along).dot(both) / squared, 0.0, 1.0);
-    const double separation = normal.dot((offset + t * direction) - s * along);
-    if (separation > best.separation) best = {separation, i, j, normal};
+  static void consider(const LinkedShape& a, std::uint16_t i, const LinkedShape& b, std::uint16_t j,
+                       Best& best) {
+    Vec3 normal;
+    const double found = separation(a, i, b, j, best.separation, normal);
+    if (found > best.separation) best = {found, i, j, normal};
   }
 
   std::size_t stride_ = 0;
+  double slack_ = 0;  ///< rounding of a triple product of edges, squared [m^6]
   std::vector<double> packed_;
 };
 

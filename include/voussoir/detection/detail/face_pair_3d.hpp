@@ -94,20 +94,17 @@ class FacePair3 {
     return low.smallest();
   }
 
-  /// What kept the pair apart last time, tried again [m].
-  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, const Memory& memory) const {
+  /// What kept the pair apart last time, tried again [m]; maybe -infinity if not above `limit`.
+  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, double limit,
+                                        const Memory& memory) const {
     const Shape a = (*shapes_)[i], b = (*shapes_)[j];
     if (memory.by == Touch::face_a)
       return lowest(a.normal(memory.first), b) - a.offset(memory.first);
     if (memory.by == Touch::face_b)
       return lowest(b.normal(memory.first), a) - b.offset(memory.first);
-    const Topology::Edge& edge_a = shapes_->topology(i).edges[memory.first];
-    const Topology::Edge& edge_b = shapes_->topology(j).edges[memory.second];
-    Vec3 normal = cross(a.vertex(edge_a.to) - a.vertex(edge_a.from),
-                        b.vertex(edge_b.to) - b.vertex(edge_b.from));
-    normal /=
-        std::copysign(normal.norm(), normal.dot(a.normal(edge_a.left) + a.normal(edge_a.right)));
-    return lowest(normal, b) + lowest(-normal, a);
+    Vec3 normal;
+    return EdgePairs<Lanes>::separation({a, shapes_->topology(i)}, memory.first,
+                                        {b, shapes_->topology(j)}, memory.second, limit, normal);
   }
 
   /// How far the faces of p keep q away at most; one number per face is left in `separations`.
@@ -137,7 +134,7 @@ class FacePair3 {
   [[nodiscard]] double find_axis(std::size_t i, std::size_t j, double limit, double reach,
                                  Memory& memory) {
     if (memory.apart) {
-      const double known = known_separation(i, j, memory);
+      const double known = known_separation(i, j, limit, memory);
       if (known > limit) return known;
     }
     const LinkedShape a{(*shapes_)[i], shapes_->topology(i)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -52,8 +53,8 @@ class Section {
     const Vec3 p = a.vertex(edge_a.from), u = a.vertex(edge_a.to) - p;
     const Vec3 q = b.vertex(edge_b.from), v = b.vertex(edge_b.to) - q;
     const Vec3 both = cross(u, v), offset = q - p;
-    const double s = cross(offset, v).dot(both) / both.squaredNorm();
-    const double t = cross(offset, u).dot(both) / both.squaredNorm();
+    const double s = std::clamp(cross(offset, v).dot(both) / both.squaredNorm(), 0.0, 1.0);
+    const double t = std::clamp(cross(offset, u).dot(both) / both.squaredNorm(), 0.0, 1.0);
     return p + 0.5 * ((offset + t * v) + s * u);
   }
 
