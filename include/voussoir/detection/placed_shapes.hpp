@@ -120,7 +120,7 @@ class PlacedShapes {
       const auto side = shape.half_space(std::min(k, face_count - 1));
       for (int axis = 0; axis < Dim; ++axis)
         out[static_cast<std::size_t>(axis) * face_stride + k] = side.normal[axis];
-      out[Dim * face_stride + k] = -side.distance(origin);
+      out[Dim * face_stride + k] = -shape.distance(std::min(k, face_count - 1), origin);
     }
     if constexpr (Dim == 3) add_topology(shape);
     Pose<Dim> pose;

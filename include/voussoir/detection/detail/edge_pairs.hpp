@@ -46,10 +46,10 @@ class EdgeList {
 /// sphere of normals, one from face to face of a and one from face to face of b reversed, must
 /// cross. Four pairs are tested at once by the signs of four dot products.
 ///
-/// Nearly parallel edges are where roundings bite: two that cross at 1e-6 rad and are 1e-4 m long
-/// have a normal that is off by a right angle at 100 m from the origin. Tests that leave out a pair
-/// therefore have a margin for the rounding, and what is left is measured over all vertices, which
-/// can never give more than the truth.
+/// Nearly parallel edges are where roundings bite: two of 1e-4 m that cross at 1e-9 rad have a
+/// normal that is off by 0.1 rad at 100 m from the origin. Tests that leave out a pair therefore
+/// have a margin for the rounding, and what is left is measured over all vertices, which can never
+/// give more than the truth.
 ///
 /// Source: the crossing of Gauss maps after Gregorius (2013), The separating axis test between
 /// convex polyhedra, Game Developers Conference.
