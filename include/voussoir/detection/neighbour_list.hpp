@@ -46,8 +46,8 @@ template <int Dim>
 /// soon: boxes are enlarged by half the margin, and the list holds good until one leaves its
 /// enlarged box. Boxes are found in a grid of cells about as large as they are.
 ///
-/// Within a pair the shape whose box lies lower in x (then y, z) comes first, so that what is
-/// computed from a pair does not depend on how shapes are numbered.
+/// Within a pair the shape whose home lies lower in x (then y, z) comes first, so that what is
+/// computed from a pair depends neither on how shapes are numbered nor on where they have been.
 template <int Dim>
 class NeighbourList {
  public:
@@ -125,20 +125,21 @@ class NeighbourList {
     std::sort(entries.begin(), entries.end());
     for (std::size_t i = 0; i < entries.size(); ++i)
       for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j)
-        add(entries[i].shape, entries[j].shape, entries[i].cell);
+        add(shapes, entries[i].shape, entries[j].shape, entries[i].cell);
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
       return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
     });
   }
 
   /// Adds the pair if its boxes meet, and if this cell is the first they have in common.
-  void add(std::uint32_t i, std::uint32_t j, const Cell& cell) {
+  void add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j, const Cell& cell) {
     const Box<Dim>&a = boxes_[i], &b = boxes_[j];
     if (!a.meets(b, reach_)) return;
     if (cell_of(a.low.cwiseMax(b.low).array() - 0.5 * reach_) != cell) return;
-    bool swap = false;
+    const Vec<Dim>&home_i = shapes.home(i), &home_j = shapes.home(j);
+    bool swap = j < i;
     for (int axis = Dim; axis-- > 0;)
-      if (a.low[axis] != b.low[axis]) swap = a.low[axis] > b.low[axis];
+      if (home_i[axis] != home_j[axis]) swap = home_i[axis] > home_j[axis];
     pairs_.push_back(swap ? Pair{j, i} : Pair{i, j});
   }
 

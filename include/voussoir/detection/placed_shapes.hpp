@@ -109,6 +109,7 @@ class PlacedShapes {
                         static_cast<std::uint32_t>(face_count)};
     const std::size_t vertex_stride = record.vertex_stride(), face_stride = record.face_stride();
     records_.push_back(record);
+    homes_.push_back(origin);
     const std::size_t length = Dim * vertex_stride + (Dim + 1) * face_stride;
     own_.resize(own_.size() + length);
     placed_.resize(own_.size());
@@ -165,6 +166,9 @@ class PlacedShapes {
   }
 
   [[nodiscard]] std::size_t size() const { return records_.size(); }
+
+  /// Where the origin of a shape was when it was added: tells shapes apart whatever their numbers.
+  [[nodiscard]] const Vec<Dim>& home(std::size_t shape) const { return homes_[shape]; }
 
   [[nodiscard]] PlacedShape<Dim> operator[](std::size_t shape) const {
     const Record& r = records_[shape];
@@ -229,6 +233,7 @@ class PlacedShapes {
   template <class T>
   using Aligned = std::vector<T, Eigen::aligned_allocator<T>>;
   std::vector<Record> records_;
+  std::vector<Vec<Dim>> homes_;
   Aligned<double> own_, placed_;
   std::vector<Links> links_;
   std::vector<Topology::Edge> edges_;
