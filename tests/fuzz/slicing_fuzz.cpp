@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
@@ -117,6 +119,15 @@ double dent(const ConvexPolyhedron& block) {
   return deepest;
 }
 
+/// How much of each pair of bodies touches.
+template <class Contacts>
+std::map<std::pair<int, int>, double> by_pair(const Contacts& contacts) {
+  std::map<std::pair<int, int>, double> measures;
+  for (const auto& contact : contacts)
+    measures[std::minmax(contact.a, contact.b)] += contact.facet.measure();
+  return measures;
+}
+
 template <class Geometry>
 void slice_and_check(Bytes& bytes) {
   constexpr int dim = Geometry::dim;
@@ -143,7 +154,8 @@ void slice_and_check(Bytes& bytes) {
     must(body.properties.measure > 0, "volume of a block", body.properties.measure);
     must_be_below(dent(block), 16 * tolerance, "convex block");
     sum += body.properties.measure;
-    outline[b] = detail::boundary_measure(block);
+    for (std::size_t face = 0; face < block.size(); ++face)
+      outline[b] += block.face(face).measure();
     boundary += outline[b];
     faces += block.size();
     const double radius = inscribed_ball(block).radius;
@@ -161,7 +173,8 @@ void slice_and_check(Bytes& bytes) {
     closing[b] += sign * facet.area_vector();
     covered[b] += facet.measure();
   };
-  for (const auto& contact : CutContacts::find(mass)) {
+  const auto contacts = CutContacts::find(mass);
+  for (const auto& contact : contacts) {
     must(contact.a != contact.b, "a contact joins two bodies");
     must(contact.facet.measure() > 0, "a contact has an area", contact.facet.measure());
     add(contact.a, contact.facet, 1);
@@ -175,6 +188,17 @@ void slice_and_check(Bytes& bytes) {
     must_be_below(closing[b].norm(), lost, "area vectors close around a block");
     must_be_below(std::abs(covered[b] - outline[b]), lost, "faces are covered by contacts");
   }
+
+  // What a search finds is what the cuts know, but for contacts about as narrow as the tolerance.
+  if (!exact) return;
+  const auto known = by_pair(contacts), found = by_pair(FaceContacts::find(mass));
+  for (const auto& [pair, measure] : known) {
+    const auto same = found.find(pair);
+    must_be_below(std::abs(measure - (same == found.end() ? 0 : same->second)), lost,
+                  "contacts of the cuts are found by search");
+  }
+  for (const auto& [pair, measure] : found)
+    if (!known.contains(pair)) must_be_below(measure, lost, "contacts found are those of the cuts");
 }
 
 }  // namespace
