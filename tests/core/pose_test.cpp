@@ -41,7 +41,7 @@ TEST_SUITE("core/pose") {
     Random random(1);
     for (const double angle : angles)
       for (int trial = 0; trial < 20; ++trial) {
-        const Vec3 direction(random.normal(), random.normal(), random.normal());
+        const Vec3 direction{random.normal(), random.normal(), random.normal()};
         const Spin<3> spin = angle * direction.normalized();
         const Rotation<3> turned = rotation_by(spin);
         // Roundings of the matrix, and of the angle times the angle.
@@ -58,7 +58,7 @@ TEST_SUITE("core/pose") {
     Random random(2);
     for (const double angle : angles)
       for (int trial = 0; trial < 20; ++trial) {
-        const Vec3 direction(random.normal(), random.normal(), random.normal());
+        const Vec3 direction{random.normal(), random.normal(), random.normal()};
         const Rotation<3> turned = rotation_by(Spin<3>(angle * direction.normalized()));
         CHECK(largest(turned * turned.transpose() - Rotation<3>::Identity()) < 2e-15);
         CHECK((cross(turned.col(0), turned.col(1)) - turned.col(2)).norm() < 2e-15);
@@ -88,7 +88,7 @@ TEST_SUITE("core/pose") {
     Random random(3);
     for (int trial = 0; trial < 50; ++trial) {
       const double first = 3 * random.normal(), second = 3 * random.normal();
-      const Vec3 axis = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+      const Vec3 axis = Vec3{random.normal(), random.normal(), random.normal()}.normalized();
       const Rotation<3> both =
           rotation_by(Spin<3>(first * axis)) * rotation_by(Spin<3>(second * axis));
       CHECK(largest(both - rotation_by(Spin<3>((first + second) * axis))) < 2e-14);

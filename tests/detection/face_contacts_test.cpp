@@ -249,6 +249,48 @@ TEST_SUITE("detection/face_contacts") {
     CHECK(overlaps > D::pairs / 3);
   }
 
+  TEST_CASE("lenses, with many axes nearly as good as the best") {
+    Random random(10);
+    int faces = 0, edges = 0;
+    for (int k = 0; k < 20000; ++k) {
+      const Twin<3> twin(lens_pair(random));
+      CAPTURE(k);
+      const double value = static_cast<double>(separating_axes(twin.a, twin.b).value);
+      const Answer<3> found = twin.cold();
+      if (std::abs(value) > Dimensions<3>::tolerance) CHECK(found.overlap == (value < 0));
+      if (value > 0) continue;
+      CHECK(std::abs(found.separation - value) < Dimensions<3>::tolerance);
+      const LongVec<3> normal = found.normal.cast<long double>();
+      const bool of_face =
+          std::any_of(twin.a.normals.begin(), twin.a.normals.end(),
+                      [&](const auto& n) { return (n - normal).norm() < 1e-9L; }) ||
+          std::any_of(twin.b.normals.begin(), twin.b.normals.end(),
+                      [&](const auto& n) { return (n + normal).norm() < 1e-9L; });
+      ++(of_face ? faces : edges);
+    }
+    CHECK(faces > 1000);
+    CHECK(edges > 1000);
+  }
+
+  TEST_CASE_TEMPLATE("how far one looks decides whether there is a contact, not how deep it is", D,
+                     Dimensions<2>, Dimensions<3>) {
+    constexpr int dim = D::dim;
+    Random random(9);
+    int gaps = 0, edges = 0;
+    for_pairs<dim>(9, D::pairs, [&](const auto&, const Twin<dim>& twin, const auto&) {
+      const double reach = random_power(random, -6, 0);
+      const Answer<dim> found = twin.cold(reach);
+      if (std::abs(found.separation - reach) < D::tolerance) return;  // a rounding decides
+      CHECK((found.touch != Touch::none) == (found.separation < reach));
+      if (found.touch == Touch::none) return;
+      CHECK(std::abs(found.depth - found.separation) < D::tolerance);
+      gaps += found.separation > 0;
+      edges += found.separation > 0 && found.touch == Touch::edge_edge;
+    });
+    CHECK(gaps > D::pairs / 10);
+    if (dim == 3) CHECK(edges > D::pairs / 100);
+  }
+
   TEST_CASE_TEMPLATE("what is remembered of a pair never changes an answer, to the last bit", D,
                      Dimensions<2>, Dimensions<3>) {
     constexpr int dim = D::dim;

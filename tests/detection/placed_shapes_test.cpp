@@ -162,6 +162,16 @@ TEST_SUITE("detection/placed_shapes") {
         CHECK(runs_along(edge.left, edge.from, edge.to));
         CHECK(runs_along(edge.right, edge.to, edge.from));
       }
+      for (std::size_t face = 0; face < given[i].faces.size(); ++face) {
+        const auto loop = topology.loop(face);
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+          const Topology::Edge& edge = topology.edges[topology.side(face, k)];
+          const bool left = edge.left == face;
+          CHECK((left ? edge.left : edge.right) == face);
+          CHECK((left ? edge.from : edge.to) == loop[k]);
+          CHECK((left ? edge.to : edge.from) == loop[(k + 1) % loop.size()]);
+        }
+      }
     }
   }
 

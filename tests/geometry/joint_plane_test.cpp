@@ -18,7 +18,7 @@ namespace {
 
 Vec3 random_direction(Random& random) {
   Vec3 v;
-  do v = Vec3(random.normal(), random.normal(), random.normal());
+  do v = Vec3{random.normal(), random.normal(), random.normal()};
   while (v.norm() < 0.1);
   return v.normalized();
 }

@@ -143,7 +143,7 @@ template <int Dim>
     return voussoir::rotation_by(voussoir::Spin<2>(2 * std::numbers::pi * random.uniform()));
   } else {
     // A direction that is uniform on the sphere in four dimensions.
-    Eigen::Vector4d q(random.normal(), random.normal(), random.normal(), random.normal());
+    Eigen::Vector4d q{random.normal(), random.normal(), random.normal(), random.normal()};
     q.normalize();
     const Vec3 axis = q.tail<3>();
     const double sine = axis.norm();
@@ -373,6 +373,57 @@ template <int Dim>
   pair.b = pair.a;
   pair.pose_b = pair.pose_a;
   pair.pose_b.position += gap * random_vector<Dim>(random).normalized();
+  return pair;
+}
+
+/// A double pyramid over a flat ring of 3 to 8 corners, as low as 1:1000: all its edges are blunt.
+[[nodiscard]] inline PlainShape<3> lens(Random& random) {
+  const int n = 3 + static_cast<int>(random.below(6));
+  PlainShape<3> shape;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * (k + 0.3 * random.uniform()) / n;
+    shape.vertices.push_back({0.5 * std::cos(angle), 0.5 * std::sin(angle), 0});
+  }
+  for (const double side : {-1, 1}) {
+    const double x = 0.1 * (random.uniform() - 0.5), y = 0.1 * (random.uniform() - 0.5);
+    shape.vertices.push_back({x, y, side * random_power(random, -3, -0.5)});
+  }
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    shape.faces.push_back({next, k, n});
+    shape.faces.push_back({k, next, n + 1});
+  }
+  return shape;
+}
+
+/// Two lenses upon each other, somewhat tilted, anything from barely touching to all but passed
+/// through each other: many axes near each other are nearly as good.
+[[nodiscard]] inline PlainPair<3> lens_pair(Random& random) {
+  PlainPair<3> pair;
+  pair.a = lens(random);
+  pair.b = lens(random);
+  const double room = pair.a.vertices.back().z() - (pair.b.vertices.end() - 2)->z();
+  const Vec3 tilt = 0.2 * random.uniform() * random_vector<3>(random);
+  const double turn = 2 * std::numbers::pi * random.uniform();
+  pair.pose_b.rotation = voussoir::rotation_by(voussoir::Spin<3>(tilt)) *
+                         voussoir::rotation_by(voussoir::Spin<3>(0, 0, turn));
+  if (random.below(2) == 0) {
+    pair.pose_b.position = 0.2 * random.uniform() * random_vector<3>(random);
+    pair.pose_b.position.z() = (1 - random_power(random, -3, 0.3)) * room;
+  } else {  // the tip of b just beside an edge of a
+    const Vec3 top = pair.a.vertices.back(), tip = *(pair.b.vertices.end() - 2);
+    const double along = 0.2 + 0.6 * random.uniform();
+    Vec3 at = top + along * (pair.a.vertices[0] - top);
+    at += random_power(random, -4, -1) * random_vector<3>(random);
+    at.z() -= random_power(random, -3, -1);
+    pair.pose_b.position = at - pair.pose_b.rotation * tip;
+  }
+  Pose<3> common;
+  common.rotation = random_rotation<3>(random);
+  common.position = 30 * random_vector<3>(random);
+  pair.pose_a = common;
+  pair.pose_b.position = common(pair.pose_b.position);
+  pair.pose_b.rotation = common.rotation * pair.pose_b.rotation;
   return pair;
 }
 

@@ -79,12 +79,12 @@ using Faces = std::vector<std::vector<int>>;
 
 [[nodiscard]] inline Vec3 random_direction(Random& random) {
   for (;;) {
-    const Vec3 v(random.normal(), random.normal(), random.normal());
+    const Vec3 v{random.normal(), random.normal(), random.normal()};
     if (v.norm() > 1e-3) return v.normalized();
   }
 }
 [[nodiscard]] inline Vec3 random_point(Random& random, const Vec3& low, const Vec3& high) {
-  const Vec3 t(random.uniform(), random.uniform(), random.uniform());
+  const Vec3 t{random.uniform(), random.uniform(), random.uniform()};
   return low + t.cwiseProduct(high - low);
 }
 [[nodiscard]] inline voussoir::Rotation<3> random_rotation(Random& random) {

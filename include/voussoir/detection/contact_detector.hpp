@@ -6,10 +6,12 @@
 #include <vector>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/detection/contact.hpp>
-#include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 
 namespace voussoir {
+
+template <int Dim>
+class PlacedShapes;
 
 template <class Detector, class Mass, class Geometry>
 concept HasInitialContacts = requires(const Mass& mass) {

@@ -68,6 +68,7 @@ struct Topology {
   std::span<const Edge> edges;
   std::span<const std::uint32_t> loop_begin;  ///< one more than faces
   std::span<const std::uint16_t> loops;       ///< vertices of each face, anticlockwise from outside
+  std::span<const std::uint16_t> sides;       ///< the edges that start there, loop after loop
 
   std::span<const std::uint32_t> fan_begin;  ///< one more than vertices
   std::span<const std::uint16_t> fans;       ///< faces at each vertex
@@ -75,6 +76,10 @@ struct Topology {
 
   [[nodiscard]] std::span<const std::uint16_t> loop(std::size_t face) const {
     return loops.subspan(loop_begin[face], loop_begin[face + 1] - loop_begin[face]);
+  }
+  /// The edge of a face from vertex k of its loop to the next.
+  [[nodiscard]] std::uint16_t side(std::size_t face, std::size_t k) const {
+    return sides[loop_begin[face] - loop_begin[0] + k];
   }
   [[nodiscard]] std::span<const std::uint16_t> faces_at(std::size_t vertex) const {
     return fans.subspan(fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]);
@@ -181,6 +186,7 @@ class PlacedShapes {
     return {{edges_.data() + l.first_edge, l.edge_count},
             {begins_.data() + l.first_loop, r.face_count + std::size_t{1}},
             indices_,
+            {sides_.data() + l.first_side, 2 * l.edge_count},
             {begins_.data() + l.first_fan, r.vertex_count + std::size_t{1}},
             indices_,
             l.diameter};
@@ -197,7 +203,7 @@ class PlacedShapes {
     [[nodiscard]] std::size_t face_stride() const { return PlacedShape<Dim>::padded(face_count); }
   };
   struct Links {
-    std::size_t first_edge, edge_count, first_loop, first_fan;
+    std::size_t first_edge, edge_count, first_loop, first_side, first_fan;
     double diameter;
   };
 
@@ -208,7 +214,8 @@ class PlacedShapes {
                          std::to_string(shape.vertices().size()) +
                          " vertices: at most 65535 of each");
     const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
-    Links links{edges_.size(), shape.edges().size(), begins_.size(), 0, shape.diameter()};
+    Links links{edges_.size(),   shape.edges().size(), begins_.size(), sides_.size(), 0,
+                shape.diameter()};
     for (const auto& edge : shape.edges())
       edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
     std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
@@ -221,6 +228,18 @@ class PlacedShapes {
       }
     }
     mark();
+    sides_.resize(sides_.size() + 2 * links.edge_count);
+    const auto link = [&](int face, int vertex, std::size_t edge) {
+      const auto loop = shape.loop(static_cast<std::size_t>(face));
+      const auto k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
+      const std::size_t before =
+          begins_[links.first_loop + static_cast<std::size_t>(face)] - begins_[links.first_loop];
+      sides_[links.first_side + before + static_cast<std::size_t>(k)] = small(edge);
+    };
+    for (std::size_t k = 0; k < links.edge_count; ++k) {
+      link(shape.edges()[k].left, shape.edges()[k].from, k);
+      link(shape.edges()[k].right, shape.edges()[k].to, k);
+    }
     links.first_fan = begins_.size();
     for (const auto& fan : fans) {
       mark();
@@ -239,6 +258,7 @@ class PlacedShapes {
   std::vector<Topology::Edge> edges_;
   std::vector<std::uint32_t> begins_;   ///< where loops and fans start in `indices_`
   std::vector<std::uint16_t> indices_;  ///< vertices of loops, faces of fans
+  std::vector<std::uint16_t> sides_;    ///< edges of loops
 };
 
 }  // namespace voussoir

@@ -13,7 +13,7 @@
 namespace voussoir {
 
 /// Initial contacts from the cuts that made the faces: exact, no search, 0.3 microseconds each in
-/// 2-D and 1 to 1.5 in 3-D.
+/// 2-D and 0.8 to 1.8 in 3-D.
 ///
 /// Valid only for the rock as it was sliced; once blocks have moved, contacts must be searched.
 struct CutContacts {

@@ -56,6 +56,9 @@ class EdgeList {
 template <class Lanes>
 class EdgePairs {
  public:
+  /// Of coordinates, in 1 m: a few roundings at 100 m from the origin.
+  static constexpr double rounding = 4e-14;
+
   /// The pair of edges, a's and b's, with the largest separation.
   struct Best {
     double separation = -std::numeric_limits<double>::infinity();
@@ -86,39 +89,68 @@ class EdgePairs {
         if (!(worse.smallest() < 0)) continue;
         alignas(32) std::array<double, lane_count> signs;
         worse.store(signs.data());
-        for (std::size_t lane = 0; lane < lane_count; ++lane)
-          if (signs[lane] < 0)
-            consider(a, list_a[i], b, list_b[std::min(j + lane, list_b.size() - 1)], best);
+        const std::size_t lanes = std::min(lane_count, list_b.size() - j);
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+          if (signs[lane] < 0) consider(a, list_a[i], b, list_b[j + lane], best);
       }
     }
     return best;
   }
 
-  /// Room between two shapes along the common normal of two edges [m], and that normal, from a to
-  /// b; -infinity for parallel ones.
-  /// @param enough  what is not above this is of no interest: -infinity may be returned
-  [[nodiscard]] static double separation(const LinkedShape& a, std::uint16_t i,
-                                         const LinkedShape& b, std::uint16_t j, double enough,
-                                         Vec3& normal) {
-    constexpr double none = -std::numeric_limits<double>::infinity();
+  /// The room between two shapes along the common normal of two edges.
+  struct Axis {
+    double separation = -std::numeric_limits<double>::infinity();  ///< of the shapes [m]
+    double gap = 0;                                                ///< of the two edges [m]
+    Vec3 normal = Vec3::Zero();                                    ///< from a to b
+
+    /// Whether nothing of either shape lies beyond its edge.
+    [[nodiscard]] bool is_of_edges() const { return gap - separation <= 4 * rounding; }
+  };
+  /// @param enough  what is not above this is of no interest: the separation may be -infinity, as
+  /// it
+  ///                is for parallel edges [m]
+  [[nodiscard]] static Axis axis(const LinkedShape& a, std::uint16_t i, const LinkedShape& b,
+                                 std::uint16_t j, double enough) {
     const Topology::Edge &of_a = a.topology.edges[i], &of_b = b.topology.edges[j];
     const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
     const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
     const Vec3 outward = a.shape.normal(of_a.left) + a.shape.normal(of_a.right);
     const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    Axis found;
+    Vec3& normal = found.normal;
     normal = cross(u, v);
-    if (normal.squaredNorm() <= 1e-24 * uu * vv) return none;
+    if (normal.squaredNorm() <= 1e-24 * uu * vv) return found;
     // Its rounding matters along the longer edge only; across it, it moves neither of the two.
     const Vec3& longer = uu > vv ? u : v;
     normal -= (normal.dot(longer) / std::max(uu, vv)) * longer;
     normal *= (normal.dot(outward) < 0 ? -1 : 1) / normal.norm();
-    if (!(normal.dot(q - p) > enough)) return none;  // there is not more room than between them
-    return lowest(normal, b.shape) + lowest(-normal, a.shape);
+    found.gap = normal.dot(q - p);
+    if (!(found.gap > enough)) return found;  // there is not more room than between them
+    found.separation = lowest(normal, b.shape) + lowest(-normal, a.shape);
+    return found;
+  }
+
+  /// Where an edge of a passes one of b, as seen along their common normal.
+  struct Crossing {
+    double room = -1;           ///< to the rim of the parallelogram of both; < 0: no crossing [m]
+    Vec3 point = Vec3::Zero();  ///< on the edge of a [m]
+  };
+  [[nodiscard]] static Crossing crossing(const LinkedShape& a, std::uint16_t i,
+                                         const LinkedShape& b, std::uint16_t j) {
+    const Topology::Edge &of_a = a.topology.edges[i], &of_b = b.topology.edges[j];
+    const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
+    const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
+    const Vec3 both = cross(u, v), offset = q - p;
+    const double squared = both.squaredNorm();
+    const double s = cross(offset, v).dot(both), t = cross(offset, u).dot(both);
+    const double of_u = std::min(s, squared - s), of_v = std::min(t, squared - t);
+    if (!(std::min(of_u, of_v) >= 0)) return {};
+    return {
+        std::sqrt(std::min(of_u * of_u / v.squaredNorm(), of_v * of_v / u.squaredNorm()) / squared),
+        p + (s / squared) * u};
   }
 
  private:
-  /// Of coordinates, in 1 m: a few roundings at 100 m from the origin.
-  static constexpr double rounding = 4e-14;
   /// Of the products that tell whether arcs cross [m^2].
   static constexpr double margin = 1e-12;
 
@@ -132,15 +164,15 @@ class EdgePairs {
     return low.smallest();
   }
 
-  /// Of every edge of b: direction, normals of the faces left and right of it, one end;
-  /// filled up with the last.
+  /// Of every edge of b: direction, normals of the faces left and right of it, one end. The last
+  /// group is not filled up: what is worked out from old numbers there is not looked at.
   void gather(const LinkedShape& b, const EdgeList& list) {
     stride_ = PlacedShape<3>::padded(list.size());
     if (packed_.size() < 12 * stride_) packed_.resize(12 * stride_);
     const std::size_t vertex_stride = b.shape.vertex_stride(), face_stride = b.shape.face_stride();
     const double *const x = b.shape.vertices(0), *const n = b.shape.normals(0);
-    for (std::size_t j = 0; j < stride_; ++j) {
-      const Topology::Edge edge = b.topology.edges[list[std::min(j, list.size() - 1)]];
+    for (std::size_t j = 0; j < list.size(); ++j) {
+      const Topology::Edge edge = b.topology.edges[list[j]];
       double* to = packed_.data() + j;
       for (std::size_t axis = 0; axis < 3; ++axis, to += stride_) {
         const double* const coordinate = x + axis * vertex_stride;
@@ -184,9 +216,8 @@ class EdgePairs {
   /// Takes the pair of edges if it keeps the shapes further apart than the best so far.
   static void consider(const LinkedShape& a, std::uint16_t i, const LinkedShape& b, std::uint16_t j,
                        Best& best) {
-    Vec3 normal;
-    const double found = separation(a, i, b, j, best.separation, normal);
-    if (found > best.separation) best = {found, i, j, normal};
+    const Axis found = axis(a, i, b, j, best.separation);
+    if (found.separation > best.separation) best = {found.separation, i, j, found.normal};
   }
 
   std::size_t stride_ = 0;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/vec.hpp>
@@ -28,16 +31,15 @@ class FaceClip {
     along_ = p.vertex(face[1]) - origin_;
     across_ = cross(normal, along_);
     scale_ = 1 / along_.squaredNorm();
-    grow(face.size() + other.size() + 3);
+    grow(face.size(), face.size() + other.size() + 3);
     // Seen along the reference normal the other face runs clockwise: turn it round.
     count_ = other.size();
     for (std::size_t k = 0; k < count_; ++k) points_[k] = in_plane(q.vertex(other[count_ - 1 - k]));
-    Point from = in_plane(p.vertex(face.back()));
-    for (const std::uint16_t vertex : face) {
-      const Point to = in_plane(p.vertex(vertex));
+    for (std::size_t k = 0; k < side_count_; ++k) outline_[k] = in_plane(p.vertex(face[k]));
+    for (std::size_t k = 0; k < side_count_; ++k) {
+      const Point &from = outline_[k], &to = outline_[k + 1 == side_count_ ? 0 : k + 1];
       const double du = to.u - from.u, dv = to.v - from.v;
       keep([&](const Point& x) { return du * (x.v - from.v) - dv * (x.u - from.u); });
-      from = to;
     }
     keep([top](const Point& x) { return top - x.h; });
   }
@@ -69,6 +71,50 @@ class FaceClip {
     return (u * u + v * v) * scale_ + h * h;
   }
 
+  /// Distance from a point over the reference face to its nearest side [m]; negative beside it.
+  [[nodiscard]] double room_around(const Vec3& x) const {
+    const Point point = in_plane(x);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < side_count_; ++k) {
+      const Point &from = outline_[k], &to = outline_[k + 1 == side_count_ ? 0 : k + 1];
+      const double du = to.u - from.u, dv = to.v - from.v;
+      const double side = du * (point.v - from.v) - dv * (point.u - from.u);
+      if (side < 0) return -1;
+      least = std::min(least, side * side / (du * du + dv * dv));
+    }
+    return std::sqrt(least * scale_);
+  }
+
+  /// Sides of the reference face and of the other, each by the place in its loop where it starts.
+  struct Sides {
+    std::size_t reference, other;
+  };
+  /// Those that run nearest to the deepest point of the polygon. If it is no corner of either face
+  /// they cross there. @pre the polygon is not empty
+  [[nodiscard]] Sides deepest_crossing(const PlacedShape<3>& q,
+                                       std::span<const std::uint16_t> other) const {
+    Point deepest = points_[0];
+    for (std::size_t k = 1; k < count_; ++k)
+      deepest = points_[k].h < deepest.h ? points_[k] : deepest;
+    const auto nearest = [&deepest](std::size_t count, auto&& corner) {
+      double least = std::numeric_limits<double>::infinity();
+      std::size_t found = 0;
+      Point from = corner(0);
+      for (std::size_t k = 0; k < count; ++k) {
+        const Point to = corner(k + 1 == count ? 0 : k + 1);
+        const double du = to.u - from.u, dv = to.v - from.v;
+        const double side = du * (deepest.v - from.v) - dv * (deepest.u - from.u);
+        const double squared = side * side / (du * du + dv * dv);
+        found = squared < least ? k : found;
+        least = std::min(least, squared);
+        from = to;
+      }
+      return found;
+    };
+    return {nearest(side_count_, [&](std::size_t k) { return outline_[k]; }),
+            nearest(other.size(), [&](std::size_t k) { return in_plane(q.vertex(other[k])); })};
+  }
+
   /// The polygon, anticlockwise about the reference normal, or the other way round.
   void write(std::vector<Vec3>& out, bool reversed) const {
     out.resize(count_);
@@ -88,7 +134,9 @@ class FaceClip {
     return {r.dot(along_), r.dot(across_), r.dot(normal_)};
   }
 
-  void grow(std::size_t size) {
+  void grow(std::size_t sides, std::size_t size) {
+    side_count_ = sides;
+    if (outline_.size() < sides) outline_.resize(sides);
     if (points_.size() >= size) return;
     points_.resize(size);
     spare_.resize(size);
@@ -128,7 +176,8 @@ class FaceClip {
 
   Vec3 normal_, origin_, along_, across_;
   double scale_ = 1;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, side_count_ = 0;
+  std::vector<Point> outline_;  ///< of the reference face
   std::vector<Point> points_, spare_;
   std::vector<double> sides_;
 };

@@ -20,15 +20,23 @@ namespace voussoir::detail {
 /// Two convex polyhedra: separating axes of faces and of pairs of edges, then the touching face
 /// clipped to the face it touches.
 ///
-/// Most pairs of edges need not be tried. Let K be the touching face q of b, clipped to the prism
-/// over the touching face p of a (or the other way round), and d the separation by p. A point x of
-/// K is in b, and x shifted to the plane of p is in a; therefore along any unit vector n
-///     separation(n) <= -(width of K along n) + max(reach, -d).
-/// K is flat, so its width is at least w sin(n, normal of q), with w >= area / extent its least
-/// width in its plane. An axis better than d thus makes an angle with the normal of q of at most
-///     sin(angle) < (max(0, -d) + max(reach, -d)) / w,
-/// and edges that support it lie near the plane of q. Between neighbours in a rock mass some four
-/// edges of each block are left of twelve.
+/// Edges are the dear part, and half of the pairs that touch do without trying them. The points x -
+/// y with x in a and y in b are a convex set M; the depth along a unit vector n is how far M
+/// reaches, h(n), and its least value belongs to the side of M that is nearest to the origin. Seen
+/// from outside, that side is the touching face p of a less the deepest vertex of b (or the other
+/// way round), or the parallelogram of two edges. The point of it nearest to the origin, its foot,
+/// lies inside if the vertex is over p, or if the edges cross; let r > 0 be its room to the rim. M
+/// has a disc of radius r there, so along an axis at the angle t from n
+///     h >= h(n) cos t + r sin t,
+/// which is more than h(n) as long as tan(t / 2) < r / h(n). So a foot inside settles all axes near
+/// n. The rest is settled by the touching face q of b, clipped to the prism over p: a polygon K. A
+/// point x of K is in b, and x shifted to the plane of p is in a; therefore along any axis
+///     separation <= -(width of K along it) + max(reach, depth by p).
+/// K is flat, so its width is at least w sin(angle to the normal of q), with w >= area / extent its
+/// least width in its plane. An axis better than p makes an angle with the normal of q of at most
+///     sin(angle) < (depth by p + max(reach, depth by p)) / w,
+/// or nearly the opposite direction; but there a point of M far behind the foot is in the way.
+/// Where the shapes are apart, a foot inside is their distance, which no axis exceeds.
 template <class Lanes>
 class FacePair3 {
  public:
@@ -78,6 +86,9 @@ class FacePair3 {
 
  private:
   static constexpr double flat = 0.995;  ///< cosine of 0.1 rad
+  /// A face decides rather than edges that are better by a rounding, e.g. those of another face
+  /// just as good: where they cross in its plane is not well defined [m].
+  static constexpr double preference = EdgePairs<Lanes>::rounding;
 
   using Shape = PlacedShape<3>;
 
@@ -102,9 +113,9 @@ class FacePair3 {
       return lowest(a.normal(memory.first), b) - a.offset(memory.first);
     if (memory.by == Touch::face_b)
       return lowest(b.normal(memory.first), a) - b.offset(memory.first);
-    Vec3 normal;
-    return EdgePairs<Lanes>::separation({a, shapes_->topology(i)}, memory.first,
-                                        {b, shapes_->topology(j)}, memory.second, limit, normal);
+    return EdgePairs<Lanes>::axis({a, shapes_->topology(i)}, memory.first,
+                                  {b, shapes_->topology(j)}, memory.second, limit)
+        .separation;
   }
 
   /// How far the faces of p keep q away at most; one number per face is left in `separations`.
@@ -157,9 +168,18 @@ class FacePair3 {
     face_side_ = of_a ? 0 : 1;
     face_normal_ = normal_ = of_a ? a.shape.normal(face) : Vec3(-b.shape.normal(face));
     clip_face(of_a ? a : b, of_a ? b : a, face, reach);
-    choose_edges(a, b, best, reach);
-    const auto edges = edge_pairs_.run(a, edges_of_a_, b, edges_of_b_, best);
-    if (edges.separation > best) {
+    if (settled(a, b, face, reach, best, memory)) {
+      memory.apart = best > limit;
+      return best;
+    }
+    if (clip_.size() > 0 && best <= 0) {
+      near(a, b, -best);
+    } else {
+      all(a.topology, edges_of_a_);
+      all(b.topology, edges_of_b_);
+    }
+    const auto edges = edge_pairs_.run(a, edges_of_a_, b, edges_of_b_, best + preference);
+    if (edges.separation > best + preference) {
       best = edges.separation;
       normal_ = edges.normal;
       memory = {edges.edge_a, edges.edge_b, Touch::edge_edge, best > limit};
@@ -175,51 +195,78 @@ class FacePair3 {
     if (heights_.size() < q.vertex_stride()) heights_.resize(q.vertex_stride());
     for (std::size_t k = 0; k < q.vertex_stride(); k += lane_count)
       along(normal, q, k).store(heights_.data() + k);
-    std::size_t deepest = 0;
-    double depth = heights_[0];
+    std::size_t deepest = 0, highest = 0;
+    double low = heights_[0], high = low;
     for (std::size_t k = 1; k < q.vertex_count; ++k) {
-      deepest = heights_[k] < depth ? k : deepest;
-      depth = std::min(depth, heights_[k]);
+      deepest = heights_[k] < low ? k : deepest;
+      low = std::min(low, heights_[k]);
+      highest = heights_[k] > high ? k : highest;
+      high = std::max(high, heights_[k]);
     }
     double facing = std::numeric_limits<double>::infinity();
-    std::size_t other = 0;
     for (const std::uint16_t candidate : incident.topology.faces_at(deepest)) {
       const double cosine = normal.dot(q.normal(candidate));
-      other = cosine < facing ? candidate : other;
+      other_ = cosine < facing ? candidate : other_;
       facing = std::min(facing, cosine);
     }
     deepest_ = q.vertex(deepest);
-    other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other)) : q.normal(other);
-    clip_.run(p, reference.topology.loop(face), normal, q, incident.topology.loop(other), reach);
+    highest_ = q.vertex(highest);
+    other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other_)) : q.normal(other_);
+    clip_.run(p, reference.topology.loop(face), normal, q, incident.topology.loop(other_), reach);
     area_ = clip_.area();
   }
 
-  /// The edges that could support an axis better than `best` (see the class).
-  void choose_edges(const LinkedShape& a, const LinkedShape& b, double best, double reach) {
+  /// Tries to settle the pair by the foot on one side of M (see the class): that of the reference
+  /// face, else that of the two edges that cross at the deepest point of the clipped polygon, whose
+  /// separation and numbers are then put in place of those given.
+  [[nodiscard]] bool settled(const LinkedShape& a, const LinkedShape& b, std::size_t face,
+                             double reach, double& best, Memory& memory) {
+    if (!(area_ > 0)) return false;
+    // The angle that a better axis may make with `other_normal_`, as a length on the unit sphere,
+    // which for up to 30 degrees is at most 1.04 times its sine.
     const double depth = std::max(0.0, -best), bound = depth + std::max(reach, depth);
-    const double extent = clip_.squared_extent();
-    const Topology &of_a = a.topology, &of_b = b.topology;
-    const double squared_sine = bound * bound * extent / (area_ * area_);
-    const double size = of_a.diameter + of_b.diameter;
-    if (squared_sine < 0.5) {  // false without an area
-      const double sine = std::sqrt(squared_sine), cosine = std::sqrt(1 - squared_sine);
-      const double slope = sine / cosine;
-      double low_a = 0, high_b = 0;
-      const double top_a = project(other_normal_, a.shape, heights_a_, low_a);
-      const double bottom_b = -project(-other_normal_, b.shape, heights_b_, high_b);
-      // Axes near the opposite direction would have to push a and b through each other.
-      if (cosine * (-high_b - low_a) - sine * size >= depth) {
-        pick(of_a, heights_a_, top_a - slope * of_a.diameter, edges_of_a_);
-        pick(of_b, heights_b_, -bottom_b - slope * of_b.diameter, edges_of_b_);
-        return;
-      }
+    const double squared_sine = bound * bound * clip_.squared_extent() / (area_ * area_);
+    if (!(squared_sine < 0.25)) return false;
+    const double spread = 1.04 * std::sqrt(squared_sine);
+
+    const bool of_a = face_side_ == 0;
+    const double room = clip_.room_around(deepest_);
+    if (room >= 0) {
+      const Vec3 foot = deepest_ - (of_a ? best : -best) * normal_;
+      return is_largest(best, normal_, room, foot, spread);
     }
-    if (clip_.size() > 0) {
-      near(a, b, depth);
-    } else {
-      all(of_a, edges_of_a_);
-      all(of_b, edges_of_b_);
-    }
+    const LinkedShape &p = of_a ? a : b, &q = of_a ? b : a;
+    const auto sides = clip_.deepest_crossing(q.shape, q.topology.loop(other_));
+    const std::uint16_t of_p = p.topology.side(face, sides.reference);
+    const std::uint16_t of_q = q.topology.side(other_, sides.other);
+    const std::uint16_t edge_a = of_a ? of_p : of_q, edge_b = of_a ? of_q : of_p;
+    const auto axis = EdgePairs<Lanes>::axis(a, edge_a, b, edge_b, best + preference);
+    if (!(axis.separation > best + preference && axis.is_of_edges())) return false;
+    const auto crossing = EdgePairs<Lanes>::crossing(p, of_p, q, of_q);
+    if (!(crossing.room >= 0 &&
+          is_largest(axis.separation, axis.normal, crossing.room, crossing.point, spread)))
+      return false;
+    best = axis.separation;
+    normal_ = axis.normal;
+    memory.first = edge_a;
+    memory.second = edge_b;
+    memory.by = Touch::edge_edge;
+    return true;
+  }
+
+  /// Whether no axis separates better than `normal`, on whose side of M the foot lies inside.
+  /// @param room    of the foot to the rim, >= 0 [m]
+  /// @param foot    a point of the shape with the reference face, that the foot was made of [m]
+  /// @param spread  a better axis is no further than this from `other_normal_` or its opposite
+  [[nodiscard]] bool is_largest(double separation, const Vec3& normal, double room,
+                                const Vec3& foot, double spread) const {
+    if (separation >= 0) return true;
+    const double depth = -separation, chord = spread + (normal - other_normal_).norm();
+    // tan(t / 2) <= 0.6 chord up to a chord of 1.
+    if (!(chord < 1 && room >= 0.6 * chord * depth)) return false;
+    const Vec3 back = highest_ - foot;
+    const double behind = face_side_ == 0 ? normal.dot(back) : -normal.dot(back);
+    return (1 - 0.5 * chord * chord) * behind - chord * back.norm() > depth;
   }
 
   /// The edges that come near enough to the other shape. If a pair of edges has the least depth of
@@ -273,32 +320,6 @@ class FacePair3 {
     pick_near(linked_b.topology, edges_of_b_);
   }
 
-  /// n . x of all vertices. @return the largest; `low`: the smallest [m]
-  static double project(const Vec3& n, const Shape& shape, std::vector<double>& heights,
-                        double& low) {
-    if (heights.size() < shape.vertex_stride()) heights.resize(shape.vertex_stride());
-    Lanes smallest = along(n, shape, 0), largest = smallest;
-    smallest.store(heights.data());
-    for (std::size_t k = lane_count; k < shape.vertex_stride(); k += lane_count) {
-      const Lanes here = along(n, shape, k);
-      here.store(heights.data() + k);
-      smallest = min(smallest, here);
-      largest = max(largest, here);
-    }
-    low = smallest.smallest();
-    return largest.largest();
-  }
-
-  /// The edges with both ends at `floor` or above.
-  static void pick(const Topology& topology, const std::vector<double>& heights, double floor,
-                   EdgeList& list) {
-    list.start(topology.edges.size());
-    const double* const height = heights.data();
-    for (std::size_t k = 0; k < topology.edges.size(); ++k) {
-      const Topology::Edge& edge = topology.edges[k];
-      list.add_if(k, std::min(height[edge.from], height[edge.to]) >= floor);
-    }
-  }
   static void all(const Topology& topology, EdgeList& list) {
     list.start(topology.edges.size());
     for (std::size_t k = 0; k < topology.edges.size(); ++k) list.add_if(k, true);
@@ -322,11 +343,14 @@ class FacePair3 {
   // Of the pair at hand, from `find_axis` to `contact`.
   int face_side_ = 0;  ///< whose face is the best: 0 a's, 1 b's
   double area_ = 0;    ///< of the clipped face [m^2]
-  Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero(), other_normal_ = Vec3::Zero(),
-       deepest_ = Vec3::Zero();
+  Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero();  ///< from a to b
+  // Of the shape across from the reference face: the face that was clipped, its normal as seen from
+  // a, and the lowest and the highest vertex over the reference face.
+  std::size_t other_ = 0;
+  Vec3 other_normal_ = Vec3::Zero(), deepest_ = Vec3::Zero(), highest_ = Vec3::Zero();
   std::vector<Vec3> polygon_;
   EdgeList edges_of_a_, edges_of_b_;
-  std::vector<double> separations_, heights_, heights_a_, heights_b_, scores_;
+  std::vector<double> separations_, heights_, scores_;
 };
 
 }  // namespace voussoir::detail
