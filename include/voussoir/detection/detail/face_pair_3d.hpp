@@ -20,13 +20,13 @@ namespace voussoir::detail {
 /// Two convex polyhedra: separating axes of faces and of pairs of edges, then the touching face
 /// clipped to the face it touches.
 ///
-/// Edges are the dear part, and half of the pairs that touch do without trying them. The points x -
-/// y with x in a and y in b are a convex set M; the depth along a unit vector n is how far M
-/// reaches, h(n), and its least value belongs to the side of M that is nearest to the origin. Seen
-/// from outside, that side is the touching face p of a less the deepest vertex of b (or the other
-/// way round), or the parallelogram of two edges. The point of it nearest to the origin, its foot,
-/// lies inside if the vertex is over p, or if the edges cross; let r > 0 be its room to the rim. M
-/// has a disc of radius r there, so along an axis at the angle t from n
+/// Edges are the dear part, and half of the pairs that touch do without trying them. Let M be all
+/// points x - y with x in a and y in b: a convex set. The depth along a unit vector n is how far M
+/// reaches, h(n), and its least value belongs to the side of M that is nearest to the origin. That
+/// side is the touching face p of a less the deepest vertex of b (or the other way round), or the
+/// parallelogram of two edges. Its foot, the point of its plane that is nearest to the origin, lies
+/// inside if the vertex is over p, or if the edges cross; let r > 0 be its room to the rim. M has a
+/// disc of radius r there, so along an axis at the angle t from n
 ///     h >= h(n) cos t + r sin t,
 /// which is more than h(n) as long as tan(t / 2) < r / h(n). So a foot inside settles all axes near
 /// n. The rest is settled by the touching face q of b, clipped to the prism over p: a polygon K. A
