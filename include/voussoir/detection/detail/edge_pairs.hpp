@@ -107,8 +107,7 @@ class EdgePairs {
     [[nodiscard]] bool is_of_edges() const { return gap - separation <= 4 * rounding; }
   };
   /// @param enough  what is not above this is of no interest: the separation may be -infinity, as
-  /// it
-  ///                is for parallel edges [m]
+  ///                it is for parallel edges [m]
   [[nodiscard]] static Axis axis(const LinkedShape& a, std::uint16_t i, const LinkedShape& b,
                                  std::uint16_t j, double enough) {
     const Topology::Edge &of_a = a.topology.edges[i], &of_b = b.topology.edges[j];

@@ -58,6 +58,17 @@ class FaceClip {
     return 0.5 * doubled * scale_;
   }
 
+  /// Half way from the mean of the polygon's corners to the reference face: inside both shapes
+  /// unless one of them tapers away from there. @pre the polygon is not empty
+  [[nodiscard]] Vec3 middle() const {
+    Point sum{0, 0, 0};
+    for (std::size_t k = 0; k < count_; ++k)
+      sum = {sum.u + points_[k].u, sum.v + points_[k].v, sum.h + points_[k].h};
+    const double share = 1 / static_cast<double>(count_);
+    return origin_ + (share * sum.u * scale_) * along_ + (share * sum.v * scale_) * across_ +
+           (0.5 * share * sum.h) * normal_;
+  }
+
   /// Square of a length that no two points of the polygon are further apart than [m^2].
   [[nodiscard]] double squared_extent() const {
     if (count_ == 0) return 0;

@@ -45,12 +45,22 @@ class FacePair3 {
     std::uint16_t first = 0, second = 0;  ///< a face, or an edge of a and an edge of b
     Touch by = Touch::face_a;
     bool apart = true;
+    /// A point of the overlap, from the first vertex of a; 0 if none is known [m].
+    Eigen::Vector3f inside = Eigen::Vector3f::Zero();
   };
 
   explicit FacePair3(const PlacedShapes<3>& shapes) : shapes_(&shapes) {}
 
   [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
-    return find_axis(a, b, 0, 0, memory) < 0;
+    // A point in both is proof enough, and cheaper than all axes.
+    if (!memory.apart && both_contain(a, b, memory.inside)) return true;
+    const double by_faces = find_face(a, b, 0, 0, memory);
+    if (memory.apart) return false;
+    if (clip_.size() > 0) {
+      memory.inside = (clip_.middle() - (*shapes_)[a].vertex(0)).template cast<float>();
+      if (both_contain(a, b, memory.inside)) return true;
+    }
+    return find_edges(a, b, by_faces, 0, 0, memory) < 0;
   }
 
   [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory,
@@ -105,6 +115,29 @@ class FacePair3 {
     return low.smallest();
   }
 
+  [[nodiscard]] LinkedShape linked(std::size_t k) const {
+    return {(*shapes_)[k], shapes_->topology(k)};
+  }
+
+  /// Whether a point, given from the first vertex of a, is inside both shapes beyond any rounding.
+  [[nodiscard]] bool both_contain(std::size_t i, std::size_t j,
+                                  const Eigen::Vector3f& from_a) const {
+    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
+    const Vec3 point = a.vertex(0) + from_a.cast<double>();
+    const double room = 1e-14 * (1 + point.template lpNorm<1>());  // fifty roundings
+    return height_above_faces(a, point) < -room && height_above_faces(b, point) < -room;
+  }
+  /// Of a point over the face that it is furthest above, < 0 inside [m].
+  [[nodiscard]] static double height_above_faces(const Shape& shape, const Vec3& point) {
+    Lanes high = Lanes::all(-std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < shape.face_stride(); k += lane_count)
+      high = max(high, Lanes::all(point[0]) * Lanes::load(shape.normals(0) + k) +
+                           Lanes::all(point[1]) * Lanes::load(shape.normals(1) + k) +
+                           Lanes::all(point[2]) * Lanes::load(shape.normals(2) + k) -
+                           Lanes::load(shape.offsets() + k));
+    return high.largest();
+  }
+
   /// What kept the pair apart last time, tried again [m]; maybe -infinity if not above `limit`.
   [[nodiscard]] double known_separation(std::size_t i, std::size_t j, double limit,
                                         const Memory& memory) const {
@@ -144,31 +177,45 @@ class FacePair3 {
   /// `limit`. What decided is left in `memory`, and its normal and clipped face in the members.
   [[nodiscard]] double find_axis(std::size_t i, std::size_t j, double limit, double reach,
                                  Memory& memory) {
+    const double by_faces = find_face(i, j, limit, reach, memory);
+    return memory.apart ? by_faces : find_edges(i, j, by_faces, limit, reach, memory);
+  }
+
+  /// The same by the faces alone, if what is in `memory` does not keep the shapes apart already.
+  [[nodiscard]] double find_face(std::size_t i, std::size_t j, double limit, double reach,
+                                 Memory& memory) {
     if (memory.apart) {
       const double known = known_separation(i, j, limit, memory);
       if (known > limit) return known;
     }
-    const LinkedShape a{(*shapes_)[i], shapes_->topology(i)};
-    const LinkedShape b{(*shapes_)[j], shapes_->topology(j)};
+    const LinkedShape a = linked(i), b = linked(j);
     const std::size_t half = std::max(a.shape.face_stride(), b.shape.face_stride());
     if (separations_.size() < 2 * half) separations_.resize(2 * half);
     double* const of_faces = separations_.data();
     const double by_a = largest_separation(a.shape, b.shape, of_faces);
     const double by_b = largest_separation(b.shape, a.shape, of_faces + half);
     const bool of_a = by_a >= by_b;
-    double best = of_a ? by_a : by_b;
+    const double best = of_a ? by_a : by_b;
     const double* const winner = of_a ? of_faces : of_faces + half;
     std::size_t face = 0;
     for (std::size_t k = (of_a ? a : b).shape.face_stride(); k-- > 0;)
       face = winner[k] == best ? k : face;
-    memory = {static_cast<std::uint16_t>(face), 0, of_a ? Touch::face_a : Touch::face_b,
-              best > limit};
+    memory.first = static_cast<std::uint16_t>(face);
+    memory.by = of_a ? Touch::face_a : Touch::face_b;
+    memory.apart = best > limit;
     if (memory.apart) return best;
 
     face_side_ = of_a ? 0 : 1;
     face_normal_ = normal_ = of_a ? a.shape.normal(face) : Vec3(-b.shape.normal(face));
     clip_face(of_a ? a : b, of_a ? b : a, face, reach);
-    if (settled(a, b, face, reach, best, memory)) {
+    return best;
+  }
+
+  /// The same by the edges, after `find_face` found `best` and did not keep the shapes apart.
+  [[nodiscard]] double find_edges(std::size_t i, std::size_t j, double best, double limit,
+                                  double reach, Memory& memory) {
+    const LinkedShape a = linked(i), b = linked(j);
+    if (settled(a, b, memory.first, reach, best, memory)) {
       memory.apart = best > limit;
       return best;
     }
@@ -182,7 +229,10 @@ class FacePair3 {
     if (edges.separation > best + preference) {
       best = edges.separation;
       normal_ = edges.normal;
-      memory = {edges.edge_a, edges.edge_b, Touch::edge_edge, best > limit};
+      memory.first = edges.edge_a;
+      memory.second = edges.edge_b;
+      memory.by = Touch::edge_edge;
+      memory.apart = best > limit;
     }
     return best;
   }
