@@ -14,6 +14,7 @@
 
 #include "support/pairs.hpp"
 #include "support/separating_axes.hpp"
+#include "support/solids.hpp"
 
 using namespace voussoir;
 using namespace voussoir_test;
@@ -313,6 +314,63 @@ TEST_SUITE("detection/face_contacts") {
       for (const auto& memory : {after_overlap, after_separation, after_contact})
         CHECK(ask<Pair, dim>(detector, 0, 1, memory, reach) == cold);
     });
+  }
+
+  TEST_CASE("a point that is remembered of an overlap lies in both polyhedra") {
+    int remembered = 0, overlaps = 0;
+    for_pairs<3>(11, Dimensions<3>::pairs, [&](const auto&, const Twin<3>& twin, const auto&) {
+      FaceContacts::Pair<3> detector(twin.shapes());
+      FaceContacts::Pair<3>::Memory memory;
+      if (!detector.overlap(0, 1, memory)) return;
+      ++overlaps;
+      if (memory.inside.isZero()) return;
+      ++remembered;
+      const Vec3 point = twin.shapes()[0].vertex(0) + memory.inside.cast<double>();
+      for (const LongShape<3>* shape : {&twin.a, &twin.b})
+        for (const LongVec<3>& normal : shape->normals) {
+          long double reach = -std::numeric_limits<long double>::infinity();
+          for (const LongVec<3>& vertex : shape->vertices)
+            reach = std::max(reach, normal.dot(vertex));
+          CHECK(normal.dot(point.cast<long double>()) < reach);
+        }
+      // Moved away by more than b is long, the point proves nothing.
+      PlacedShapes<3> moved = twin.shapes();
+      Pose<3> away;
+      away.position.setConstant(1e3);
+      moved.place(1, away);
+      CHECK_FALSE(FaceContacts::Pair<3>(moved).overlap(0, 1, memory));
+    });
+    CHECK(overlaps > Dimensions<3>::pairs / 3);
+    CHECK(remembered > overlaps / 2);
+  }
+
+  TEST_CASE("a remembered point proves nothing where a face is as uneven as the point is deep") {
+    // The plane passes the corner (1, 1) of the cube by 0.4 mm, which is taken for 0: the corner is
+    // on the cut face, and above the middle of that face the shape ends before the plane does.
+    const Vec3 normal = Vec3(1, -0.5005, 0).normalized();
+    const auto parts =
+        box({0, 0, 0}, {1, 1, 1}).split({normal, normal.dot(Vec3(0.5, 0, 0))}, 6, 1e-3);
+    REQUIRE(parts.has_value());
+    const ConvexPolyhedron& wedge = parts->first;
+    // A cube that looks at the edge from (0.5, 0) to (1, 1) across a gap of 0.1 mm, near its end.
+    const Vec3 out = Vec3(1, -0.5, 0).normalized(), along(-out.y(), out.x(), 0);
+    const Vec3 near(0.99, 0.98, 0.5);
+    ConvexPolyhedron cube = box({0, 0, 0}, {0.01, 0.01, 0.01});
+    PlacedShapes<3> shapes;
+    shapes.add(wedge, Vec3::Zero());
+    shapes.add(cube, Vec3::Zero());
+    Pose<3> pose;
+    pose.rotation << out, along, Vec3::UnitZ();
+    pose.position = near + 1e-4 * out - 0.005 * along;
+    shapes.place(1, pose);
+    const Vec3 point = near + 2e-4 * out + Vec3(0, 0, 0.005);
+    FaceContacts::Pair<3> detector(shapes);
+    FaceContacts::Pair<3>::Memory memory;
+    CHECK(detector.separation(0, 1, memory) == doctest::Approx(1e-4).epsilon(1e-9));
+    for (std::size_t k = 0; k < wedge.size(); ++k) REQUIRE(wedge.distance(k, point) < -1e-4);
+    memory.apart = false;
+    memory.inside = (point - shapes[0].vertex(0)).cast<float>();
+    CHECK_FALSE(detector.overlap(0, 1, memory));
   }
 
   TEST_CASE_TEMPLATE("vector lanes and plain numbers give the same bits", D, Dimensions<2>,

@@ -111,8 +111,9 @@ void check_pair(Bytes& bytes) {
   shapes.place(0, pose_a);
   shapes.place(1, before);
   Pair warm(shapes);
-  typename Pair::Memory memory;
+  typename Pair::Memory memory, of_overlap;
   (void)warm.contact(0, 1, memory, reach);
+  (void)warm.overlap(0, 1, of_overlap);
   shapes.place(1, pose_b);
 
   const LongShape<Dim> a = reference_of(shape_a, pose_a), b = reference_of(shape_b, pose_b);
@@ -132,6 +133,7 @@ void check_pair(Bytes& bytes) {
   }
   typename Pair::Memory cold;
   must(pair.overlap(0, 1, cold) == (separation < 0), "overlap as separation says", separation);
+  must(warm.overlap(0, 1, of_overlap) == (separation < 0), "overlap from memory", separation);
 
   typename Pair::Memory none;
   const Contact<Dim> contact = pair.contact(0, 1, none, reach);

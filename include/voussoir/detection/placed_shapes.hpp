@@ -73,6 +73,7 @@ struct Topology {
   std::span<const std::uint32_t> fan_begin;  ///< one more than vertices
   std::span<const std::uint16_t> fans;       ///< faces at each vertex
   double diameter = 0;                       ///< longest distance between two vertices [m]
+  double unevenness = 0;  ///< longest distance of a vertex from the plane of a face it is of [m]
 
   [[nodiscard]] std::span<const std::uint16_t> loop(std::size_t face) const {
     return loops.subspan(loop_begin[face], loop_begin[face + 1] - loop_begin[face]);
@@ -189,7 +190,8 @@ class PlacedShapes {
             {sides_.data() + l.first_side, 2 * l.edge_count},
             {begins_.data() + l.first_fan, r.vertex_count + std::size_t{1}},
             indices_,
-            l.diameter};
+            l.diameter,
+            l.unevenness};
   }
 
  private:
@@ -204,7 +206,7 @@ class PlacedShapes {
   };
   struct Links {
     std::size_t first_edge, edge_count, first_loop, first_side, first_fan;
-    double diameter;
+    double diameter, unevenness;
   };
 
   void add_topology(const ConvexPolyhedron& shape) {
@@ -214,8 +216,8 @@ class PlacedShapes {
                          std::to_string(shape.vertices().size()) +
                          " vertices: at most 65535 of each");
     const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
-    Links links{edges_.size(),   shape.edges().size(), begins_.size(), sides_.size(), 0,
-                shape.diameter()};
+    Links links{
+        edges_.size(), shape.edges().size(), begins_.size(), sides_.size(), 0, shape.diameter(), 0};
     for (const auto& edge : shape.edges())
       edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
     std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
@@ -224,6 +226,8 @@ class PlacedShapes {
       mark();
       for (const int vertex : shape.loop(face)) {
         indices_.push_back(small(vertex));
+        const double off = shape.distance(face, shape.vertex(static_cast<std::size_t>(vertex)));
+        links.unevenness = std::max(links.unevenness, std::abs(off));
         fans[static_cast<std::size_t>(vertex)].push_back(small(face));
       }
     }

@@ -57,8 +57,12 @@ class FacePair3 {
     const double by_faces = find_face(a, b, 0, 0, memory);
     if (memory.apart) return false;
     if (clip_.size() > 0) {
-      memory.inside = (clip_.middle() - (*shapes_)[a].vertex(0)).template cast<float>();
-      if (both_contain(a, b, memory.inside)) return true;
+      const Eigen::Vector3f from_a =
+          (clip_.middle() - (*shapes_)[a].vertex(0)).template cast<float>();
+      if (both_contain(a, b, from_a)) {
+        memory.inside = from_a;
+        return true;
+      }
     }
     return find_edges(a, b, by_faces, 0, 0, memory) < 0;
   }
@@ -119,13 +123,17 @@ class FacePair3 {
     return {(*shapes_)[k], shapes_->topology(k)};
   }
 
-  /// Whether a point, given from the first vertex of a, is inside both shapes beyond any rounding.
+  /// Whether a point, given from the first vertex of a, is inside both shapes beyond any doubt. The
+  /// axes are measured over the vertices; the planes are rounded, and may cut a corner off or leave
+  /// one out by the unevenness of the faces.
   [[nodiscard]] bool both_contain(std::size_t i, std::size_t j,
                                   const Eigen::Vector3f& from_a) const {
-    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
-    const Vec3 point = a.vertex(0) + from_a.cast<double>();
-    const double room = 1e-14 * (1 + point.template lpNorm<1>());  // fifty roundings
-    return height_above_faces(a, point) < -room && height_above_faces(b, point) < -room;
+    const LinkedShape a = linked(i), b = linked(j);
+    const Vec3 point = a.shape.vertex(0) + from_a.template cast<double>();
+    const double doubt = 1e-14 * (1 + point.template lpNorm<1>()) +
+                         std::max(a.topology.unevenness, b.topology.unevenness);
+    return height_above_faces(a.shape, point) < -doubt &&
+           height_above_faces(b.shape, point) < -doubt;
   }
   /// Of a point over the face that it is furthest above, < 0 inside [m].
   [[nodiscard]] static double height_above_faces(const Shape& shape, const Vec3& point) {
