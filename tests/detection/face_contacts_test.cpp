@@ -345,8 +345,8 @@ TEST_SUITE("detection/face_contacts") {
   }
 
   TEST_CASE("a remembered point proves nothing where a face is as uneven as the point is deep") {
-    // The plane passes the corner (1, 1) of the cube by 0.4 mm, which is taken for 0: the corner is
-    // on the cut face, and above the middle of that face the shape ends before the plane does.
+    // The plane passes the corner (1, 1) of the cube at 0.4 mm, which is taken for 0: the corner
+    // is a vertex of the cut face and 0.4 mm below its plane.
     const Vec3 normal = Vec3(1, -0.5005, 0).normalized();
     const auto parts =
         box({0, 0, 0}, {1, 1, 1}).split({normal, normal.dot(Vec3(0.5, 0, 0))}, 6, 1e-3);
@@ -355,7 +355,7 @@ TEST_SUITE("detection/face_contacts") {
     // A cube that looks at the edge from (0.5, 0) to (1, 1) across a gap of 0.1 mm, near its end.
     const Vec3 out = Vec3(1, -0.5, 0).normalized(), along(-out.y(), out.x(), 0);
     const Vec3 near(0.99, 0.98, 0.5);
-    ConvexPolyhedron cube = box({0, 0, 0}, {0.01, 0.01, 0.01});
+    const ConvexPolyhedron cube = box({0, 0, 0}, {0.01, 0.01, 0.01});
     PlacedShapes<3> shapes;
     shapes.add(wedge, Vec3::Zero());
     shapes.add(cube, Vec3::Zero());
@@ -366,7 +366,8 @@ TEST_SUITE("detection/face_contacts") {
     const Vec3 point = near + 2e-4 * out + Vec3(0, 0, 0.005);
     FaceContacts::Pair<3> detector(shapes);
     FaceContacts::Pair<3>::Memory memory;
-    CHECK(detector.separation(0, 1, memory) == doctest::Approx(1e-4).epsilon(1e-9));
+    // Roundings of 1e-16 m of coordinates of 1 m, with room.
+    CHECK(std::abs(detector.separation(0, 1, memory) - 1e-4) < 1e-14);
     for (std::size_t k = 0; k < wedge.size(); ++k) REQUIRE(wedge.distance(k, point) < -1e-4);
     memory.apart = false;
     memory.inside = (point - shapes[0].vertex(0)).cast<float>();

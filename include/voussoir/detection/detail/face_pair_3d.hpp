@@ -123,9 +123,9 @@ class FacePair3 {
     return {(*shapes_)[k], shapes_->topology(k)};
   }
 
-  /// Whether a point, given from the first vertex of a, is inside both shapes beyond any doubt. The
-  /// axes are measured over the vertices; the planes are rounded, and may cut a corner off or leave
-  /// one out by the unevenness of the faces.
+  /// Whether a point, given from the first vertex of a, is inside both shapes beyond any doubt:
+  /// deeper than some fifty roundings of its coordinates, and than the vertices of a face, over
+  /// which the axes are measured, lie off its plane.
   [[nodiscard]] bool both_contain(std::size_t i, std::size_t j,
                                   const Eigen::Vector3f& from_a) const {
     const LinkedShape a = linked(i), b = linked(j);
