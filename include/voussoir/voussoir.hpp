@@ -17,6 +17,7 @@
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/lining/beams.hpp>
+#include <voussoir/motion/dynamics.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
@@ -25,6 +26,7 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/solver/oedometer.hpp>
 #include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>

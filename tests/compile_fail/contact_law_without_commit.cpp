@@ -1,4 +1,4 @@
-// expect: contact law: add `void commit(const PointLoad<Dim>&, State<Dim>&) const`
+// expect: contact law: add `double commit(const PointLoad<Dim>&, State<Dim>&) const`
 // SPDX-License-Identifier: MIT
 // A contact law that cannot remember.
 #include <voussoir/solver/composition.hpp>
@@ -19,6 +19,10 @@ struct Law {
     PointForce<Dim> result = load.initial;
     result.normal -= load.weight * (load.motion.opening + state.slip);
     return result;
+  }
+  template <int Dim>
+  double stored_energy(const PointLoad<Dim>&, const State<Dim>&) const {
+    return 0;
   }
   [[nodiscard]] double joint_normal_stiffness() const { return 1; }
   [[nodiscard]] double joint_shear_stiffness() const { return 1; }

@@ -15,8 +15,13 @@ struct Law {
     double slip = 0;
   };
   template <int Dim>
-  void commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+  double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
     state.slip = load.motion.slip[0];
+    return 0;
+  }
+  template <int Dim>
+  double stored_energy(const PointLoad<Dim>&, const State<Dim>&) const {
+    return 0;
   }
   [[nodiscard]] double joint_normal_stiffness() const { return 1; }
   [[nodiscard]] double joint_shear_stiffness() const { return 1; }

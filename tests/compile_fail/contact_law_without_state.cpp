@@ -17,8 +17,13 @@ struct Law {
     return result;
   }
   template <int Dim>
-  void commit(const PointLoad<Dim>& load, double& state) const {
+  double commit(const PointLoad<Dim>& load, double& state) const {
     state = load.motion.slip[0];
+    return 0;
+  }
+  template <int Dim>
+  double stored_energy(const PointLoad<Dim>&, double) const {
+    return 0;
   }
   [[nodiscard]] double joint_normal_stiffness() const { return 1; }
   [[nodiscard]] double joint_shear_stiffness() const { return 1; }

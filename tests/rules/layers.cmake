@@ -15,9 +15,10 @@ set(layer_rockmass 2)
 set(layer_contact 3)
 set(layer_bolt 3)
 set(layer_lining 3)
-set(layer_solver 4)
-set(layer_tunnel 5)
-set(layer_io 6)
+set(layer_motion 4)
+set(layer_solver 5)
+set(layer_tunnel 6)
+set(layer_io 7)
 set(core_only theory statistics)  # beside the tower: they stand on core alone
 
 # One complaint about `header` including `included` (both relative to the root, or an outside name), or "".

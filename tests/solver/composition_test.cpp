@@ -38,7 +38,13 @@ class Welded {
             load.initial.tangential - joint_shear_stiffness() * load.weight * load.motion.slip};
   }
   template <int Dim>
-  void commit(const PointLoad<Dim>&, State<Dim>&) const {}
+  double commit(const PointLoad<Dim>&, State<Dim>&) const {
+    return 0;
+  }
+  template <int Dim>
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>&, const State<Dim>&) const {
+    return 0;
+  }
   [[nodiscard]] double joint_normal_stiffness() const { return 5e9; }
   [[nodiscard]] double joint_shear_stiffness() const { return 5e8; }
 };

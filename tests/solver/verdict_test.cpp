@@ -73,8 +73,12 @@ class FaultyJoint {
     return f;
   }
   template <int Dim>
-  void commit(const PointLoad<Dim>& load, State<Dim>& state) const {
-    sound_.commit(load, state);
+  double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+    return sound_.commit(load, state);
+  }
+  template <int Dim>
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    return sound_.stored_energy(load, state);
   }
   [[nodiscard]] double joint_normal_stiffness() const { return sound_.joint_normal_stiffness(); }
   [[nodiscard]] double joint_shear_stiffness() const { return sound_.joint_shear_stiffness(); }

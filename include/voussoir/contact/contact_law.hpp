@@ -40,7 +40,12 @@ concept HasContactForce = requires(const Law law, const PointLoad<Dim>& load,
 template <class Law, int Dim>
 concept HasContactCommit = requires(const Law law, const PointLoad<Dim>& load,
                                     typename Law::template State<Dim>& state) {
-  { law.commit(load, state) } -> std::same_as<void>;
+  { law.commit(load, state) } -> std::same_as<double>;
+};
+template <class Law, int Dim>
+concept HasStoredEnergy = requires(const Law law, const PointLoad<Dim>& load,
+                                   const typename Law::template State<Dim>& state) {
+  { law.stored_energy(load, state) } -> std::same_as<double>;
 };
 template <class Law>
 concept HasJointStiffness = requires(const Law law) {
@@ -52,7 +57,9 @@ concept HasJointStiffness = requires(const Law law) {
 ///
 /// What the compiler cannot check, and a law must still honour:
 ///  - `force` depends on its arguments alone and is continuous in the motion;
-///  - `commit` sets the state so that `force` at the same motion gives the same force as before;
+///  - `commit` sets the state so that `force` at the same motion gives the same force as before,
+///    and returns the energy that slip, damage and the like have used up since the last commit [J];
+///  - `stored_energy` is what the point gives back if its force is let go elastically [J];
 ///  - with zero motion and a fresh state, `force` returns the initial force where that is
 ///  admissible;
 ///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
@@ -60,7 +67,7 @@ concept HasJointStiffness = requires(const Law law) {
 /// Models: CoulombJoint (rock joints, lining interface), SmoothWall (edge of the domain).
 template <class Law, int Dim>
 concept ContactLaw = std::copyable<Law> && HasContactState<Law, Dim> && HasContactForce<Law, Dim> &&
-    HasContactCommit<Law, Dim> && HasJointStiffness<Law>;
+    HasContactCommit<Law, Dim> && HasStoredEnergy<Law, Dim> && HasJointStiffness<Law>;
 
 template <class Law, int Dim>
 consteval bool explain_contact_law() {
@@ -70,7 +77,11 @@ consteval bool explain_contact_law() {
                 "contact law: add `PointForce<Dim> force(const PointLoad<Dim>&, const State<Dim>&) "
                 "const`");
   static_assert(HasContactCommit<Law, Dim>,
-                "contact law: add `void commit(const PointLoad<Dim>&, State<Dim>&) const`");
+                "contact law: add `double commit(const PointLoad<Dim>&, State<Dim>&) const` (the "
+                "energy used up [J])");
+  static_assert(HasStoredEnergy<Law, Dim>,
+                "contact law: add `double stored_energy(const PointLoad<Dim>&, const State<Dim>&) "
+                "const` [J]");
   static_assert(HasJointStiffness<Law>,
                 "contact law: add `double joint_normal_stiffness() const` and `double "
                 "joint_shear_stiffness() const` [Pa/m]");

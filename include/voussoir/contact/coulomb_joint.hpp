@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 
@@ -14,9 +15,9 @@ namespace voussoir {
 ///   N = max(0, N0 - k_n w g)
 ///   T = T0 - k_s w (s - q), shortened to |T| <= N tan(phi)
 ///
-/// w weight of the point, g opening, s slip, q plastic slip (the only thing remembered). The normal
-/// force is in total form, so an opened joint closes again where it opened; the shear spring needs
-/// no turning along at the small rotations for which the contact topology is frozen.
+/// w weight of the point, g opening, s slip, q plastic slip (the only thing that forces depend on).
+/// The normal force is in total form, so an opened joint closes again where it opened; the shear
+/// spring needs no turning along at the small rotations for which the contact topology is frozen.
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 2.1; k_n, k_s as of Goodman, Taylor & Brekke
 /// (1968).
@@ -34,6 +35,7 @@ class CoulombJoint {
   template <int Dim>
   struct State {
     Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
+    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T then, for the friction work alone [N]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -55,13 +57,26 @@ class CoulombJoint {
     return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
   }
 
+  /// @return  the friction work T . dq [J], T the mean of now and the last commit
   template <int Dim>
-  void commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+  double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
     const PointForce<Dim> now = force(load, state);
+    const Vec<Dim - 1> before = std::exchange(state.shear, now.tangential);
     // Only a point that slides moves its spring: q stays bit for bit where it was otherwise.
-    if (now.tangential != elastic_shear(load, state))
-      state.plastic_slip = load.motion.slip + (now.tangential - load.initial.tangential) /
-                                                  (params_.joint_shear_stiffness * load.weight);
+    if (now.tangential == elastic_shear(load, state)) return 0;
+    const Vec<Dim - 1> from = state.plastic_slip;
+    state.plastic_slip = load.motion.slip + (now.tangential - load.initial.tangential) /
+                                                (params_.joint_shear_stiffness * load.weight);
+    return -0.5 * (before + now.tangential).dot(state.plastic_slip - from);
+  }
+
+  /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
+  template <int Dim>
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const PointForce<Dim> now = force(load, state);
+    return 0.5 / load.weight *
+           (now.normal * now.normal / params_.joint_normal_stiffness +
+            now.tangential.squaredNorm() / params_.joint_shear_stiffness);
   }
 
   [[nodiscard]] double joint_normal_stiffness() const { return params_.joint_normal_stiffness; }

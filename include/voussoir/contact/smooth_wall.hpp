@@ -30,7 +30,15 @@ class SmoothWall {
             Vec<Dim - 1>::Zero()};
   }
   template <int Dim>
-  void commit(const PointLoad<Dim>&, State<Dim>&) const {}
+  double commit(const PointLoad<Dim>&, State<Dim>&) const {
+    return 0;
+  }
+  /// N^2 / (2 k_n w)
+  template <int Dim>
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const double normal = force(load, state).normal;
+    return 0.5 * normal * normal / (stiffness_ * load.weight);
+  }
 
   [[nodiscard]] double joint_normal_stiffness() const { return stiffness_; }
   [[nodiscard]] double joint_shear_stiffness() const { return 0.0; }

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/geometry/spatial_facet.hpp>
+
+namespace voussoir {
+
+/// Where on a contact the joint's springs stand.
+///
+/// All but `centre` give the force and the moment of a closed joint exactly. What tells them apart
+/// is a joint that opens: a block that tips turns about its outermost point.
+enum class ContactPoints {
+  centre,  ///< one, in the middle: resists no turning (as the paper's code did)
+  gauss,   ///< two (2-D), four (3-D) inside: the fewest; a block tips about a point 21 % inside
+  corners  ///< also on the corners: a block tips about its edge
+};
+
+/// A place on a contact and the length or area that it stands for.
+template <int Dim>
+struct WeightedPoint {
+  Vec<Dim> place;  ///< [m]
+  double weight;   ///< [m], [m^2]
+};
+
+/// The points of a contact in the plane, from one end to the other.
+///
+///   corners: Simpson's rule, 1/6, 4/6, 1/6: exact for polynomials of degree 3, as two Gauss points
+inline void place_points(ContactPoints rule, std::span<const Vec2> ends, double length,
+                         std::vector<WeightedPoint<2>>& points) {
+  points.clear();
+  const Vec2 middle = 0.5 * (ends[0] + ends[1]), half = 0.5 * (ends[1] - ends[0]);
+  switch (rule) {
+    case ContactPoints::centre:
+      points = {{middle, length}};
+      return;
+    case ContactPoints::gauss: {
+      const Vec2 off = half / std::sqrt(3.0);
+      points = {{middle - off, 0.5 * length}, {middle + off, 0.5 * length}};
+      return;
+    }
+    case ContactPoints::corners:
+      points = {{ends[0], length / 6}, {middle, length / 1.5}, {ends[1], length / 6}};
+      return;
+  }
+}
+
+/// The points of a contact in space.
+///
+///   corners: the triangles of a fan about the centroid, each with 1/12 of its area on every corner
+///   and 3/4 on its centroid: exact for polynomials of degree 2
+inline void place_points(ContactPoints rule, std::span<const Vec3> polygon, double area,
+                         std::vector<WeightedPoint<3>>& points) {
+  points.clear();
+  const SpatialFacet facet{{polygon.begin(), polygon.end()}};
+  const Vec3 centre = facet.centre();
+  if (rule == ContactPoints::centre) {
+    points.push_back({centre, area});
+    return;
+  }
+  const double scale = area / facet.measure();  // what is seen along the normal of the contact
+  if (rule == ContactPoints::gauss) {
+    for (const FacetPoint<3>& p : facet.gauss_points())
+      points.push_back({centre + p.offset, scale * p.weight});
+    return;
+  }
+  const std::size_t count = polygon.size();
+  for (const Vec3& corner : polygon) points.push_back({corner, 0});
+  points.push_back({centre, area / 12});
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t next = k + 1 == count ? 0 : k + 1;
+    const double triangle =
+        0.5 * scale * cross(Vec3(polygon[k] - centre), Vec3(polygon[next] - centre)).norm();
+    points[k].weight += triangle / 12;
+    points[next].weight += triangle / 12;
+    points.push_back({(centre + polygon[k] + polygon[next]) / 3, 0.75 * triangle});
+  }
+}
+
+}  // namespace voussoir

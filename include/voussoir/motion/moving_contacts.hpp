@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/vec.hpp>
+
+namespace voussoir {
+
+/// What a contact does to its two bodies at one instant.
+template <int Dim>
+struct Reaction {
+  Vec<Dim> force;       ///< on b; a gets the opposite [N]
+  Spin<Dim> moment[2];  ///< on a and on b, about their centres, world axes [N m]
+};
+
+/// What contacts turn into heat.
+struct Dissipation {
+  double friction = 0;   ///< slip and damage, as the law says [J]
+  double viscosity = 0;  ///< dashpots, per time [W]
+};
+
+/// Contacts that follow one law, between bodies that move and turn by any amount.
+///
+/// A contact point is fixed in body b, and touches the face of body a: its opening and slip are its
+/// coordinates in a frame that turns with that face, less what they were when the joint was closed.
+/// Forces on both bodies act in the same place, so that momentum and angular momentum are kept to
+/// rounding.
+template <int Dim, class Law>
+class MovingContacts {
+ public:
+  using State = typename Law::template State<Dim>;
+
+  struct Point {
+    Vec<Dim> place;  ///< in the frame of body b [m]
+    Vec<Dim> zero;   ///< coordinates in the contact's frame at which opening and slip are zero [m]
+    double weight;   ///< length or area [m], [m^2]
+    PointForce<Dim> initial;
+    [[no_unique_address]] State state;
+  };
+  struct Contact {
+    Rotation<Dim> frame;       ///< columns: normal from a to b, tangents; in the frame of body a
+    std::int32_t a, b;         ///< bodies; a owns the face
+    std::int32_t first, last;  ///< points
+    double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
+  };
+
+  explicit MovingContacts(Law law) : law_(std::move(law)) {}
+
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] std::vector<Contact>& contacts() { return contacts_; }
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] std::vector<Point>& points() { return points_; }
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] std::size_t size() const { return contacts_.size(); }
+
+  /// The frame of a contact at these poses of its bodies, and what follows from it.
+  struct Place {
+    Rotation<Dim> frame_b;  ///< columns: normal and tangents in the frame of b
+    Vec<Dim> base;          ///< centre of b less centre of a, in the contact's frame
+  };
+  [[nodiscard]] static Place place_of(const Contact& c, const Pose<Dim>& a, const Pose<Dim>& b) {
+    const Rotation<Dim> frame = a.rotation * c.frame;
+    return {b.rotation.transpose() * frame, frame.transpose() * (b.position - a.position)};
+  }
+  [[nodiscard]] static PointMotion<Dim> motion_of(const Point& p, const Place& at) {
+    const Vec<Dim> m = at.base + at.frame_b.transpose() * p.place - p.zero;
+    return {m[0], m.template tail<Dim - 1>()};
+  }
+  [[nodiscard]] PointLoad<Dim> load_of(const Point& p, const Place& at) const {
+    return {p.weight, p.initial, motion_of(p, at)};
+  }
+
+  /// Forces of contact `k` with the bodies at these poses, history brought up to date.
+  template <class Bodies>
+  [[nodiscard]] Reaction<Dim> react(std::size_t k, const Bodies& bodies, Dissipation& lost) {
+    const Contact& c = contacts_[k];
+    const auto &a = bodies[static_cast<std::size_t>(c.a)],
+               &b = bodies[static_cast<std::size_t>(c.b)];
+    if constexpr (Dim == 2)
+      if (!(c.viscosity > 0)) return react_in_plane(c, a, b, lost);
+    const Rotation<Dim> frame = a.pose.rotation * c.frame;
+    const Vec<Dim> arm = b.pose.position - a.pose.position;
+    const Place at{b.pose.rotation.transpose() * frame, frame.transpose() * arm};
+    Vec<Dim> force = Vec<Dim>::Zero();     // frame of b
+    Spin<Dim> moment = Spin<Dim>::Zero();  // about the centre of b, frame of b
+    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
+      Point& p = points_[i];
+      const PointLoad<Dim> load = load_of(p, at);
+      const PointForce<Dim> f = law_.force(load, p.state);
+      lost.friction += law_.commit(load, p.state);
+      Vec<Dim> components;
+      components << f.normal, f.tangential;
+      if (c.viscosity > 0 && f.normal > 0)
+        components[0] += damping_force(c, p, a, b, frame, arm, f.normal, lost);
+      const Vec<Dim> on_b = at.frame_b * components;
+      force += on_b;
+      moment += moment_of(p.place, on_b);
+    }
+    Reaction<Dim> r;
+    r.force = b.pose.rotation * force;
+    r.moment[1] = to_world(b.pose.rotation, moment);
+    r.moment[0] = -(r.moment[1] + moment_of(arm, r.force));
+    return r;
+  }
+
+  /// Energy that the springs of contact `k` hold [J].
+  template <class Bodies>
+  [[nodiscard]] double stored_energy(std::size_t k, const Bodies& bodies) const {
+    const Contact& c = contacts_[k];
+    const Place at = place_of(c, bodies[static_cast<std::size_t>(c.a)].pose,
+                              bodies[static_cast<std::size_t>(c.b)].pose);
+    double sum = 0;
+    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
+      sum += law_.stored_energy(load_of(points_[i], at), points_[i].state);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] static Spin<Dim> to_world(const Rotation<Dim>& rotation, const Spin<Dim>& moment) {
+    if constexpr (Dim == 2)
+      return moment;
+    else
+      return rotation * moment;
+  }
+
+  /// The same in the plane, number by number: Eigen's two-vectors are carried through memory by
+  /// g++ 12 when they are put together from parts, which doubles the time.
+  template <class Body>
+  [[nodiscard]] Reaction<Dim> react_in_plane(const Contact& c, const Body& a, const Body& b,
+                                             Dissipation& lost) requires(Dim == 2) {
+    const double ca = a.pose.rotation(0, 0), sa = a.pose.rotation(1, 0);
+    const double cb = b.pose.rotation(0, 0), sb = b.pose.rotation(1, 0);
+    const double fx = c.frame(0, 0), fy = c.frame(1, 0);
+    const double nx = ca * fx - sa * fy, ny = sa * fx + ca * fy;  // normal, world
+    const double mx = cb * nx + sb * ny, my = cb * ny - sb * nx;  // normal, frame of b
+    const double dx = b.pose.position.x() - a.pose.position.x();
+    const double dy = b.pose.position.y() - a.pose.position.y();
+    const double base_n = nx * dx + ny * dy, base_t = nx * dy - ny * dx;  // tangent (-ny, nx)
+    double force_n = 0, force_t = 0, moment = 0;
+    const Point* const end = points_.data() + c.last;
+    for (Point* p = points_.data() + c.first; p != end; ++p) {
+      const double px = p->place.x(), py = p->place.y();
+      const double along_n = mx * px + my * py, along_t = mx * py - my * px;
+      PointLoad<Dim> load{p->weight, p->initial, {base_n + along_n - p->zero[0], {}}};
+      load.motion.slip[0] = base_t + along_t - p->zero[1];
+      const PointForce<Dim> f = law_.force(load, p->state);
+      lost.friction += law_.commit(load, p->state);
+      force_n += f.normal;
+      force_t += f.tangential[0];
+      // place x force, both in the contact's frame
+      moment += along_n * f.tangential[0] - along_t * f.normal;
+    }
+    Reaction<Dim> r;
+    const double x = nx * force_n - ny * force_t, y = ny * force_n + nx * force_t;
+    r.force << x, y;
+    r.moment[1][0] = moment;
+    r.moment[0][0] = -(moment + dx * y - dy * x);
+    return r;
+  }
+
+  /// The dashpot beside a normal spring. It never pulls the blocks together. There is none in
+  /// shear: it would carry what friction has let go.
+  template <class Body>
+  [[nodiscard]] double damping_force(const Contact& c, const Point& p, const Body& a, const Body& b,
+                                     const Rotation<Dim>& frame, const Vec<Dim>& arm, double normal,
+                                     Dissipation& lost) const {
+    const Vec<Dim> place = arm + b.pose.rotation * p.place;  // from the centre of a, world axes
+    const double rate = frame.col(0).dot(b.velocity_at(p.place) -
+                                         a.velocity_at(a.pose.rotation.transpose() * place));
+    const double viscous =
+        std::max(-c.viscosity * p.weight * law_.joint_normal_stiffness() * rate, -normal);
+    lost.viscosity -= viscous * rate;
+    return viscous;
+  }
+
+  Law law_;
+  std::vector<Contact> contacts_;
+  std::vector<Point> points_;
+};
+
+}  // namespace voussoir
