@@ -50,16 +50,13 @@ class ContactTracker {
   [[nodiscard]] std::vector<Pair>& pairs() { return pairs_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
 
-  /// Adds a shape, given in world coordinates, to a body at its present pose.
-  void add(const Shape& shape, int body, const Pose<Dim>& pose) {
-    shapes_.add(shape, pose.position);
+  /// Adds a shape to a body.
+  /// @param centre    of the body, in the coordinates in which the shape is given [m]
+  /// @param rotation  from the body's frame to these
+  void add(const Shape& shape, const Vec<Dim>& centre, int body, const Rotation<Dim>& rotation) {
+    shapes_.add(shape, centre);
     body_of_.push_back(body);
-    home_.push_back(pose.rotation.transpose());
-  }
-
-  /// Forgets what has been asked: every pair is asked in the next update.
-  void ask_all() {
-    for (Pair& pair : pairs_) pair.moved = -1;
+    home_.push_back(rotation.transpose());
   }
 
   /// Follows the bodies to where they are now. Calls `touches(pair, contact)` for every pair asked

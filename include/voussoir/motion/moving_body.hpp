@@ -48,6 +48,19 @@ struct MovingBody {
   [[nodiscard]] double kinetic_energy() const {
     return 0.5 * (mass * velocity.squaredNorm() + momentum.dot(spin()));
   }
+  /// A spin or moment from the world's axes to the body's, and back; in the plane there is one.
+  [[nodiscard]] Spin<Dim> to_body(const Spin<Dim>& v) const {
+    if constexpr (Dim == 2)
+      return v;
+    else
+      return pose.rotation.transpose() * v;
+  }
+  [[nodiscard]] Spin<Dim> to_world(const Spin<Dim>& v) const {
+    if constexpr (Dim == 2)
+      return v;
+    else
+      return pose.rotation * v;
+  }
   /// Velocity of the point that lies at `place` in the body's frame [m/s].
   [[nodiscard]] Vec<Dim> velocity_at(const Vec<Dim>& place) const {
     return velocity + pose.rotation * turned(spin(), place);

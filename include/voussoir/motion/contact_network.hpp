@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/motion/contact_points.hpp>
+#include <voussoir/motion/contact_renewal.hpp>
+#include <voussoir/motion/contact_tracker.hpp>
+#include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/moving_contacts.hpp>
+
+namespace voussoir {
+
+/// All contacts of bodies that move: joints between blocks, and smooth walls around them.
+///
+/// Contacts are numbered in one row, joints first. Every body has the list of its contacts, in
+/// which their forces are summed: always in the same order.
+template <int Dim, class JointLaw>
+class ContactNetwork {
+ public:
+  using Body = MovingBody<Dim>;
+  using Bodies = std::vector<Body>;
+  using Joints = MovingContacts<Dim, JointLaw>;
+  using Walls = MovingContacts<Dim, SmoothWall>;
+  using Tracker = ContactTracker<Dim>;
+  static constexpr int dof = Dim + spin_count<Dim>;
+
+  /// @param viscous_damping  ratio to critical of the dashpots [-]
+  ContactNetwork(const JointLaw& law, ContactPoints rule, double viscous_damping)
+      : joints_(law),
+        walls_(SmoothWall(law.joint_normal_stiffness())),
+        rule_(rule),
+        viscous_damping_(viscous_damping) {}
+
+  [[nodiscard]] const Joints& joints() const { return joints_; }
+  [[nodiscard]] const Walls& walls() const { return walls_; }
+  [[nodiscard]] std::size_t size() const { return joints_.size() + walls_.size(); }
+
+  /// Calls visit(group, contact) for every contact of both groups.
+  template <class Visit>
+  void each(Visit&& visit) {
+    for (auto& c : joints_.contacts()) visit(joints_, c);
+    for (auto& c : walls_.contacts()) visit(walls_, c);
+  }
+
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (const auto& c : joints_.contacts()) visit(joints_, c);
+    for (const auto& c : walls_.contacts()) visit(walls_, c);
+  }
+
+  /// Finds contacts again where bodies have moved.
+  /// @param is_wall  for every body
+  /// @param refound  energy that springs gain by their new form is added to it [J]
+  /// @return  true if anything has changed
+  bool find(Tracker& tracker, const Bodies& bodies, const std::vector<char>& is_wall,
+            double& refound) {
+    is_stale_.resize(bodies.size(), 1);
+    stiffest_.resize(bodies.size(), 0);
+    bool changed = false, relisted = first_end_.empty();
+    const auto of_wall = [&](const typename Tracker::Pair& pair) {
+      return is_wall[index(tracker.body_of(pair.a))] || is_wall[index(tracker.body_of(pair.b))];
+    };
+    tracker.update(
+        bodies,
+        [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
+          const bool in_place = of_wall(pair)
+                                    ? renew(walls_, tracker, pair, found, bodies, refound)
+                                    : renew(joints_, tracker, pair, found, bodies, refound);
+          relisted = relisted || !in_place;
+          changed = true;
+        },
+        [&](typename Tracker::Pair& pair) {
+          const std::size_t k = index(pair.contact);
+          refound -=
+              of_wall(pair) ? walls_.stored_energy(k, bodies) : joints_.stored_energy(k, bodies);
+          pair.contact = -1;
+          is_stale_[index(tracker.body_of(pair.a))] = 1;
+          is_stale_[index(tracker.body_of(pair.b))] = 1;
+          relisted = changed = true;
+        });
+    if (relisted) list(tracker, bodies.size(), of_wall);
+    return changed;
+  }
+
+  /// Computes what contacts first, ..., last - 1 do, history brought up to date.
+  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
+    const std::size_t joints = joints_.size();
+    for (std::size_t k = first; k < std::min(last, joints); ++k)
+      reactions_[k] = joints_.react(k, bodies, lost);
+    for (std::size_t k = std::max(first, joints); k < last; ++k)
+      reactions_[k] = walls_.react(k - joints, bodies, lost);
+  }
+  /// Force and moment of all contacts on a body, as last computed; world axes.
+  [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {
+    Vec<Dim> force = Vec<Dim>::Zero();
+    Spin<Dim> moment = Spin<Dim>::Zero();
+    for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
+      const Reaction<Dim>& r = reactions_[ends_[k].contact];
+      // No branch: which end of a contact a body is cannot be foreseen.
+      force += ends_[k].sign() * r.force;
+      moment += r.moment[ends_[k].end];
+    }
+    return {force, moment};
+  }
+
+  [[nodiscard]] double stored_energy(const Bodies& bodies) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < joints_.size(); ++k) sum += joints_.stored_energy(k, bodies);
+    for (std::size_t k = 0; k < walls_.size(); ++k) sum += walls_.stored_energy(k, bodies);
+    return sum;
+  }
+
+  /// A bound on the largest eigenvalue of M^-1 K of every body, all others held, its contacts
+  /// closed and sticking: the largest sum of a row [1/s^2].
+  [[nodiscard]] const std::vector<double>& stiffness_over_mass(const Bodies& bodies) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (is_stale_[b]) {
+        is_stale_[b] = 0;
+        stiffest_[b] = bodies[b].movable() ? largest_row(b, bodies) : 0.0;
+      }
+    return stiffest_;
+  }
+
+ private:
+  using Stiffness = Eigen::Matrix<double, dof, dof>;
+  /// One end of a contact, as its body sees it.
+  struct End {
+    std::uint32_t contact;
+    std::uint32_t end;  ///< 0: body a, 1: body b
+    [[nodiscard]] double sign() const { return 2.0 * end - 1.0; }
+  };
+
+  template <class T>
+  [[nodiscard]] static std::size_t index(T i) {
+    return static_cast<std::size_t>(i);
+  }
+
+  /// Gives a pair the contact that was found.
+  /// @return  true if the contact has kept its place in the lists
+  template <class Group>
+  bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
+             const Contact<Dim>& found, const Bodies& bodies, double& refound) {
+    const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
+    const std::size_t owner = of_a ? pair.a : pair.b;
+    const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
+    std::vector<typename Group::Point>& points = scratch_of(group);
+    const typename Group::Contact* const old =
+        known ? &group.contacts()[index(pair.contact)] : nullptr;
+    typename Group::Contact contact =
+        detail::ContactRenewal<Dim, Group>(bodies, group)
+            .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
+    if (viscous_damping_ > 0)
+      contact.viscosity =
+          viscosity(bodies[index(a)], bodies[index(b)],
+                    group.law().joint_normal_stiffness() * std::max(found.measure, 1e-12));
+    const auto count = static_cast<std::int32_t>(points.size());
+    const bool in_place = known && a == old->a && count == old->last - old->first;
+    if (known) refound -= group.stored_energy(index(pair.contact), bodies);
+    if (in_place) {
+      contact.first = old->first;
+      std::copy(points.begin(), points.end(), group.points().begin() + contact.first);
+    } else {
+      contact.first = static_cast<std::int32_t>(group.points().size());
+      group.points().insert(group.points().end(), points.begin(), points.end());
+    }
+    contact.last = contact.first + count;
+    if (!known) {
+      pair.contact = static_cast<std::int32_t>(group.size());
+      group.contacts().emplace_back();
+    }
+    group.contacts()[index(pair.contact)] = contact;
+    refound += group.stored_energy(index(pair.contact), bodies);
+    is_stale_[index(a)] = is_stale_[index(b)] = 1;
+    return in_place;
+  }
+  template <class Group>
+  [[nodiscard]] auto& scratch_of(const Group&) {
+    if constexpr (std::is_same_v<Group, Joints>)
+      return joint_points_;
+    else
+      return wall_points_;
+  }
+
+  /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the
+  /// ratio wanted: c / k = 2 zeta sqrt(m / k) [s].
+  [[nodiscard]] double viscosity(const Body& a, const Body& b, double stiffness) const {
+    const double mass =
+        a.movable() && b.movable() ? a.mass * b.mass / (a.mass + b.mass) : std::max(a.mass, b.mass);
+    return 2 * viscous_damping_ * std::sqrt(mass / stiffness);
+  }
+
+  /// Drops what is no longer used, puts contacts in the order of the pairs, and lists every body's.
+  template <class OfWall>
+  void list(Tracker& tracker, std::size_t body_count, OfWall&& of_wall) {
+    tidy(joints_, tracker, [&](const auto& pair) { return !of_wall(pair); });
+    tidy(walls_, tracker, of_wall);
+    reactions_.resize(size());
+    first_end_.assign(body_count + 1, 0);
+    each([this](const auto&, const auto& c) {
+      ++first_end_[index(c.a) + 1];
+      ++first_end_[index(c.b) + 1];
+    });
+    for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
+    ends_.resize(2 * size());
+    std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
+    std::uint32_t k = 0;
+    each([&](const auto&, const auto& c) {
+      ends_[next[index(c.a)]++] = {k, 0};
+      ends_[next[index(c.b)]++] = {k++, 1};
+    });
+  }
+  template <class Group, class Belongs>
+  static void tidy(Group& group, Tracker& tracker, Belongs&& belongs) {
+    std::vector<typename Group::Contact> contacts;
+    std::vector<typename Group::Point> points;
+    contacts.reserve(group.size());
+    points.reserve(group.points().size());
+    for (auto& pair : tracker.pairs()) {
+      if (pair.contact < 0 || !belongs(pair)) continue;
+      typename Group::Contact c = group.contacts()[index(pair.contact)];
+      const auto first = group.points().begin() + c.first, last = group.points().begin() + c.last;
+      c.first = static_cast<std::int32_t>(points.size());
+      points.insert(points.end(), first, last);
+      c.last = static_cast<std::int32_t>(points.size());
+      pair.contact = static_cast<std::int32_t>(contacts.size());
+      contacts.push_back(c);
+    }
+    group.contacts().swap(contacts);
+    group.points().swap(points);
+  }
+
+  [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const {
+    Stiffness sum = Stiffness::Zero();
+    for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
+      const std::size_t k = ends_[e].contact;
+      if (k < joints_.size())
+        add_springs(joints_, k, ends_[e].end == 1, bodies, sum);
+      else
+        add_springs(walls_, k - joints_.size(), ends_[e].end == 1, bodies, sum);
+    }
+    return sum.rowwise().template lpNorm<1>().maxCoeff();
+  }
+  /// Adds M^-1/2 G^T K G M^-1/2 of one contact to the matrix of body a or b, in the body's frame.
+  template <class Group>
+  static void add_springs(const Group& group, std::size_t k, bool on_b, const Bodies& bodies,
+                          Stiffness& sum) {
+    const auto& c = group.contacts()[k];
+    const Body &a = bodies[index(c.a)], &b = bodies[index(c.b)], &body = on_b ? b : a;
+    const Rotation<Dim> frame =
+        on_b ? Rotation<Dim>(b.pose.rotation.transpose() * (a.pose.rotation * c.frame)) : c.frame;
+    const double root = 1 / std::sqrt(body.mass);
+    for (auto i = index(c.first); i < index(c.last); ++i) {
+      const auto& p = group.points()[i];
+      const Vec<Dim> place =
+          on_b ? p.place
+               : Vec<Dim>(a.pose.rotation.transpose() * (b.pose(p.place) - a.pose.position));
+      for (int axis = 0; axis < Dim; ++axis) {
+        const Vec<Dim> along = frame.col(axis);
+        Eigen::Matrix<double, dof, 1> g;
+        g << root * along, moment_of(place, along).cwiseQuotient(body.inertia.cwiseSqrt());
+        sum += p.weight *
+               (axis == 0 ? group.law().joint_normal_stiffness()
+                          : group.law().joint_shear_stiffness()) *
+               g * g.transpose();
+      }
+    }
+  }
+
+  Joints joints_;
+  Walls walls_;
+  ContactPoints rule_;
+  double viscous_damping_;
+  std::vector<Reaction<Dim>> reactions_;
+  std::vector<std::uint32_t> first_end_;  ///< of every body in `ends_`, and one more
+  std::vector<End> ends_;
+  std::vector<char> is_stale_;    ///< contacts of the body have changed since `stiffest_`
+  std::vector<double> stiffest_;  ///< [1/s^2]
+  std::vector<typename Joints::Point> joint_points_;
+  std::vector<typename Walls::Point> wall_points_;
+};
+
+}  // namespace voussoir
