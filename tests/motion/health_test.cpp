@@ -77,10 +77,9 @@ TEST_SUITE("motion/health") {
     CAPTURE(text);
     CHECK(says(text, "block "));
     CHECK(says(text, " m/s"));
-    Run limit = tower({.safety = 1}), half = tower({.safety = 0.5});
-    CHECK(fault_of(limit, 20000) == "");  // inaccurate, but bounded
-    CHECK(fault_of(half, 20000) == "");
-    CHECK(std::abs(half.energy().relative_imbalance()) < 0.05);
+    Run limit = tower({.safety = 1});
+    CHECK(fault_of(limit, 20000) == "");
+    CHECK(limit.kinetic_energy() < 100);  // J: the tower is dropped by 10 um, 120 kN
   }
 
   TEST_CASE("a velocity that is not a number is found, and the state before it kept") {

@@ -64,10 +64,25 @@ concept HasJointStiffness = requires(const Law law) {
 ///  admissible;
 ///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
 ///
-/// Models: CoulombJoint (rock joints, lining interface), SmoothWall (edge of the domain).
+/// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
+/// BurgersJoint, SmoothWall (edge of the domain).
 template <class Law, int Dim>
 concept ContactLaw = std::copyable<Law> && HasContactState<Law, Dim> && HasContactForce<Law, Dim> &&
     HasContactCommit<Law, Dim> && HasStoredEnergy<Law, Dim> && HasJointStiffness<Law>;
+
+/// A contact law whose joints creep: optional, for `Solver::creep`.
+///
+/// What the compiler cannot check: `creep` changes the state as time passes under the force of the
+/// moment; steps well below `creep_time` are harmless.
+///
+/// Models: BurgersJoint.
+template <class Law, int Dim>
+concept CreepingLaw = ContactLaw<Law, Dim> &&
+    requires(const Law law, const PointLoad<Dim>& load, typename Law::template State<Dim>& state,
+             double time) {
+  { law.creep(load, state, time) } -> std::same_as<void>;
+  { law.creep_time() } -> std::same_as<double>;
+};
 
 template <class Law, int Dim>
 consteval bool explain_contact_law() {

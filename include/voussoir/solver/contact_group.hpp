@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -109,9 +110,25 @@ class ContactGroup {
   }
 
   /// Brings the history up to date with displacement `u`.
-  void commit(const double* u) {
+  /// @return  points whose force changed by that: joints that failed, and are weaker now
+  int commit(const double* u) {
+    int weakened = 0;
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      law_.commit({p.weight, p.initial, motion_at(c, offset, u)}, p.state);
+      const PointLoad<dim> load{p.weight, p.initial, motion_at(c, offset, u)};
+      const PointForce<dim> before = law_.force(load, p.state);
+      law_.commit(load, p.state);
+      const PointForce<dim> after = law_.force(load, p.state);
+      const double change =
+          std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
+      if (change > 1e-9 * (std::abs(before.normal) + before.tangential.norm())) ++weakened;
+    });
+    return weakened;
+  }
+
+  /// Lets joints creep for a time [s] at displacement `u`.
+  void creep(const double* u, double time) requires CreepingLaw<Law, dim> {
+    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
+      law_.creep({p.weight, p.initial, motion_at(c, offset, u)}, p.state, time);
     });
   }
 

@@ -199,6 +199,34 @@ class Solver {
     return report;
   }
 
+  /// What `creep` found at a time.
+  struct CreepState {
+    double time;  ///< since the call [s]
+    EquilibriumReport report;
+  };
+  /// Lets joints creep, equilibrium found again after every step: convergence against time.
+  /// A step is a fifth of the law's creep time: longer ones overshoot where blocks cannot follow.
+  /// @param duration  [s], > 0
+  /// @param seen      called after every equilibrium; returns false to stop
+  /// @return  the states; the last is at `duration` unless one was not stable, which ends it
+  /// @throws InvalidInput  duration out of range
+  template <class Seen>
+  std::vector<CreepState> creep(double duration, Seen&& seen, const Method& method = {},
+                                const Acceptance& acceptance = {}) requires
+      CreepingLaw<JointLaw, dim> {
+    require(duration > 0 && std::isfinite(duration), "duration of creep", duration, "> 0 s");
+    std::vector<CreepState> states;
+    const double longest = 0.2 * joint_law_.creep_time();
+    for (double time = 0; time < duration;) {
+      const double step = std::min(longest, duration - time);
+      system_.joints.creep(system_.displacement.data(), step);
+      time = duration - time <= longest ? duration : time + step;
+      states.push_back({time, equilibrium(system_.wall_fraction, method, acceptance)});
+      if (states.back().report.verdict != Verdict::stable || !seen(states.back())) break;
+    }
+    return states;
+  }
+
   [[nodiscard]] const RockMass<Geometry>& mass() const { return mass_; }
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
   [[nodiscard]] const SystemType& system() const { return system_; }

@@ -105,15 +105,14 @@ class System {
   }
 
   /// Brings all history up to date with the present displacement.
-  /// @return  bolts that broke: equilibrium must then be sought again
+  /// @return  bolts that broke and contact points that weakened: equilibrium must then be sought
+  ///          again
   int commit() {
-    joints.commit(displacement.data());
-    boundary.commit(displacement.data());
-    interface.commit(displacement.data());
-    int broken = 0;
+    int changed = joints.commit(displacement.data()) + boundary.commit(displacement.data()) +
+                  interface.commit(displacement.data());
     for (auto& bolt : bolts)
-      broken += bolt.commit(bolt_laws[static_cast<std::size_t>(bolt.law)], displacement.data());
-    return broken;
+      changed += bolt.commit(bolt_laws[static_cast<std::size_t>(bolt.law)], displacement.data());
+    return changed;
   }
 
   /// Stiffness with every contact closed and sticking, supports included but for broken bolts.

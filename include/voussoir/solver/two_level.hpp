@@ -250,7 +250,7 @@ class TwoLevel {
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
-        if (system.commit() > 0) {  // a bolt broke: look again without it
+        if (system.commit() > 0) {  // a bolt broke, a joint failed: look again without it
           elastic.prepare(system, params_.fire, report);
           continue;
         }

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/errors.hpp>
+
+namespace voussoir {
+
+/// A joint with cohesion and tensile strength that opens as it slips, and weakens when it fails.
+///
+///   N = N0 - k_n w (g - d),   N >= -sigma_t w, else it fails and N = 0
+///   |T| <= c w + N tan(phi),  T = T0 - k_s w (s - q)
+///   d = tan(psi) min(Q, Q_max), Q the length of the path of q
+///
+/// Symbols as in CoulombJoint; d dilation, psi its angle. While a point slips, dilation presses the
+/// joint shut, which raises the strength in the same step. A point that has reached its strength
+/// has failed: from the next commit on cohesion and friction are the residual ones, and there is no
+/// tensile strength. With c = sigma_t = psi = 0 it is a CoulombJoint.
+///
+/// Weakening changes the force at a commit: a search for equilibrium goes on after it
+/// (`System::commit` counts such points).
+///
+/// Source: Goodman (1976), Methods of geological engineering; non-associated flow with a limited
+/// dilation as in Itasca's joint models.
+class MohrCoulombJoint {
+ public:
+  using role = roles::ContactLaw;
+  static constexpr const char* name = "MohrCoulombJoint";
+
+  struct Params {
+    double joint_normal_stiffness;        ///< k_n [Pa/m], > 0
+    double joint_shear_stiffness;         ///< k_s [Pa/m], > 0
+    double friction_angle;                ///< phi [rad], 0 <= phi < pi/2
+    double cohesion = 0;                  ///< c [Pa], >= 0
+    double tensile_strength = 0;          ///< sigma_t [Pa], 0 <= sigma_t <= c / tan(phi)
+    double dilation_angle = 0;            ///< psi [rad], 0 <= psi <= phi
+    double dilation_limit = 0;            ///< Q_max, slip after which it ends [m], >= 0
+    double residual_friction_angle = -1;  ///< after failure [rad], 0 to phi; -1: phi
+    double residual_cohesion = 0;         ///< after failure [Pa], 0 to c
+  };
+
+  template <int Dim>
+  struct State {
+    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
+    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T at the last commit [N]
+    double path = 0;                                   ///< Q [m]
+    bool failed = false;
+  };
+
+  /// @throws InvalidInput  a parameter is outside the range given in Params
+  explicit MohrCoulombJoint(const Params& params) : p_(params) {
+    if (p_.residual_friction_angle == -1) p_.residual_friction_angle = p_.friction_angle;
+    constexpr double right = 0.5 * std::numbers::pi;
+    require(p_.joint_normal_stiffness > 0 && std::isfinite(p_.joint_normal_stiffness),
+            "joint_normal_stiffness", p_.joint_normal_stiffness, "> 0 Pa/m");
+    require(p_.joint_shear_stiffness > 0 && std::isfinite(p_.joint_shear_stiffness),
+            "joint_shear_stiffness", p_.joint_shear_stiffness, "> 0 Pa/m");
+    require(p_.friction_angle >= 0 && p_.friction_angle < right, "friction_angle",
+            p_.friction_angle, ">= 0 and < pi/2 rad");
+    require(p_.cohesion >= 0 && std::isfinite(p_.cohesion), "cohesion", p_.cohesion, ">= 0 Pa");
+    require(p_.tensile_strength >= 0 &&
+                p_.tensile_strength * std::tan(p_.friction_angle) <= p_.cohesion * (1 + 1e-12),
+            "tensile_strength", p_.tensile_strength, ">= 0 Pa and <= cohesion / tan(phi)");
+    require(p_.dilation_angle >= 0 && p_.dilation_angle <= p_.friction_angle, "dilation_angle",
+            p_.dilation_angle, ">= 0 and <= friction_angle");
+    require(p_.dilation_limit >= 0 && std::isfinite(p_.dilation_limit), "dilation_limit",
+            p_.dilation_limit, ">= 0 m");
+    require(p_.residual_friction_angle >= 0 && p_.residual_friction_angle <= p_.friction_angle,
+            "residual_friction_angle", p_.residual_friction_angle, ">= 0 and <= friction_angle");
+    require(p_.residual_cohesion >= 0 && p_.residual_cohesion <= p_.cohesion, "residual_cohesion",
+            p_.residual_cohesion, ">= 0 and <= cohesion");
+    tan_dilation_ = p_.dilation_limit > 0 ? std::tan(p_.dilation_angle) : 0;
+  }
+
+  template <int Dim>
+  [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    return respond(load, state).force;
+  }
+
+  /// @return  work of slip less what dilation stores, and what breaking in tension sets free [J]
+  template <int Dim>
+  double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
+    const Response<Dim> now = respond(load, state);
+    const Vec<Dim - 1> before = std::exchange(state.shear, now.force.tangential);
+    double lost = 0;
+    if (now.slip > 0 || now.opens) {
+      const Vec<Dim - 1> from = state.plastic_slip;
+      state.plastic_slip = load.motion.slip + (now.force.tangential - load.initial.tangential) /
+                                                  (p_.joint_shear_stiffness * load.weight);
+      lost = -0.5 * (before + now.force.tangential).dot(state.plastic_slip - from) -
+             now.force.normal * (dilation(state.path + now.slip) - dilation(state.path));
+      state.path += now.slip;  // what an open joint slips wears no teeth
+    }
+    if (now.opens && !state.failed)
+      lost +=
+          0.5 * load.weight * p_.tensile_strength * p_.tensile_strength / p_.joint_normal_stiffness;
+    state.failed = state.failed || now.opens || now.slip > 0;
+    return lost;
+  }
+
+  /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
+  template <int Dim>
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const PointForce<Dim> now = force(load, state);
+    return 0.5 / load.weight *
+           (now.normal * now.normal / p_.joint_normal_stiffness +
+            now.tangential.squaredNorm() / p_.joint_shear_stiffness);
+  }
+
+  [[nodiscard]] double joint_normal_stiffness() const { return p_.joint_normal_stiffness; }
+  [[nodiscard]] double joint_shear_stiffness() const { return p_.joint_shear_stiffness; }
+  [[nodiscard]] const Params& params() const { return p_; }
+
+ private:
+  template <int Dim>
+  struct Response {
+    PointForce<Dim> force;
+    double slip = 0;     ///< new plastic slip [m]
+    bool opens = false;  ///< tensile strength reached, or open
+  };
+
+  [[nodiscard]] double dilation(double path) const {
+    return tan_dilation_ * std::min(path, p_.dilation_limit);
+  }
+
+  template <int Dim>
+  [[nodiscard]] Response<Dim> respond(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const double w = load.weight, kn = p_.joint_normal_stiffness * w,
+                 ks = p_.joint_shear_stiffness * w;
+    const double mu = std::tan(state.failed ? p_.residual_friction_angle : p_.friction_angle);
+    const double cohesion = w * (state.failed ? p_.residual_cohesion : p_.cohesion);
+    const double tension = state.failed ? 0.0 : w * p_.tensile_strength;
+    Response<Dim> r;
+    r.force.normal = load.initial.normal - kn * (load.motion.opening - dilation(state.path));
+    r.force.tangential = load.initial.tangential - ks * (load.motion.slip - state.plastic_slip);
+    if (r.force.normal < -tension) {
+      r.force = {};
+      r.opens = true;
+      return r;
+    }
+    const double shear = r.force.tangential.norm();
+    const auto excess = [&](double normal) {
+      return shear - std::max(0.0, cohesion + mu * normal);
+    };
+    double over = excess(r.force.normal);
+    if (!(over > 0)) return r;
+    // |T| - k_s dq = c + mu (N + k_n tan(psi) dq), as long as there is dilation left; then without.
+    const double left = std::max(0.0, p_.dilation_limit - state.path);
+    double slip = over / (ks + mu * kn * tan_dilation_);
+    if (slip > left || tan_dilation_ == 0) {
+      const double dilating = tan_dilation_ == 0 ? 0.0 : left;
+      slip = (over - mu * kn * tan_dilation_ * dilating) / ks;
+      r.force.normal += kn * tan_dilation_ * dilating;
+    } else {
+      r.force.normal += kn * tan_dilation_ * slip;
+    }
+    r.slip = slip;
+    r.force.tangential *= shear > 0 ? std::max(0.0, shear - ks * slip) / shear : 0.0;
+    return r;
+  }
+  Params p_;
+  double tan_dilation_ = 0;
+};
+
+static_assert(ContactLaw<MohrCoulombJoint, 2> && ContactLaw<MohrCoulombJoint, 3>);
+
+}  // namespace voussoir

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
+
+using namespace voussoir;
+
+namespace {
+
+constexpr double kn = 5e9, ks = 5e8, degree = std::numbers::pi / 180, w = 0.4;
+template <int Dim>
+using Dimension = std::integral_constant<int, Dim>;
+
+template <int Dim>
+PointLoad<Dim> point(double normal, double opening, double slip) {
+  PointLoad<Dim> load{w, {}, {opening, Vec<Dim - 1>::Zero()}};
+  load.initial.normal = normal;
+  if constexpr (Dim == 2)
+    load.motion.slip[0] = slip;
+  else
+    load.motion.slip = slip * Vec<2>(0.6, -0.8);
+  return load;
+}
+
+/// Slides a point at this initial normal force by steps to `slip`; the shear at the end, and the
+/// largest on the way.
+struct Path {
+  double end, peak, normal, lost, stored;
+};
+template <int Dim>
+Path slide(const MohrCoulombJoint& law, double normal, double slip, int steps) {
+  MohrCoulombJoint::State<Dim> state;
+  Path path{};
+  PointForce<Dim> force;
+  for (int k = 1; k <= steps; ++k) {
+    const auto load = point<Dim>(normal, 0, slip * k / steps);
+    force = law.force(load, state);
+    path.peak = std::max(path.peak, force.tangential.norm());
+    path.lost += law.commit(load, state);
+    path.end = force.tangential.norm();
+    path.normal = force.normal;
+    path.stored = law.stored_energy(load, state);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_SUITE("contact/mohr_coulomb_joint") {
+  TEST_CASE_TEMPLATE("without cohesion, tension and dilation it is a Coulomb joint", D,
+                     Dimension<2>, Dimension<3>) {
+    constexpr int dim = D::value;
+    const MohrCoulombJoint law({kn, ks, 35 * degree});
+    const CoulombJoint plain({kn, ks, 35 * degree});
+    MohrCoulombJoint::State<dim> state;
+    CoulombJoint::State<dim> other;
+    for (const auto& [opening, slip] : {std::pair{0.0, 1e-4},
+                                        {1e-5, 1e-3},
+                                        {-1e-5, 2e-3},
+                                        {-1e-5, 1.5e-3},
+                                        {3e-4, 0.0},
+                                        {-2e-5, -1e-3}}) {
+      const auto load = point<dim>(1e5, opening, slip);
+      const auto mine = law.force(load, state), theirs = plain.force(load, other);
+      CHECK(mine.normal == doctest::Approx(theirs.normal).epsilon(1e-14));
+      CHECK((mine.tangential - theirs.tangential).norm() < 1e-9);
+      CHECK(law.commit(load, state) == doctest::Approx(plain.commit(load, other)).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE_TEMPLATE("peak strength c + sigma tan(phi), then the residual", D, Dimension<2>,
+                     Dimension<3>) {
+    const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                .joint_shear_stiffness = ks,
+                                .friction_angle = 40 * degree,
+                                .cohesion = 3e5,
+                                .tensile_strength = 1e5,
+                                .residual_friction_angle = 30 * degree,
+                                .residual_cohesion = 2e4});
+    const double normal = 2e5;
+    const Path path = slide<D::value>(law, normal, 3e-3, 3000);
+    // The peak is met to a step of slip: k_s w 1e-6 m = 200 N.
+    CHECK(std::abs(path.peak - (3e5 * w + normal * std::tan(40 * degree))) < 200);
+    CHECK(path.end == doctest::Approx(2e4 * w + normal * std::tan(30 * degree)).epsilon(1e-12));
+    // Work of the shear force = friction + what failure set free + what the spring still holds.
+    const double residual = path.end, spring = ks * w, top = path.peak;
+    const double rise = 0.5 * top * top / spring, after = residual * (3e-3 - top / spring);
+    CHECK(path.lost + path.stored - 0.5 * normal * normal / (kn * w) ==
+          doctest::Approx(rise + after).epsilon(2e-3));
+  }
+
+  TEST_CASE("it carries tension up to its strength once") {
+    const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                .joint_shear_stiffness = ks,
+                                .friction_angle = 40 * degree,
+                                .cohesion = 3e5,
+                                .tensile_strength = 1e5});
+    MohrCoulombJoint::State<2> state;
+    const auto at = [&](double opening) { return point<2>(0, opening, 0); };
+    const double strain = 1e5 / kn;
+    CHECK(law.force(at(0.99 * strain), state).normal == doctest::Approx(-0.99e5 * w));
+    CHECK(law.commit(at(0.99 * strain), state) == 0);
+    CHECK(law.force(at(1.01 * strain), state).normal == 0);
+    CHECK(law.commit(at(1.01 * strain), state) ==
+          doctest::Approx(0.5 * w * 1e5 * 1e5 / kn));  // what it held
+    CHECK(law.force(at(0.5 * strain), state).normal == 0);
+    CHECK(law.force(at(-strain), state).normal == doctest::Approx(1e5 * w));
+  }
+
+  TEST_CASE_TEMPLATE("dilation lifts the joint by tan(psi) per slip, up to its limit", D,
+                     Dimension<2>, Dimension<3>) {
+    const double psi = 10 * degree, limit = 1e-3;
+    const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                .joint_shear_stiffness = ks,
+                                .friction_angle = 40 * degree,
+                                .dilation_angle = psi,
+                                .dilation_limit = limit});
+    // Held shut: all dilation becomes normal force. Slip is what is left of s after the spring.
+    for (const int steps : {1, 7, 1000}) {
+      CAPTURE(steps);
+      const Path path = slide<D::value>(law, 1e5, 0.8e-3, steps);
+      const double plastic = 0.8e-3 - path.end / (ks * w);
+      CHECK(path.normal == doctest::Approx(1e5 + kn * w * std::tan(psi) * plastic).epsilon(1e-9));
+      CHECK(path.end == doctest::Approx(path.normal * std::tan(40 * degree)).epsilon(1e-9));
+      const Path far = slide<D::value>(law, 1e5, 8e-3, steps);
+      CHECK(far.normal == doctest::Approx(1e5 + kn * w * std::tan(psi) * limit).epsilon(1e-9));
+      CHECK(far.end == doctest::Approx(far.normal * std::tan(40 * degree)).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE("parameters out of range are refused by name") {
+    using P = MohrCoulombJoint::Params;
+    CHECK_THROWS_WITH_AS(MohrCoulombJoint(P{.joint_normal_stiffness = kn,
+                                            .joint_shear_stiffness = ks,
+                                            .friction_angle = 0.6,
+                                            .cohesion = 1e5,
+                                            .tensile_strength = 2e5}),
+                         "tensile_strength = 200000.000000: must be >= 0 Pa and <= cohesion / "
+                         "tan(phi)",
+                         InvalidInput);
+    CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, -1}), InvalidInput);
+    CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, 1e5, 0, 0.7, 1e-3}), InvalidInput);
+    CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, 1e5, 0, 0, 0, 0.7}), InvalidInput);
+    CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, 1e5, 0, 0, 0, -1, 2e5}), InvalidInput);
+  }
+}
