@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The toolkit: everything an analysis in two dimensions needs, and rock masses and contact
-/// detection in three. Pictures and files (io/) are apart.
+/// The toolkit: everything an analysis in two or three dimensions needs, at rest and in motion.
+/// Pictures and files (io/) are apart.
 
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/contact/barton_bandis_joint.hpp>
+#include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/version.hpp>

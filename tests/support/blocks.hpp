@@ -2,17 +2,17 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
+#include <utility>
 #include <vector>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
 
+#include "support/degree.hpp"
+
 /// Rectangular blocks, upright or turned, for tests of moving blocks.
 namespace voussoir_test {
-
-inline constexpr double degree = std::numbers::pi / 180;
 
 /// Width x height with its middle at `centre`, turned anticlockwise.
 [[nodiscard]] inline voussoir::ConvexPolygon rectangle(const voussoir::Vec2& centre, double width,

@@ -11,6 +11,8 @@
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 
+#include "support/degree.hpp"
+
 /// Jointed rock in space to test with.
 namespace voussoir_test {
 
@@ -20,7 +22,6 @@ using voussoir::Vec3;
 [[nodiscard]] inline voussoir::SpatialJointSet spaced_set(double dip, double dip_direction,
                                                           double spacing,
                                                           voussoir::JointShape shape = {}) {
-  constexpr double degree = std::numbers::pi / 180;
   voussoir::SpatialJointSet set{"J", dip * degree, dip_direction * degree};
   set.dip_deviation = set.dip_direction_deviation = 1 * degree;
   set.spacing = spacing;

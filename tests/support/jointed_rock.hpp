@@ -7,9 +7,9 @@
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 
-namespace voussoir_test {
+#include "support/degree.hpp"
 
-inline constexpr double degree = std::numbers::pi / 180;
+namespace voussoir_test {
 
 /// The paper's joint sets: 75 E, 25 E, 25 W, one centre per square metre and set.
 [[nodiscard]] inline std::vector<voussoir::JointSet> paper_sets(double extent = 1) {

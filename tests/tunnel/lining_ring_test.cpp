@@ -49,7 +49,7 @@ TEST_SUITE("tunnel/lining_ring") {
     REQUIRE(frame.members.size() == 36);
     for (std::size_t k = 0; k < 36; ++k) {
       CHECK((frame.nodes[k] - mass.openings.back().edge(k).centre()).norm() <= 1e-12);
-      const auto [i, j] = frame.members[k];
+      const int i = frame.members[k].first, j = frame.members[k].second;
       CHECK((i + 1) % 36 == j);  // anticlockwise, the last one back to the first node
     }
   }
@@ -130,7 +130,8 @@ TEST_SUITE("tunnel/lining_ring") {
       CHECK(frame.nodes.size() == arc.nodes);
       REQUIRE(frame.members.size() + 1 == frame.nodes.size());
       const double between = 2 * 2.5 * std::cos(pi / 36) * std::sin(pi / 36);  // middles of facets
-      for (const auto& [i, j] : frame.members) {
+      for (const auto& member : frame.members) {
+        const int i = member.first, j = member.second;
         CHECK(i + 1 == j);
         CHECK(std::abs((frame.nodes[static_cast<std::size_t>(j)] -
                         frame.nodes[static_cast<std::size_t>(i)])

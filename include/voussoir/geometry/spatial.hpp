@@ -5,14 +5,12 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
+#include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/spatial_facet.hpp>
 #include <voussoir/geometry/spatial_line.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
 
 namespace voussoir {
-
-/// Nothing is known yet about openings in space.
-struct SpatialOpening {};
 
 /// Space: convex polyhedra. Everything above this layer knows a geometry only through these names
 /// and numbers.
@@ -23,11 +21,11 @@ struct Spatial {
   static constexpr int dof = 6;       ///< per body: displacement [m], rotation [rad]
   static constexpr int tangents = 2;  ///< directions in which a contact can slip
 
-  using Shape = ConvexPolyhedron;  ///< part of a body
-  using Facet = SpatialFacet;      ///< piece of a face: contact area, piece of wall
-  using Trace = JointPlane;        ///< extent of a joint
-  using Line = SpatialLine;        ///< a bolt, a scanline
-  using Opening = SpatialOpening;  ///< outline of an excavation
+  using Shape = ConvexPolyhedron;    ///< part of a body
+  using Facet = SpatialFacet;        ///< piece of a face: contact area, piece of wall
+  using Trace = JointPlane;          ///< extent of a joint
+  using Line = SpatialLine;          ///< a bolt, a scanline
+  using Opening = PrismaticOpening;  ///< what an excavation takes out
 };
 
 }  // namespace voussoir

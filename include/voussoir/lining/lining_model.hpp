@@ -9,12 +9,14 @@
 
 namespace voussoir {
 
-/// Section of a lining, per metre of tunnel in 2-D.
+/// Section of a lining, per metre of tunnel in 2-D; of one member in 3-D.
 struct LiningSection {
   double axial_stiffness;    ///< E A [N]
   double bending_stiffness;  ///< E I [N m^2]
   double shear_stiffness;    ///< kappa G A [N]
   double mass = 0;           ///< per length of lining [kg/m]; 0: weightless, as in the paper
+  double lateral_bending_stiffness = 0;  ///< in space: E I out of the plane of the section [N m^2]
+  double torsional_stiffness = 0;        ///< in space: G J [N m^2]
 
   /// A rectangular section: shotcrete or concrete of thickness t, one metre wide, kappa = 5/6.
   /// @param young_modulus  E [Pa], > 0;  @param poisson_ratio  -1 < nu < 0.5
@@ -28,6 +30,24 @@ struct LiningSection {
             "> -1 and < 0.5");
     return {young_modulus * thickness, young_modulus * thickness * thickness * thickness / 12,
             5.0 / 6.0 * young_modulus / (2 * (1 + poisson_ratio)) * thickness};
+  }
+  /// In space: a strip of shotcrete of this thickness and width, or a rectangular rib.
+  ///
+  /// Torsion of a thin rectangle, width b >= thickness t: J = b t^3 (1/3 - 0.21 t/b (1 - t^4/(12
+  /// b^4))). Source: Roark's formulas for stress and strain.
+  /// @param width  along the tunnel [m], > 0; the rest as above
+  [[nodiscard]] static LiningSection strip(double thickness, double width, double young_modulus,
+                                           double poisson_ratio = 0.2) {
+    require(width > 0 && std::isfinite(width), "width of a lining strip", width, "> 0 m");
+    LiningSection s = rectangular(thickness, young_modulus, poisson_ratio);
+    s.axial_stiffness *= width;
+    s.bending_stiffness *= width;
+    s.shear_stiffness *= width;
+    s.lateral_bending_stiffness = young_modulus * thickness * width * width * width / 12;
+    const double t = std::fmin(thickness, width), b = std::fmax(thickness, width), r = t / b;
+    const double torsion = b * t * t * t * (1.0 / 3 - 0.21 * r * (1 - r * r * r * r / 12));
+    s.torsional_stiffness = young_modulus / (2 * (1 + poisson_ratio)) * torsion;
+    return s;
   }
 };
 
@@ -45,7 +65,9 @@ concept HasElementStiffness = requires(const LiningSection& section, double leng
 ///
 /// What the compiler cannot check: the matrix is symmetric and does not resist rigid motion.
 ///
-/// Models: EulerBernoulliBeam, TimoshenkoBeam.
+/// A model with a member `is_pinned` is pushed by the rock in the middle of its nodes.
+///
+/// Models: EulerBernoulliBeam, TimoshenkoBeam, PinnedBar, BondedChain.
 template <class Lining, int Dof>
 concept LiningModel = Fills<Lining, roles::Lining> && HasElementStiffness<Lining, Dof>;
 

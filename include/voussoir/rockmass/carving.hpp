@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/rockmass/welding.hpp>
 
@@ -16,7 +19,24 @@ namespace voussoir {
 
 namespace detail {
 
-/// True if the segment runs through the inside of the polygon, further than `tolerance`.
+// What carving asks of an opening, in the plane and in space: its outline piece by piece, and
+// whether a piece runs through the inside of a block.
+
+[[nodiscard]] inline Segment outline_piece(const SimplePolygon& opening, std::size_t k,
+                                           const Domain<2>&) {
+  return opening.edge(k);
+}
+[[nodiscard]] inline JointPlane outline_piece(const PrismaticOpening& opening, std::size_t k,
+                                              const Domain<3>& domain) {
+  return opening.side(
+      k, domain.low.cwiseAbs().cwiseMax(domain.high.cwiseAbs()).maxCoeff() + domain.diameter());
+}
+[[nodiscard]] inline HalfSpace<2> plane_of(const Segment& edge) {
+  return left_of(edge.start, edge.end);
+}
+[[nodiscard]] inline const HalfSpace<3>& plane_of(const JointPlane& side) { return side.plane; }
+
+/// True if the piece runs through the inside of the shape, further than `tolerance`.
 [[nodiscard]] inline bool crosses(const ConvexPolygon& shape, const Segment& segment,
                                   double tolerance) {
   std::optional<Segment> inside = segment;
@@ -24,20 +44,56 @@ namespace detail {
     inside = split(*inside, shape.half_space(k), tolerance).below;
   return inside && inside->length() > tolerance;
 }
+[[nodiscard]] inline bool crosses(const ConvexPolyhedron& shape, const JointPlane& side,
+                                  double tolerance) {
+  std::optional<JointPlane> inside = side;
+  for (std::size_t k = 0; inside && k < shape.size(); ++k)
+    inside = split(std::move(*inside), shape.half_space(k), tolerance).below;
+  return inside && inside->area() > tolerance * tolerance;
+}
 
-[[nodiscard]] inline std::pair<Vec2, Vec2> bounding_box(const std::vector<Vec2>& points) {
-  Vec2 low = points.front(), high = low;
-  for (const Vec2& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+template <int Dim>
+[[nodiscard]] std::pair<Vec<Dim>, Vec<Dim>> bounding_box(const std::vector<Vec<Dim>>& points) {
+  Vec<Dim> low = points.front(), high = low;
+  for (const Vec<Dim>& p : points) {
+    low = low.cwiseMin(p).eval();
+    high = high.cwiseMax(p).eval();
   }
   return {low, high};
 }
+[[nodiscard]] inline std::pair<Vec2, Vec2> box_of(const SimplePolygon& opening) {
+  return bounding_box<2>(opening.vertices());
+}
+[[nodiscard]] inline std::pair<Vec3, Vec3> box_of(const PrismaticOpening& opening) {
+  const auto [low, high] = bounding_box<2>(opening.section().vertices());
+  return {PrismaticOpening::in_space(low, opening.from()),
+          PrismaticOpening::in_space(high, opening.to())};
+}
 
-/// True if the polygon's bounding box does not meet the given one.
-[[nodiscard]] inline bool apart(const ConvexPolygon& shape, const Vec2& low, const Vec2& high) {
-  const auto [a, b] = bounding_box(shape.vertices());
+/// True if the bounding box of the shape does not meet the given one.
+template <class Shape, int Dim = Shape::dim>
+[[nodiscard]] bool apart(const Shape& shape, const Vec<Dim>& low, const Vec<Dim>& high) {
+  const auto [a, b] = bounding_box<Dim>(shape.vertices());
   return (a.array() > high.array()).any() || (b.array() < low.array()).any();
+}
+
+/// Refuses an opening that leaves the domain.
+inline void check_inside(const SimplePolygon& opening, const Domain<2>& domain) {
+  for (const Vec2& v : opening.vertices())
+    if (!((v.array() > domain.low.array()).all() && (v.array() < domain.high.array()).all()))
+      throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
+                         " m");
+}
+inline void check_inside(const PrismaticOpening& opening, const Domain<3>& domain) {
+  for (const Vec2& v : opening.section().vertices())
+    if (!(v.x() > domain.low.x() && v.x() < domain.high.x() && v.y() > domain.low.z() &&
+          v.y() < domain.high.z()))
+      throw InvalidInput(
+          "opening: its section touches or leaves the domain at x, z = " + text_of<2>(v) + " m");
+  if (!(opening.to() > domain.low.y() && opening.from() < domain.high.y()))
+    throw InvalidInput("opening: it lies beside the domain, which reaches from " +
+                       std::to_string(domain.low.y()) + " to " + std::to_string(domain.high.y()) +
+                       " m along y");
 }
 
 /// True if two faces of one cut touch over more than `tolerance`.
@@ -46,10 +102,31 @@ namespace detail {
   const double a1 = a.length(), b0 = along.dot(b.start - a.start), b1 = along.dot(b.end - a.start);
   return std::min(a1, std::max(b0, b1)) - std::max(0.0, std::min(b0, b1)) > tolerance;
 }
+/// The part of a face inside the prism over another, which faces the other way.
+[[nodiscard]] inline std::optional<JointPlane> common_part(const SpatialFacet& a,
+                                                           const SpatialFacet& b,
+                                                           double tolerance) {
+  const Vec3 normal = a.area_vector().normalized();
+  std::optional<JointPlane> rest =
+      JointPlane{HalfSpace<3>::through(a.vertices.front(), normal), a.vertices};
+  const Vec3 other = b.area_vector().normalized();
+  for (std::size_t k = 0; rest && k < b.vertices.size(); ++k) {
+    const Vec3 &from = b.vertices[k], &to = b.vertices[k + 1 == b.vertices.size() ? 0 : k + 1];
+    const Vec3 out = cross(Vec3(to - from), other);
+    if (!(out.norm() > tolerance)) continue;
+    rest = split(std::move(*rest), HalfSpace<3>::through(from, out.normalized()), tolerance).below;
+  }
+  return rest;
+}
+[[nodiscard]] inline bool overlap(const SpatialFacet& a, const SpatialFacet& b, double tolerance) {
+  const auto common = common_part(a, b, tolerance);
+  return common && common->area() > tolerance * std::sqrt(a.measure());
+}
 
 /// Sorts parts into connected groups: parts are connected if they share a piece of face.
-[[nodiscard]] inline std::vector<std::vector<ConvexPolygon>> connected_groups(
-    const std::vector<ConvexPolygon>& parts, double tolerance) {
+template <class Shape>
+[[nodiscard]] std::vector<std::vector<Shape>> connected_groups(const std::vector<Shape>& parts,
+                                                               double tolerance) {
   std::vector<std::size_t> group(parts.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -64,9 +141,9 @@ namespace detail {
         std::replace(group.begin(), group.end(), from, to);
       }
     }
-  std::vector<std::vector<ConvexPolygon>> groups;
+  std::vector<std::vector<Shape>> groups;
   for (std::size_t g = 0; g < parts.size(); ++g) {
-    std::vector<ConvexPolygon> members;
+    std::vector<Shape> members;
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (group[i] == g) members.push_back(parts[i]);
     if (!members.empty()) groups.push_back(std::move(members));
@@ -82,39 +159,42 @@ namespace detail {
 /// where a block falls apart each connected group becomes a body of its own. Outline cuts do not
 /// obey the block limits, so bodies at the wall smaller than `smallest` are dropped, and counted.
 ///
-/// @param smallest  area below which a body at the wall is dropped [m^2]
+/// @param smallest  area (2-D) or volume (3-D) below which a body at the wall is dropped [m^2],
+///                  [m^3]
 /// @throws InvalidInput  the opening is not inside the domain, or nothing would be left
-/// @cost  one bounding test per body; polygon cuts near the outline only
+/// @cost  one bounding test per body; cuts near the outline only
 ///
 /// Source: the clump variant of Boon's block generator (construction joints). Removing whole blocks
 /// by their centroid leaves a ragged wall; making every piece a body leaves slivers that fall.
-[[nodiscard]] inline RockMass<Planar> carve(RockMass<Planar> mass, const SimplePolygon& opening,
-                                            double smallest) {
-  const Domain<2>& domain = mass.domain;
-  for (const Vec2& v : opening.vertices())
-    if (!((v.array() > domain.low.array()).all() && (v.array() < domain.high.array()).all()))
-      throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
-                         " m");
+template <class Geometry>
+[[nodiscard]] RockMass<Geometry> carve(RockMass<Geometry> mass,
+                                       const typename Geometry::Opening& opening, double smallest) {
+  constexpr int dim = Geometry::dim;
+  using Shape = typename Geometry::Shape;
+  const Domain<dim>& domain = mass.domain;
+  detail::check_inside(opening, domain);
   const double tolerance = domain.tolerance();
-  const std::pair<Vec2, Vec2> box = detail::bounding_box(opening.vertices());
+  const auto box = detail::box_of(opening);
+  std::vector<decltype(detail::outline_piece(opening, 0, domain))> outline;
+  for (std::size_t e = 0; e < opening.size(); ++e)
+    outline.push_back(detail::outline_piece(opening, e, domain));
   CarvingReport& report = mass.carving;
-  std::vector<Body<Planar>> kept;
+  std::vector<Body<Geometry>> kept;
   kept.reserve(mass.bodies.size());
-  for (Body<Planar>& body : mass.bodies) {
-    if (std::all_of(body.parts.begin(), body.parts.end(), [&](const ConvexPolygon& part) {
+  for (Body<Geometry>& body : mass.bodies) {
+    if (std::all_of(body.parts.begin(), body.parts.end(), [&](const Shape& part) {
           return detail::apart(part, box.first, box.second);
         })) {
       kept.push_back(std::move(body));
       continue;
     }
-    std::vector<ConvexPolygon> pieces = body.parts;
-    for (std::size_t e = 0; e < opening.size(); ++e) {
-      const Segment edge = opening.edge(e);
+    std::vector<Shape> pieces = body.parts;
+    for (std::size_t e = 0; e < outline.size(); ++e) {
       const std::size_t count = pieces.size();
       for (std::size_t p = 0; p < count; ++p) {
-        if (!detail::crosses(pieces[p], edge, tolerance)) continue;
-        const auto line = left_of(edge.start, edge.end);
-        auto parts = pieces[p].split(line, static_cast<int>(mass.cuts.size()), tolerance);
+        if (!detail::crosses(pieces[p], outline[e], tolerance)) continue;
+        auto parts = pieces[p].split(detail::plane_of(outline[e]),
+                                     static_cast<int>(mass.cuts.size()), tolerance);
         if (!parts) continue;
         mass.cuts.push_back({Cut::Kind::outline, static_cast<int>(e)});
         pieces[p] = std::move(parts->first);
@@ -122,8 +202,8 @@ namespace detail {
       }
     }
     const std::size_t before = pieces.size();
-    std::erase_if(pieces, [&](const ConvexPolygon& piece) {
-      const MassProperties<2> properties = mass_properties(piece);
+    std::erase_if(pieces, [&](const Shape& piece) {
+      const MassProperties<dim> properties = mass_properties(piece);
       const bool inside = opening.contains(properties.centroid);
       if (inside) report.removed_measure += properties.measure;
       return inside;
@@ -140,7 +220,7 @@ namespace detail {
     auto groups = detail::connected_groups(pieces, tolerance);
     report.separated_bodies += groups.size() - 1;
     for (auto& group : groups) {
-      Body<Planar> rest;
+      Body<Geometry> rest;
       rest.properties = mass_properties(group);
       rest.parts = std::move(group);
       if (rest.properties.measure < smallest) {
@@ -209,6 +289,52 @@ struct WallPiece {
     }
   std::sort(pieces.begin(), pieces.end(),
             [](const auto& a, const auto& b) { return a.from < b.from; });
+  return pieces;
+}
+
+/// The same in space: pieces of the faces of the rock on the sides of the last opening (not on its
+/// ends); `from` and `to` are those of the edge that they belong to.
+[[nodiscard]] inline std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass) {
+  if (mass.openings.empty()) return {};
+  const PrismaticOpening& opening = mass.openings.back();
+  const SimplePolygon& section = opening.section();
+  const double tolerance = mass.domain.tolerance();
+  std::vector<double> start(section.size() + 1, 0.0);
+  for (std::size_t e = 0; e < section.size(); ++e)
+    start[e + 1] = start[e] + section.edge(e).length();
+  auto [low, high] = detail::box_of(opening);
+  low.array() -= tolerance;
+  high.array() += tolerance;
+  std::vector<JointPlane> sides;
+  for (std::size_t e = 0; e < section.size(); ++e)
+    sides.push_back(detail::outline_piece(opening, e, mass.domain));
+  std::vector<WallPiece<Spatial>> pieces;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
+      if (detail::apart(part, low, high)) continue;
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const SpatialFacet face = part.face(k);
+        const Vec3 normal = part.half_space(k).normal;
+        for (std::size_t e = 0; e < section.size(); ++e) {
+          // The face looks into the opening: the same way as the half space on its left.
+          if (!(normal.dot(sides[e].plane.normal) < -0.5)) continue;
+          if (std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vec3& v) {
+                return std::abs(sides[e].plane.distance(v)) > tolerance;
+              }))
+            continue;
+          // Towards the rock, as the left side of a planar facet.
+          const auto common = detail::common_part(face, {sides[e].corners}, tolerance);
+          if (!common || common->area() <= tolerance * std::sqrt(face.measure())) continue;
+          pieces.push_back({static_cast<int>(b),
+                            {{common->corners.rbegin(), common->corners.rend()}},
+                            static_cast<int>(e),
+                            start[e],
+                            start[e + 1]});
+        }
+      }
+    }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.edge < b.edge; });
   return pieces;
 }
 

@@ -23,11 +23,21 @@ struct LiningContact {
   typename Geometry::Facet facet;  ///< node on its left (2-D): anticlockwise round the opening
 };
 
+/// A straight member of a lining.
+template <class Geometry>
+struct LiningMember {
+  int first, second;  ///< node numbers
+  /// In space: towards the rock, about perpendicular to the member; bending in the plane of this
+  /// and the member is that of `LiningSection::bending_stiffness`.
+  Vec<Geometry::dim> outward = Vec<Geometry::dim>::Zero();
+  int section = 0;  ///< index into the sections given
+};
+
 /// A lining as the solver takes it: nodes, the members between them, and its contact with the rock.
 template <class Geometry>
 struct LiningFrame {
-  std::vector<Vec<Geometry::dim>> nodes;     ///< [m]
-  std::vector<std::pair<int, int>> members;  ///< node numbers
+  std::vector<Vec<Geometry::dim>> nodes;  ///< [m]
+  std::vector<LiningMember<Geometry>> members;
   std::vector<LiningContact<Geometry>> contacts;
 };
 
@@ -143,32 +153,44 @@ class Solver {
   /// @throws InvalidInput  a lining is already there, a member has no length, or no rock touches it
   void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
                       const CoulombJoint& interface_law) {
+    install_lining(frame, std::vector<LiningSection>{section}, interface_law);
+  }
+  /// The same with members of several sections: ribs and what joins them.
+  void install_lining(const LiningFrame<Geometry>& frame,
+                      const std::vector<LiningSection>& sections,
+                      const CoulombJoint& interface_law) {
     if (first_node_ >= 0) throw InvalidInput("lining: there is already one");
     if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
     first_node_ = system_.body_count();
-    std::vector<double> tributary(frame.nodes.size(), 0.0);
-    for (const auto& [i, j] : frame.members) {
-      const double length =
-          (frame.nodes[static_cast<std::size_t>(j)] - frame.nodes[static_cast<std::size_t>(i)])
-              .norm();
+    std::vector<double> tributary(frame.nodes.size(), 0.0), mass(frame.nodes.size(), 0.0);
+    for (const auto& member : frame.members) {
+      const auto i = static_cast<std::size_t>(member.first),
+                 j = static_cast<std::size_t>(member.second);
+      const double length = (frame.nodes[j] - frame.nodes[i]).norm();
       require(length > 0, "length of a lining member", length, "> 0 m");
-      tributary[static_cast<std::size_t>(i)] += 0.5 * length;
-      tributary[static_cast<std::size_t>(j)] += 0.5 * length;
+      require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),
+              "section of a lining member", member.section, "the index of a section given");
+      for (const std::size_t node : {i, j}) {
+        tributary[node] += 0.5 * length;
+        mass[node] += 0.5 * length * sections[static_cast<std::size_t>(member.section)].mass;
+      }
     }
     for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
-      const double weight = section.mass * tributary[k] * in_situ_.gravity;
+      const double weight = mass[k] * in_situ_.gravity;
       const int node =
           system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true, false});
       system_.load[dof * node + dim - 1] = -weight;
       measures_.push_back(0.0);
     }
-    for (const auto& [i, j] : frame.members) {
-      const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(i)];
-      const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(j)];
+    for (const auto& member : frame.members) {
+      const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(member.first)];
+      const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
+      const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
       const double length = (b - a).norm();
-      system_.frames.push_back({first_node_ + i, first_node_ + j, length, element_axes(a, b),
+      system_.frames.push_back({first_node_ + member.first, first_node_ + member.second, length,
+                                element_axes<dim>(b - a, member.outward),
                                 Lining::template stiffness<dof>(section, length)});
     }
     typename SystemType::Interface interface(interface_law);
@@ -176,8 +198,10 @@ class Solver {
       if (!system_.body(c.body).movable) continue;  // that block has fallen
       const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
       const int node = first_node_ + c.node;
-      interface.add(node, c.body, c.facet, system_.body(node).centre, system_.body(c.body).centre,
-                    {&point, 1});
+      // A pin is pushed in its middle, wherever on its stretch the rock touches it.
+      Vec<dim> centre = system_.body(node).centre;
+      if constexpr (requires { Lining::is_pinned; }) centre = c.facet.centre();
+      interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1});
     }
     interface.start_from(system_.displacement.data());
     system_.interface = std::move(interface);
@@ -278,6 +302,7 @@ class Solver {
       } else {
         system_.boundary.add(f.body, fixed, f.facet, system_.body(f.body).centre,
                              system_.body(fixed).centre, points);
+        add_edge_shear(f.body, f.facet, points);
       }
     }
     const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
@@ -286,6 +311,23 @@ class Solver {
     };
     system_.joints.set_initial(stress_at);
     system_.boundary.set_initial(stress_at);
+  }
+
+  /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
+  /// acting as a load.
+  template <class Points>
+  void add_edge_shear(int body, const typename Geometry::Facet& facet, const Points& points) {
+    const Vec<dim> normal = facet.area_vector().normalized();
+    const Vec<dim>& centre = system_.body(body).centre;
+    const Vec<dim> middle = facet.centre_from(centre);
+    for (const FacetPoint<dim>& p : points) {
+      const Vec<dim> arm = middle + p.offset;
+      const Vec<dim> traction =
+          in_situ_.stress<dim>(mass_.domain.depth(Vec<dim>(centre + arm))) * normal;
+      const Vec<dim> shear = traction - normal.dot(traction) * normal;
+      if (!shear.isZero(0))
+        add_force_at<dim>(system_.load.data() + dof * body, arm, Vec<dim>(-p.weight * shear));
+    }
   }
 
   /// The passages of a bar without the bodies that have fallen.

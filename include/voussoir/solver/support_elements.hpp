@@ -143,13 +143,28 @@ struct FrameElement {
   }
 };
 
-/// World axes to the axes of a plane element from `a` to `b`.
-[[nodiscard]] inline ElementMatrix<3> element_axes(const Vec2& a, const Vec2& b) {
-  const Vec2 x = (b - a).normalized();
-  ElementMatrix<3> turn = ElementMatrix<3>::Zero();
+/// World axes to the axes of an element: translations and rotations of both ends.
+///
+/// The first axis runs along the element. In space the second lies in the plane of the element and
+/// `outward`, on its side.
+/// @param along  from the first node to the second, of any length
+template <int Dim>
+[[nodiscard]] ElementMatrix<Dim + spin_count<Dim>> element_axes(const Vec<Dim>& along,
+                                                                const Vec<Dim>& outward) {
+  constexpr int dof = Dim + spin_count<Dim>;
+  const Vec<Dim> x = along.normalized();
+  ElementMatrix<dof> turn = ElementMatrix<dof>::Zero();
   for (int end = 0; end < 2; ++end) {
-    turn.block<2, 2>(3 * end, 3 * end) << x.x(), x.y(), -x.y(), x.x();
-    turn(3 * end + 2, 3 * end + 2) = 1;
+    if constexpr (Dim == 2) {
+      turn.template block<2, 2>(dof * end, dof * end) << x.x(), x.y(), -x.y(), x.x();
+      turn(dof * end + 2, dof * end + 2) = 1;
+    } else {
+      const Vec3 y = (outward - outward.dot(x) * x).normalized();
+      Stress<3> axes;
+      axes << x.transpose(), y.transpose(), cross(x, y).transpose();
+      turn.template block<3, 3>(dof * end, dof * end) = axes;
+      turn.template block<3, 3>(dof * end + 3, dof * end + 3) = axes;
+    }
   }
   return turn;
 }

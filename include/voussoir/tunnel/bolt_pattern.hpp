@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
+#include <voussoir/geometry/spatial_line.hpp>
 
 namespace voussoir {
 
@@ -71,6 +73,33 @@ struct BoltPattern {
     const Vec2 head = wall_point(angle);
     bars.push_back({head, head + pattern.length * Vec2(std::cos(angle), std::sin(angle))});
   }
+  return bars;
+}
+
+/// The bars of rows of bolts along a tunnel in space, row by row; the first row lies half a spacing
+/// from its beginning.
+/// @param row_spacing  along the tunnel [m], > 0
+/// @param from, to     the stretch of the tunnel to bolt [m]
+/// @throws InvalidInput  as above, or the spacing or stretch out of range
+[[nodiscard]] inline std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
+                                                        const PrismaticOpening& opening,
+                                                        double row_spacing, double from,
+                                                        double to) {
+  require(row_spacing > 0 && std::isfinite(row_spacing), "spacing of bolt rows", row_spacing,
+          "> 0 m");
+  require(from < to && std::isfinite(to - from), "beginning of the bolted stretch", from,
+          "below its end, both finite");
+  const std::vector<Segment> row = bolt_bars(pattern, opening.section());
+  std::vector<SpatialLine> bars;
+  const auto rows = static_cast<int>(std::floor((to - from) / row_spacing + 1e-9));
+  if (static_cast<double>(rows) * static_cast<double>(row.size()) > 1e5)
+    throw InvalidInput("spacing of bolt rows: so small that there would be more than 1e5 bolts");
+  for (int k = 0; k < rows; ++k)
+    for (const Segment& bar : row) {
+      const double y = from + (k + 0.5) * row_spacing;
+      bars.push_back(
+          {PrismaticOpening::in_space(bar.start, y), PrismaticOpening::in_space(bar.end, y)});
+    }
   return bars;
 }
 

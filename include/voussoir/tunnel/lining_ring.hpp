@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -20,22 +21,28 @@ struct LiningRing {
   double to = 2 * std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
 };
 
-/// Nodes and members of a ring, and its contact with the wall that `carve` left.
-///
-/// Node k stands for the stretch [k, k + 1] of the outline divided evenly, and lies in its middle:
-/// with as many nodes as facets of a circle, on the middle of each facet. Every piece of wall in
-/// its stretch touches it at one point, so a uniform pressure loads the node without turning it.
-/// On a partial ring a node is there if its angle lies in the arc.
-///
-/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
-[[nodiscard]] inline LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
-                                                      const LiningRing& ring) {
+namespace detail {
+
+/// Where the nodes of a ring lie on an outline: node k stands for the stretch [k, k + 1] of it and
+/// lies in its middle.
+struct RingNodes {
+  double stretch;            ///< [m]
+  bool closed;               ///< all the way round
+  std::vector<Vec2> places;  ///< of those in the arc, neighbours one after the other [m]
+  std::vector<int> number;   ///< for every stretch, index into `places`, or -1
+
+  /// True if a member joins node n and the next.
+  [[nodiscard]] bool joined(std::size_t n) const { return joined_[n] != 0; }
+  std::vector<char> joined_;
+};
+
+/// @throws InvalidInput  a value out of range; fewer than two nodes in the arc
+[[nodiscard]] inline RingNodes ring_nodes(const SimplePolygon& opening, const LiningRing& ring) {
   require(ring.nodes >= 8 && ring.nodes <= 2000, "lining nodes", ring.nodes, "8 to 2000");
   const double circle = 2 * std::numbers::pi, arc = ring.to - ring.from;
   require(arc > 0 && arc <= circle * (1 + 1e-12), "lining arc", arc, "> 0 and <= 2 pi rad");
-  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  const SimplePolygon& opening = mass.openings.back();
-  const double stretch = opening.perimeter() / ring.nodes;
+  RingNodes nodes;
+  const double stretch = nodes.stretch = opening.perimeter() / ring.nodes;
   const auto point_at = [&](double s) {
     for (std::size_t e = 0; e < opening.size(); ++e) {
       const Segment edge = opening.edge(e);
@@ -44,9 +51,8 @@ struct LiningRing {
     }
     return opening.vertices().front();
   };
-  const bool closed = arc > circle * (1 - 1e-9);
-  LiningFrame<Planar> frame;
-  std::vector<int> number(static_cast<std::size_t>(ring.nodes), -1);
+  const bool closed = nodes.closed = arc > circle * (1 - 1e-9);
+  nodes.number.assign(static_cast<std::size_t>(ring.nodes), -1);
   // Start behind the gap of a partial ring, so that consecutive nodes are neighbours.
   const auto inside = [&](const Vec2& p) {
     const double angle = std::atan2(p.y(), p.x()) - ring.from;
@@ -61,28 +67,130 @@ struct LiningRing {
     const int k = (start + i) % ring.nodes;
     const Vec2 p = point_at((k + 0.5) * stretch);
     if (!inside(p)) continue;
-    const int node = static_cast<int>(frame.nodes.size());
-    number[static_cast<std::size_t>(k)] = node;
-    frame.nodes.push_back(p);
+    const int node = static_cast<int>(nodes.places.size());
+    nodes.number[static_cast<std::size_t>(k)] = node;
+    nodes.places.push_back(p);
     // An outline that turns back can leave the arc and come again: no member across the gap.
-    const int before = number[static_cast<std::size_t>((k + ring.nodes - 1) % ring.nodes)];
-    if (before >= 0 && before == node - 1) frame.members.emplace_back(before, node);
+    const int before = nodes.number[static_cast<std::size_t>((k + ring.nodes - 1) % ring.nodes)];
+    if (node > 0) nodes.joined_.push_back(before == node - 1);
   }
-  if (frame.nodes.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
-  if (closed) frame.members.emplace_back(static_cast<int>(frame.nodes.size()) - 1, 0);
+  if (nodes.places.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
+  nodes.joined_.push_back(closed);
+  return nodes;
+}
+
+}  // namespace detail
+
+/// Nodes and members of a ring, and its contact with the wall that `carve` left.
+///
+/// Node k stands for the stretch [k, k + 1] of the outline divided evenly, and lies in its middle:
+/// with as many nodes as facets of a circle, on the middle of each facet. Every piece of wall in
+/// its stretch touches it at one point, so a uniform pressure loads the node without turning it.
+/// On a partial ring a node is there if its angle lies in the arc.
+///
+/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
+[[nodiscard]] inline LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
+                                                      const LiningRing& ring) {
+  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
+  const detail::RingNodes nodes = detail::ring_nodes(mass.openings.back(), ring);
+  const double stretch = nodes.stretch;
+  LiningFrame<Planar> frame;
+  frame.nodes = nodes.places;
+  for (std::size_t n = 0; n < nodes.places.size(); ++n)
+    if (nodes.joined(n))
+      frame.members.push_back(
+          {static_cast<int>(n), n + 1 == nodes.places.size() ? 0 : static_cast<int>(n) + 1});
   const double shortest = mass.domain.tolerance();
   for (const WallPiece<Planar>& wall : wall_pieces(mass)) {
     const auto first = static_cast<int>(std::floor(wall.from / stretch));
     for (int k = std::max(0, first); k < ring.nodes && k * stretch < wall.to; ++k) {
       const double from = std::max(wall.from, k * stretch),
                    to = std::min(wall.to, (k + 1) * stretch);
-      const int node = number[static_cast<std::size_t>(k)];
+      const int node = nodes.number[static_cast<std::size_t>(k)];
       if (node < 0 || to - from <= shortest) continue;
       const double length = wall.to - wall.from;
       frame.contacts.push_back(
           {node,
            wall.body,
            {wall.facet.at((from - wall.from) / length), wall.facet.at((to - wall.from) / length)}});
+    }
+  }
+  return frame;
+}
+
+/// A lining in space: ribs, lattice girders or strips of shotcrete across the tunnel, and what
+/// joins them along it.
+struct LiningRibs {
+  LiningRing ring{};   ///< one rib
+  double spacing = 1;  ///< of the ribs along the tunnel [m], > 0
+  bool tied = true;    ///< longitudinal members join the nodes of neighbouring ribs
+};
+
+/// Nodes and members of ribs over the length of the last opening inside the domain: members across
+/// the tunnel have section 0, members along it section 1. Every rib stands for the rock up to half
+/// its spacing on both sides; each piece of wall there touches its node at one point.
+///
+/// @throws InvalidInput  as `lining_frame` of a ring; spacing out of range or longer than the
+/// tunnel
+[[nodiscard]] inline LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                       const LiningRibs& ribs) {
+  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
+  const PrismaticOpening& opening = mass.openings.back();
+  const SimplePolygon& section = opening.section();
+  const detail::RingNodes nodes = detail::ring_nodes(section, ribs.ring);
+  const double from = std::max(opening.from(), mass.domain.low.y()),
+               to = std::min(opening.to(), mass.domain.high.y());
+  require(ribs.spacing > 0 && ribs.spacing <= (to - from) * (1 + 1e-9), "spacing of ribs",
+          ribs.spacing, "> 0 m and no longer than the tunnel");
+  const int rows = static_cast<int>(std::floor((to - from) / ribs.spacing + 1e-9));
+  const double width = (to - from) / rows;
+  const int ring = static_cast<int>(nodes.places.size());
+  const auto node_at = [ring](int row, int n) { return row * ring + n; };
+  LiningFrame<Spatial> frame;
+  for (int row = 0; row < rows; ++row)
+    for (int n = 0; n < ring; ++n) {
+      const auto here = static_cast<std::size_t>(n);
+      const std::size_t next = n + 1 == ring ? 0 : here + 1;
+      frame.nodes.push_back(
+          PrismaticOpening::in_space(nodes.places[here], from + (row + 0.5) * width));
+      const Vec2 along = nodes.places[next] - nodes.places[here];
+      if (nodes.joined(here))
+        frame.members.push_back({node_at(row, n), node_at(row, static_cast<int>(next)),
+                                 PrismaticOpening::in_space(-perpendicular(along), 0), 0});
+      if (ribs.tied && row > 0) {
+        const std::size_t before = n == 0 ? nodes.places.size() - 1 : here - 1;
+        const Vec2 chord = (nodes.joined(here) ? nodes.places[next] : nodes.places[here]) -
+                           (nodes.joined(before) ? nodes.places[before] : nodes.places[here]);
+        frame.members.push_back({node_at(row - 1, n), node_at(row, n),
+                                 PrismaticOpening::in_space(-perpendicular(chord), 0), 1});
+      }
+    }
+  const double tolerance = mass.domain.tolerance();
+  for (const WallPiece<Spatial>& wall : wall_pieces(mass)) {
+    const Segment edge = section.edge(static_cast<std::size_t>(wall.edge));
+    const Vec3 along = PrismaticOpening::in_space((edge.end - edge.start).normalized(), 0);
+    const Vec3 begin = PrismaticOpening::in_space(edge.start, 0);
+    const Vec3 normal = wall.facet.area_vector().normalized();
+    const auto first = static_cast<int>(std::floor(wall.from / nodes.stretch));
+    for (int k = std::max(0, first); k < ribs.ring.nodes && k * nodes.stretch < wall.to; ++k) {
+      const int node = nodes.number[static_cast<std::size_t>(k)];
+      if (node < 0) continue;
+      std::optional<JointPlane> strip = JointPlane{
+          HalfSpace<3>::through(wall.facet.vertices.front(), normal), wall.facet.vertices};
+      const auto keep = [&](const Vec3& outward, const Vec3& on) {
+        if (strip)
+          strip = split(std::move(*strip), HalfSpace<3>::through(on, outward), tolerance).below;
+      };
+      keep(-along, begin + (k * nodes.stretch - wall.from) * along);
+      keep(along, begin + ((k + 1) * nodes.stretch - wall.from) * along);
+      for (int row = 0; strip && row < rows; ++row) {
+        auto parts = split(
+            std::move(*strip),
+            HalfSpace<3>::through(Vec3(0, from + (row + 1) * width, 0), Vec3::UnitY()), tolerance);
+        if (parts.below && parts.below->area() > tolerance * nodes.stretch)
+          frame.contacts.push_back({node_at(row, node), wall.body, {parts.below->corners}});
+        strip = std::move(parts.above);
+      }
     }
   }
   return frame;

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/io/axonometric_view.hpp>
+#include <voussoir/io/colour_map.hpp>
+#include <voussoir/io/detail/mass_layers.hpp>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/io/picture_parts.hpp>
+#include <voussoir/io/svg.hpp>
+#include <voussoir/rockmass/rock_mass.hpp>
+
+namespace voussoir {
+
+/// A line of the support: a bolt, a member of the lining.
+struct SupportLine {
+  Vec3 from, to;  ///< [m]
+  double force;   ///< [N]; decides the width
+};
+
+/// A tunnel in space, cut open along a vertical plane, as it is to be drawn.
+struct TunnelView {
+  PictureHeader header;
+  std::vector<double> displacement;  ///< of every body of the mass [m]; colours the rock
+  std::vector<char> is_gone;         ///< bodies that have fallen; none if empty
+  std::vector<SupportLine> bolts, lining;
+  double section_x = 0;                      ///< the rock at higher x is left out [m]
+  double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
+  double elevation = 0.12 * std::numbers::pi;
+};
+
+/// The rock on the far side of the section with its blocks, the wall of the tunnel, bolts and
+/// lining; colours show displacement.
+///
+/// @return  an SVG document, 190 mm wide
+/// @throws InvalidInput  no block, a displacement for each is missing, or nothing behind the
+/// section
+[[nodiscard]] inline std::string draw_tunnel_view(const RockMass<Spatial>& mass,
+                                                  const TunnelView& scene) {
+  using namespace detail;
+  if (mass.bodies.empty()) throw InvalidInput("draw_tunnel_view: needs at least one block");
+  if (scene.displacement.size() != mass.bodies.size())
+    throw InvalidInput("draw_tunnel_view: has " + std::to_string(scene.displacement.size()) +
+                       " displacements for " + std::to_string(mass.bodies.size()) + " blocks");
+  const AxonometricView view(scene.azimuth, scene.elevation);
+  const HalfSpace<3> section{Vec3::UnitX(), scene.section_x};
+  const double tolerance = mass.domain.tolerance();
+  const auto is_gone = [&](std::size_t b) { return !scene.is_gone.empty() && scene.is_gone[b]; };
+  double largest = 0;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    if (!is_gone(b)) largest = std::max(largest, scene.displacement[b]);
+  const ColourMap colours = ColourMap::straw_to_blue();
+
+  // What can be seen: the section, the wall of the tunnel, the sides of the model, and where a
+  // block has fallen the faces around it.
+  std::vector<char> is_bare(mass.cuts.size(), 0);
+  for (std::size_t c = 0; c < mass.cuts.size(); ++c)
+    is_bare[c] = mass.cuts[c].kind != Cut::Kind::joint;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    if (is_gone(b))
+      for (const auto& part : mass.bodies[b].parts)
+        for (std::size_t k = 0; k < part.size(); ++k)
+          is_bare[static_cast<std::size_t>(part.cut(k))] = 1;
+  std::vector<std::pair<double, VisibleFace>> faces;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
+    if (is_gone(b)) continue;
+    const Colour colour = colours(largest > 0 ? scene.displacement[b] / largest : 0);
+    for (const ConvexPolyhedron& whole : mass.bodies[b].parts) {
+      ConvexPolyhedron part = whole;
+      if (auto halves = whole.split(section, -1, tolerance))
+        part = std::move(halves->first);
+      else if (mass.bodies[b].properties.centroid.x() > scene.section_x)
+        continue;
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const Vec3& normal = part.half_space(k).normal;
+        const bool is_section = part.cut(k) < 0;
+        if (normal.dot(view.towards()) <= 1e-9 ||
+            !(is_section || is_bare[static_cast<std::size_t>(part.cut(k))]))
+          continue;
+        VisibleFace face{{}, is_section ? colour : shaded(colour, normal, view)};
+        double depth = 0;
+        for (const int v : part.loop(k)) {
+          const Vec3& p = part.vertex(static_cast<std::size_t>(v));
+          face.corners.push_back(view(p));
+          depth += view.towards().dot(p);
+        }
+        faces.emplace_back(depth / static_cast<double>(face.corners.size()), std::move(face));
+      }
+    }
+  }
+  if (faces.empty()) throw InvalidInput("draw_tunnel_view: no rock lies behind the section");
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
+  std::vector<VisibleFace> ordered;
+  std::vector<Vec2> seen;
+  for (auto& [depth, face] : faces) {
+    seen.insert(seen.end(), face.corners.begin(), face.corners.end());
+    ordered.push_back(std::move(face));
+  }
+  const ViewRect world = bounding_rect(seen).value_or(ViewRect{{0, 0}, {1, 1}});
+  const double top = scene.header.height(), width = picture_width - 2 * picture_margin;
+  const double height = std::clamp(width * world.height() / world.width(), 200.0, 900.0);
+  const ViewRect frame{{picture_margin, top}, {picture_margin + width, top + height}};
+  const PageMap map = PageMap::equal_scales(world, frame.grown(-8));
+  const double foot = frame.high.y() + 10;
+  SvgCanvas canvas(picture_width, foot + 100, picture_printed_width, scene.header.title);
+  scene.header.draw(canvas);
+  canvas.begin_layer("rock");
+  draw_faces(canvas, ordered, map, 0.5);
+  canvas.end_layer();
+  const auto draw_lines = [&](const char* layer, const std::vector<SupportLine>& lines,
+                              const char* stroke, double thinnest, double widest) {
+    double strongest = 0;
+    for (const SupportLine& line : lines) strongest = std::max(strongest, std::abs(line.force));
+    canvas.begin_layer(layer);
+    for (const SupportLine& line : lines) {
+      if (line.from.x() > scene.section_x || line.to.x() > scene.section_x) continue;
+      const double part = strongest > 0 ? std::abs(line.force) / strongest : 0;
+      canvas.line(map(view(line.from)), map(view(line.to)),
+                  {.stroke = stroke, .stroke_width = thinnest + part * (widest - thinnest)});
+    }
+    canvas.end_layer();
+    return strongest;
+  };
+  const double thrust = draw_lines("lining", scene.lining, "#222", 0.6, 2.6);
+  const double pull = draw_lines("bolts", scene.bolts, "#b2182b", 0.6, 2.6);
+
+  canvas.begin_layer("key");
+  draw_axes(canvas, {frame.low.x() + 50, foot + 60}, 40, view);
+  draw_scale_bar(canvas, {frame.low.x() + 130, foot + 62}, 130, map.scale());
+  const double bar = frame.low.x() + 330;
+  constexpr int steps = 60;
+  for (int k = 0; k < steps; ++k)  // each to the end: no gaps between them
+    canvas.rectangle({{bar + 220.0 * k / steps, foot + 22}, {bar + 220.0, foot + 38}},
+                     {.fill = colours((k + 0.5) / steps).hex()});
+  canvas.text({bar, foot + 15}, "Displacement [mm]");
+  canvas.text({bar, foot + 54}, "0", {.anchor = TextAnchor::middle});
+  canvas.text({bar + 220, foot + 54}, readable_text(1e3 * largest), {.anchor = TextAnchor::middle});
+  double x = bar + 270;
+  const auto key = [&](const char* stroke, const std::string& text) {
+    canvas.line({x, foot + 30}, {x + 26, foot + 30}, {.stroke = stroke, .stroke_width = 2.6});
+    canvas.text({x + 34, foot + 35}, text);
+    x += 60 + text_width(text, {});
+  };
+  if (!scene.bolts.empty()) key("#b2182b", "bolt, " + readable_text(pull / 1e3) + " kN");
+  if (!scene.lining.empty()) key("#222", "lining, " + readable_text(thrust / 1e3) + " kN");
+  canvas.end_layer();
+  return canvas.document();
+}
+
+}  // namespace voussoir

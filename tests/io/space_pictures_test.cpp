@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Views and ParaView files of tunnels in space.
+#include <doctest/doctest.h>
+
+#include <regex>
+#include <string>
+#include <vector>
+#include <voussoir/io/tunnel_view.hpp>
+#include <voussoir/io/vtu.hpp>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/tunnel/opening.hpp>
+
+#include "io/xml_check.hpp"
+#include "support/blocks.hpp"
+#include "support/jointed_mass.hpp"
+
+using namespace voussoir;
+using voussoir_test::brick;
+using voussoir_test::jointed_mass;
+using voussoir_test::rectangle;
+
+namespace {
+
+/// The numbers of a data array.
+std::vector<double> array_of(const std::string& document, const std::string& name) {
+  const std::size_t at = document.find("Name=\"" + name + "\"");
+  REQUIRE(at != std::string::npos);
+  const std::size_t from = document.find('>', at) + 1, to = document.find("</DataArray>", at);
+  std::vector<double> numbers;
+  std::string text = document.substr(from, to - from);
+  char* p = text.data();
+  for (char* end = nullptr;; p = end) {
+    const double x = std::strtod(p, &end);
+    if (end == p) return numbers;
+    numbers.push_back(x);
+  }
+}
+
+}  // namespace
+
+TEST_SUITE("io/space_pictures") {
+  TEST_CASE("a .vtu holds every cell, its points and faces, and its values") {
+    VtuGrid grid;
+    Pose<3> lifted;
+    lifted.position = Vec3(0, 0, 2);
+    grid.add(brick({0, 0, 0}, {1, 2, 3}), lifted);
+    grid.add(rectangle({5, 5}, 1, 1));
+    grid.add_line({0, 0, 0}, {1, 1, 1});
+    grid.add_values("force <N>", 1, {1.5, 2, 3});
+    CHECK_THROWS_AS(grid.add_values("u", 3, {1, 2, 3}), InvalidInput);
+    const std::string text = grid.document();
+    CHECK(xml_fault(text) == "");
+    CHECK(array_of(text, "types") == std::vector<double>{42, 7, 3});
+    CHECK(array_of(text, "offsets") == std::vector<double>{8, 12, 14});
+    // VTK: number of faces, then for each its number of points and the points.
+    const auto faces = array_of(text, "faces");
+    CHECK(faces.size() == 1 + 6 * 5);
+    CHECK(faces.front() == 6);
+    CHECK(array_of(text, "faceoffsets") == std::vector<double>{31, -1, -1});
+    const auto points = array_of(text, "Points");
+    CHECK(points.size() == 3 * (8 + 4 + 2));
+    double low = 1e9, high = -1e9;
+    for (std::size_t k = 2; k < 24; k += 3) {
+      low = std::min(low, points[k]);
+      high = std::max(high, points[k]);
+    }
+    CHECK(low == 0.5);
+    CHECK(high == 3.5);
+    CHECK(array_of(text, "force &lt;N&gt;") == std::vector<double>{1.5, 2, 3});
+  }
+
+  TEST_CASE("the view of a tunnel shows the section, leaves out what lies before it") {
+    const Domain<3> ground{{-4, -3, -4}, {4, 3, 4}};
+    const auto mass =
+        carve(jointed_mass(ground, 1, 1.5), PrismaticOpening(circular_opening(3, 24)), 0.0);
+    TunnelView scene;
+    scene.header.title = "view";
+    CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
+    scene.displacement.assign(mass.bodies.size(), 1e-3);
+    scene.displacement.front() = 2.5e-3;
+    scene.bolts = {{{-2, 0, 0}, {-3, 0, 0}, 5e4}, {{2, 0, 0}, {3, 0, 0}, 9e4}};
+    const std::string half = draw_tunnel_view(mass, scene);
+    CHECK(xml_fault(half) == "");
+    CHECK(half.find(">2.50<") != std::string::npos);  // the scale ends at the largest
+    CHECK(half.find("bolt, 90") != std::string::npos);
+    const auto count = [](const std::string& text, const std::string& what) {
+      std::size_t found = 0;
+      for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++found;
+      return found;
+    };
+    CHECK(count(half, "stroke=\"#b2182b\"") == 2);  // one bolt behind the section, one in the key
+    scene.section_x = 4;
+    CHECK(count(draw_tunnel_view(mass, scene), "stroke=\"#b2182b\"") == 3);
+    scene.section_x = -5;
+    CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
+  }
+}
