@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
-// voussoir: tunnel support design from an input file. `voussoir run FILE`, `voussoir diagram FILE`.
+// voussoir: tunnel support design from an input file. `voussoir run FILE`, `voussoir diagram FILE`;
+// `voussoir patterns` shows how unsupported tunnels fail.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
+#include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
 
 #include "outputs.hpp"
+#include "patterns.hpp"
 
 namespace {
 
@@ -140,6 +146,62 @@ int diagram_verb(const Options& options) {
   return finished;
 }
 
+/// Which cases, and how many rock masses of each.
+struct PatternChoice {
+  std::vector<int> cases;
+  int seeds = 3;
+};
+
+int patterns_verb(const Options& options, const PatternChoice& choice,
+                  const PatternOptions& settings) {
+  check_folder(options);
+  std::vector<PatternResult> results;
+  for (const PatternCase& c : pattern_cases())
+    if (choice.cases.empty() ||
+        std::find(choice.cases.begin(), choice.cases.end(), c.number) != choice.cases.end())
+      for (int seed = 1; seed <= choice.seeds; ++seed) {
+        results.emplace_back();
+        results.back().number = c.number;
+        results.back().seed = static_cast<std::uint64_t>(seed);
+      }
+  ProgressLine line(options.quiet);
+  std::atomic<std::size_t> done{0};
+  std::mutex guard;
+  voussoir::parallel_for(results.size(), options.threads, [&](std::size_t k) {
+    if (stop_asked != 0) return;
+    const PatternCase& c = pattern_cases()[static_cast<std::size_t>(results[k].number - 1)];
+    results[k] = run_pattern(c, results[k].seed, settings);
+    const std::scoped_lock lock(guard);
+    line.show("collapses", static_cast<double>(++done) / static_cast<double>(results.size()));
+  });
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  const std::filesystem::path folder = prepared_folder(options);
+  voussoir::OutputSet outputs;
+  outputs.add(folder / "patterns.csv", patterns_csv(results));
+  outputs.add(folder / "patterns.svg", patterns_sheet(results));
+  int roofs = 0, walls = 0;
+  for (const PatternResult& result : results) {
+    const PatternCase& c = pattern_cases()[static_cast<std::size_t>(result.number - 1)];
+    char name[64];
+    std::snprintf(name, sizeof name, "case_%02d_seed_%d.svg", result.number,
+                  static_cast<int>(result.seed));
+    outputs.add(folder / name, pattern_svg(result));
+    roofs += roof_agrees(c, result);
+    walls += wall_agrees(c, result);
+    if (options.quiet) continue;
+    std::cout << "case " << result.number << ", seed " << result.seed << ": " << description(result)
+              << "\n  paper: roof: " << to_string(c.roof) << "; walls: " << to_string(c.wall)
+              << "\n";
+    if (!result.note.empty()) std::cout << "  ended early: " << result.note << "\n";
+  }
+  if (!options.quiet)
+    std::cout << "named as in the paper: roof " << roofs << ", walls " << walls << " of "
+              << results.size() << " runs\n";
+  publish(outputs, options, "patterns.csv, patterns.svg, case_*_seed_*.svg");
+  return finished;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -167,6 +229,29 @@ int main(int argc, char** argv) {
   diagram->add_option("-j,--threads", options.threads, "tunnels computed at a time")
       ->capture_default_str()
       ->check(CLI::Range(1U, 1024U));
+  CLI::App* patterns =
+      app.add_subcommand("patterns", "how unsupported tunnels fail: 24 cases, every block moving");
+  PatternChoice choice;
+  PatternOptions settings;
+  patterns->add_option("-o,--out", options.folder, "folder for the results, made if missing")
+      ->capture_default_str();
+  patterns->add_option("--cases", choice.cases, "numbers of cases, 1 to 24; all if none is given")
+      ->check(CLI::Range(1, 24));
+  patterns->add_option("--seeds", choice.seeds, "rock masses of each case")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  patterns->add_option("--duration", settings.duration, "time after the excavation [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 60.0));
+  patterns
+      ->add_option("--unloading", settings.unloading,
+                   "time over which the wall traction goes [s], 0: sudden")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 60.0));
+  patterns->add_option("-j,--threads", options.threads, "tunnels computed at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1024U));
+  patterns->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -175,6 +260,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   try {
+    if (*patterns) return patterns_verb(options, choice, settings);
     return *run ? run_verb(options) : diagram_verb(options);
   } catch (const InputErrors& errors) {
     std::cerr << errors.what() << "\n";

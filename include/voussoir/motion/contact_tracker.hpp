@@ -64,7 +64,15 @@ class ContactTracker {
   template <class Bodies, class Touches, class Parts>
   void update(const Bodies& bodies, Touches&& touches, Parts&& parts) {
     follow(bodies);
+    const auto place = [&](std::size_t shape) {
+      const std::size_t b = index(body_of_[shape]);
+      if (placed_[shape] == path_[b]) return;
+      placed_[shape] = path_[b];
+      const Pose<Dim>& pose = bodies[b].pose;
+      shapes_.place(shape, {pose.position, pose.rotation * home_[shape]});
+    };
     if (since_looked_ > unseen * margin_ || pairs_.empty()) {
+      for (std::size_t s = 0; s < shapes_.size(); ++s) place(s);
       if (neighbours_.update(shapes_)) carry_over(bodies, parts);
       since_looked_ = 0;
     }
@@ -74,6 +82,8 @@ class ContactTracker {
       const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
       if (pair.moved >= 0 && now - pair.moved <= allowed) continue;
       pair.moved = now;
+      place(pair.a);
+      place(pair.b);
       // The whole of the faces that lie over one another, not what is within reach of touching: the
       // springs then do not change with the depth of the overlap, which would make or eat energy.
       const bool near =
@@ -90,35 +100,27 @@ class ContactTracker {
  private:
   [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  /// Adds what bodies have moved to their paths, and places their shapes.
+  /// Adds what bodies have moved to their paths.
   template <class Bodies>
   void follow(const Bodies& bodies) {
-    const bool first = path_.empty();
-    if (first) {
+    if (path_.empty()) {
       path_.assign(bodies.size(), 0);
-      seen_.resize(bodies.size());
+      placed_.assign(shapes_.size(), -1);
+      for (const auto& body : bodies) seen_.push_back(body.pose);
+      return;
     }
     double farthest = 0;
-    moved_.assign(bodies.size(), first ? 1 : 0);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const auto& body = bodies[b];
-      if (!first) {
-        const double shift = (body.pose.position - seen_[b].position).norm();
-        const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
-        const double path = shift + turn * body.radius;
-        if (path == 0) continue;
-        path_[b] += path;
-        farthest = std::max(farthest, path);
-        moved_[b] = 1;
-      }
+      const double shift = (body.pose.position - seen_[b].position).norm();
+      const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
+      const double path = shift + turn * body.radius;
+      if (path == 0) continue;
+      path_[b] += path;
+      farthest = std::max(farthest, path);
       seen_[b] = body.pose;
     }
     since_looked_ += farthest;
-    for (std::size_t s = 0; s < shapes_.size(); ++s)
-      if (moved_[index(body_of_[s])]) {
-        const Pose<Dim>& pose = bodies[index(body_of_[s])].pose;
-        shapes_.place(s, {pose.position, pose.rotation * home_[s]});
-      }
   }
 
   /// What is known of a pair goes with it from the old list to the new one.
@@ -159,7 +161,7 @@ class ContactTracker {
   std::vector<Pair> pairs_;
   std::vector<double> path_;     ///< of each body, summed [m]
   std::vector<Pose<Dim>> seen_;  ///< poses at the last update
-  std::vector<char> moved_;
+  std::vector<double> placed_;   ///< for every shape, the path of its body when it was placed [m]
 };
 
 }  // namespace voussoir

@@ -340,7 +340,7 @@ class Dynamics {
     }
     if (count == 0) throw InvalidInput("dynamics: there is no block that can move");
     const double reach = settings_.reach > 0 ? settings_.reach : 0.02 * size / count;
-    refresh_ = settings_.refresh > 0 ? settings_.refresh : 0.1 * reach;
+    refresh_ = settings_.refresh > 0 ? settings_.refresh : 0.25 * reach;
     tracker_.emplace(reach, refresh_, 8 * reach);
     for (const auto& [shape, b] : shapes_)
       tracker_->add(shape, position(b), b, bodies_[index(b)].pose.rotation);
@@ -419,7 +419,8 @@ class Dynamics {
     for (const Body& body : bodies_)
       if (body.movable())
         fastest = std::max(fastest, body.velocity.norm() + body.spin().norm() * body.radius);
-    const double steps = std::min(refresh_, 0.1 * tracker_->reach()) / (fastest * step);
+    // Both bodies of a pair move, and may get faster.
+    const double steps = 0.5 * std::min(refresh_, 0.5 * tracker_->reach()) / (fastest * step);
     return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(settings_.check_every)));
   }
 

@@ -82,8 +82,7 @@ class MovingContacts {
     const Contact& c = contacts_[k];
     const auto &a = bodies[static_cast<std::size_t>(c.a)],
                &b = bodies[static_cast<std::size_t>(c.b)];
-    if constexpr (Dim == 2)
-      if (!(c.viscosity > 0)) return react_in_plane(c, a, b, lost);
+    if constexpr (Dim == 2) return react_in_plane(c, a, b, lost);
     const Rotation<Dim> frame = a.pose.rotation * c.frame;
     const Vec<Dim> arm = b.pose.position - a.pose.position;
     const Place at{b.pose.rotation.transpose() * frame, frame.transpose() * arm};
@@ -151,10 +150,20 @@ class MovingContacts {
       load.motion.slip[0] = base_t + along_t - p->zero[1];
       const PointForce<Dim> f = law_.force(load, p->state);
       lost.friction += law_.commit(load, p->state);
-      force_n += f.normal;
+      double normal = f.normal;
+      if (c.viscosity > 0 && normal > 0) {
+        const double rate = nx * (b.velocity.x() - a.velocity.x()) +
+                            ny * (b.velocity.y() - a.velocity.y()) - b.spin()[0] * along_t +
+                            a.spin()[0] * (base_t + along_t);
+        const double viscous =
+            std::max(-c.viscosity * p->weight * law_.joint_normal_stiffness() * rate, -normal);
+        lost.viscosity -= viscous * rate;
+        normal += viscous;
+      }
+      force_n += normal;
       force_t += f.tangential[0];
       // place x force, both in the contact's frame
-      moment += along_n * f.tangential[0] - along_t * f.normal;
+      moment += along_n * f.tangential[0] - along_t * normal;
     }
     Reaction<Dim> r;
     const double x = nx * force_n - ny * force_t, y = ny * force_n + nx * force_t;
