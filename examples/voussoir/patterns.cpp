@@ -85,11 +85,11 @@ const char* to_string(RoofFall fall) {
     case RoofFall::wedge:
       return "wedge";
     case RoofFall::steepest:
-      return "slides on the steepest set";
+      return "slides on steepest set";
     case RoofFall::second_steepest:
-      return "slides on the second steepest set";
+      return "slides on 2nd steepest set";
     case RoofFall::shallowest:
-      return "slides on the shallowest set";
+      return "slides on shallowest set";
     case RoofFall::mixed:
       return "ravels";
   }
@@ -450,20 +450,19 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
     if (!runs.front()->stages.empty())
       draw_stage(canvas, runs.front()->stages.back(), {low, low + Vec2::Constant(side)},
                  "c" + std::to_string(number));
-    const auto line = [&](int k, const std::string& text, bool bold) {
-      TextStyle style{.size = 10.5, .bold = bold};
-      style.size *= std::min(1.0, side / std::max(1.0, text_width(text, style)));
-      canvas.text(low + Vec2(0, side + 13.0 + 13.0 * k), text, style);
-    };
-    line(0, case_title(c), true);
-    line(1, std::string("paper: ") + to_string(c.roof) + "; walls: " + to_string(c.wall), false);
-    std::string measured;
+    std::vector<std::string> lines = {case_title(c), std::string("paper: ") + to_string(c.roof) +
+                                                         "; walls: " + to_string(c.wall)};
     for (std::size_t k = 0; k < runs.size() && k < 3; ++k)
-      line(2 + static_cast<int>(k),
-           "seed " + std::to_string(runs[k]->seed) + ": " + to_string(runs[k]->roof) + " " +
-               fixed_text(runs[k]->roof_area, 0) + " m\u00b2; walls: " + to_string(runs[k]->wall) +
-               " " + fixed_text(runs[k]->wall_area, 0) + " m\u00b2",
-           false);
+      lines.push_back("seed " + std::to_string(runs[k]->seed) + ": " + to_string(runs[k]->roof) +
+                      " " + fixed_text(runs[k]->roof_area, 0) +
+                      " m\u00b2; walls: " + to_string(runs[k]->wall) + " " +
+                      fixed_text(runs[k]->wall_area, 0) + " m\u00b2");
+    double size = 10.5;  // one for all lines of a case
+    for (const std::string& text : lines)
+      size = std::min(size, 10.5 * side / std::max(1.0, text_width(text, {.size = 10.5})));
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      canvas.text(low + Vec2(0, side + 13.0 + 13.0 * static_cast<double>(k)), lines[k],
+                  {.size = size, .bold = k == 0});
     ++place;
   }
   return canvas.document();

@@ -264,7 +264,10 @@ class ContactNetwork {
       for (int axis = 0; axis < Dim; ++axis) {
         const Vec<Dim> along = frame.col(axis);
         Eigen::Matrix<double, dof, 1> g;
-        g << root * along, moment_of(place, along).cwiseQuotient(body.inertia.cwiseSqrt());
+        const Spin<Dim> moment = moment_of(place, along);
+        for (int row = 0; row < Dim; ++row) g[row] = root * along[row];
+        for (int row = 0; row < spin_count<Dim>; ++row)
+          g[Dim + row] = moment[row] / std::sqrt(body.inertia[row]);
         sum += p.weight *
                (axis == 0 ? group.law().joint_normal_stiffness()
                           : group.law().joint_shear_stiffness()) *

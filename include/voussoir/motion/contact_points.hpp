@@ -60,11 +60,13 @@ inline void place_points(ContactPoints rule, std::span<const Vec3> polygon, doub
   points.clear();
   const SpatialFacet facet{{polygon.begin(), polygon.end()}};
   const Vec3 centre = facet.centre();
-  if (rule == ContactPoints::centre) {
+  // What is seen along the normal of the contact, over the area: at most 1, unless rounding is all
+  // there is of it.
+  const double scale = area / facet.measure();
+  if (rule == ContactPoints::centre || !(scale < 1.001)) {
     points.push_back({centre, area});
     return;
   }
-  const double scale = area / facet.measure();  // what is seen along the normal of the contact
   if (rule == ContactPoints::gauss) {
     for (const FacetPoint<3>& p : facet.gauss_points())
       points.push_back({centre + p.offset, scale * p.weight});
