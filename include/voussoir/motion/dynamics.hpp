@@ -105,8 +105,11 @@ class Dynamics {
   /// @param spin  world axes [rad/s]
   void set_velocity(int b, const Vec<Dim>& velocity, const Spin<Dim>& spin = Spin<Dim>::Zero()) {
     Body& body = bodies_[index(b)];
+    const double before = body.kinetic_energy();
     body.velocity = velocity;
     body.momentum = body.inertia.cwiseProduct(body.to_body(spin));
+    // Energy that is given like this is none that a run has to account for.
+    if (begun_) kinetic_at_start_ += body.kinetic_energy() - before;
     fresh_ = false;
   }
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 #include <voussoir/motion/dynamics.hpp>
+#include <voussoir/motion/moving_bolts.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/bolt_crossings.hpp>
 #include <voussoir/solver/in_situ.hpp>
 
 namespace voussoir {
@@ -60,6 +65,50 @@ template <class Geometry, class JointLaw>
       10 * mass.domain.tolerance());
   run.hold();
   return run;
+}
+
+/// Installs bolts in rock that lies as it was sliced, free of force but for their pretension:
+/// before the first step of a run made by `moving_rock` from the same mass.
+/// @param spacing  between bolts along the tunnel (2-D) [m], > 0
+/// @return  the bolts, which the run holds too: forces are read there
+/// @throws InvalidInput  spacing out of range, a bar without length, or the run has begun to move
+template <class Geometry, class JointLaw, class BoltLaw, class Anchors>
+std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
+    Dynamics<Geometry::dim, JointLaw>& run, const RockMass<Geometry>& mass,
+    const std::vector<typename Geometry::Line>& bars, const BoltLaw& law, double spacing,
+    const Anchors& anchors) {
+  constexpr int dim = Geometry::dim;
+  require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
+  if (run.steps() > 0) throw InvalidInput("add_bolts: the rock has already moved");
+  auto bolts = std::make_shared<MovingBolts<dim, BoltLaw>>(law);
+  int number = 0;
+  for (const auto& bar : bars) {
+    require(bar.length() > 0 && std::isfinite(bar.length()), "bolt length", bar.length(), "> 0 m");
+    const Vec<dim> axis = (bar.end - bar.start) / bar.length();
+    for (const auto& at :
+         bolt_crossings(pierce(mass, bar), bar, anchors, mass.domain.tolerance())) {
+      const Pose<dim> a = run.pose(at.a), b = run.pose(at.b);
+      const auto in = [](const Pose<dim>& pose, const Vec<dim>& p) {
+        return Vec<dim>(pose.rotation.transpose() * (p - pose.position));
+      };
+      typename MovingBolts<dim, BoltLaw>::Spring spring{};
+      spring.a = at.a;
+      spring.b = at.b;
+      spring.bolt = number;
+      spring.position = at.position;
+      spring.anchor_a = in(a, at.anchor_a);
+      spring.anchor_b = in(b, at.anchor_b);
+      spring.joint_a = in(a, at.joint_a);
+      spring.joint_b = in(b, at.joint_b);
+      spring.initial = a.rotation.transpose() * at.initial;
+      spring.axis = a.rotation.transpose() * axis;
+      spring.share = dim == 2 ? 1 / spacing : 1;
+      bolts->add(spring);
+    }
+    ++number;
+  }
+  run.add_support(bolts);
+  return bolts;
 }
 
 }  // namespace voussoir

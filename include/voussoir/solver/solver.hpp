@@ -10,6 +10,7 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/bolt_crossings.hpp>
 #include <voussoir/solver/composition.hpp>
 #include <voussoir/solver/in_situ.hpp>
 #include <voussoir/solver/system.hpp>
@@ -112,40 +113,29 @@ class Solver {
                          text_of<dim>(domain.low) + " to " + text_of<dim>(domain.high) + " m");
     const Vec<dim> axis = (bar.end - bar.start) / length;
     system_.bolt_laws.push_back(law);
-    const std::vector<Passage> passages = passages_of_present_rock(bar);
-    int crossed = 0;
-    for (std::size_t k = 1; k < passages.size(); ++k) {
-      const Passage &before = passages[k - 1], &after = passages[k];
-      if (before.body == after.body) continue;  // round a corner of the opening and back
-      const AnchorDistances d = anchors.distances({before.to - before.from, after.to - after.from});
+    const auto crossings =
+        bolt_crossings(passages_of_present_rock(bar), bar, anchors, domain.tolerance());
+    for (const BoltCrossingPoint<dim>& at : crossings) {
       BoltSpring<Geometry, BoltLaw> spring{};
-      spring.a = before.body;
-      spring.b = after.body;
+      spring.a = at.a;
+      spring.b = at.b;
       spring.bolt = bolt_count_;
-      spring.position = 0.5 * (before.to + after.from);
-      // Across a hole (a block that has fallen) the bar goes on; at a joint the two faces are one
-      // place, and the span exactly what the anchors say, not the rounding of two positions.
-      const double gap = after.from - before.to;
-      const bool is_joint = gap < same_point * domain.tolerance();
-      const Vec<dim> joint = bar.start + spring.position * axis;
-      const Vec<dim> face_a = is_joint ? joint : Vec<dim>(bar.start + before.to * axis);
-      const Vec<dim> face_b = is_joint ? joint : Vec<dim>(bar.start + after.from * axis);
-      spring.joint_a = face_a - system_.body(spring.a).centre;
-      spring.joint_b = face_b - system_.body(spring.b).centre;
-      spring.arm_a = spring.joint_a - d.before * axis;
-      spring.arm_b = spring.joint_b + d.after * axis;
-      spring.span = {(d.before + (is_joint ? 0.0 : gap) + d.after) * axis, axis, Vec<dim>::Zero()};
+      spring.position = at.position;
+      spring.joint_a = at.joint_a - system_.body(at.a).centre;
+      spring.joint_b = at.joint_b - system_.body(at.b).centre;
+      spring.arm_a = at.anchor_a - system_.body(at.a).centre;
+      spring.arm_b = at.anchor_b - system_.body(at.b).centre;
+      spring.span = {at.initial, axis, Vec<dim>::Zero()};
       const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
       spring.span.motion = -present.motion;
       spring.span.jump = -present.jump;
       spring.share = dim == 2 ? 1.0 / spacing : 1.0;
       spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
       system_.bolts.push_back(spring);
-      ++crossed;
     }
     ++bolt_count_;
     started_ = true;
-    return crossed;
+    return static_cast<int>(crossings.size());
   }
 
   /// Installs a lining on the wall in its present position, free of force.

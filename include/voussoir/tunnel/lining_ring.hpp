@@ -31,9 +31,7 @@ struct RingNodes {
   std::vector<Vec2> places;  ///< of those in the arc, neighbours one after the other [m]
   std::vector<int> number;   ///< for every stretch, index into `places`, or -1
 
-  /// True if a member joins node n and the next.
-  [[nodiscard]] bool joined(std::size_t n) const { return joined_[n] != 0; }
-  std::vector<char> joined_;
+  std::vector<char> joined;  ///< for every node, whether a member joins it and the next
 };
 
 /// @throws InvalidInput  a value out of range; fewer than two nodes in the arc
@@ -72,10 +70,10 @@ struct RingNodes {
     nodes.places.push_back(p);
     // An outline that turns back can leave the arc and come again: no member across the gap.
     const int before = nodes.number[static_cast<std::size_t>((k + ring.nodes - 1) % ring.nodes)];
-    if (node > 0) nodes.joined_.push_back(before == node - 1);
+    if (node > 0) nodes.joined.push_back(before == node - 1);
   }
   if (nodes.places.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
-  nodes.joined_.push_back(closed);
+  nodes.joined.push_back(closed);
   return nodes;
 }
 
@@ -97,7 +95,7 @@ struct RingNodes {
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
-    if (nodes.joined(n))
+    if (nodes.joined[n])
       frame.members.push_back(
           {static_cast<int>(n), n + 1 == nodes.places.size() ? 0 : static_cast<int>(n) + 1});
   const double shortest = mass.domain.tolerance();
@@ -154,13 +152,13 @@ struct LiningRibs {
       frame.nodes.push_back(
           PrismaticOpening::in_space(nodes.places[here], from + (row + 0.5) * width));
       const Vec2 along = nodes.places[next] - nodes.places[here];
-      if (nodes.joined(here))
+      if (nodes.joined[here])
         frame.members.push_back({node_at(row, n), node_at(row, static_cast<int>(next)),
                                  PrismaticOpening::in_space(-perpendicular(along), 0), 0});
       if (ribs.tied && row > 0) {
         const std::size_t before = n == 0 ? nodes.places.size() - 1 : here - 1;
-        const Vec2 chord = (nodes.joined(here) ? nodes.places[next] : nodes.places[here]) -
-                           (nodes.joined(before) ? nodes.places[before] : nodes.places[here]);
+        const Vec2 chord = (nodes.joined[here] ? nodes.places[next] : nodes.places[here]) -
+                           (nodes.joined[before] ? nodes.places[before] : nodes.places[here]);
         frame.members.push_back({node_at(row - 1, n), node_at(row, n),
                                  PrismaticOpening::in_space(-perpendicular(chord), 0), 1});
       }
