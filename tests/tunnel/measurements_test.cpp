@@ -30,7 +30,8 @@ struct RingAlone {
     for (int k = 0; k < count; ++k) bodies.add_body({position(k), 0, 1, true});
     for (int k = 0; k < count; ++k) {
       const Vec2 a = position(k), b = position(k + 1);
-      bodies.frames.push_back({k, (k + 1) % count, (b - a).norm(), element_axes<2>(b - a, Vec2::Zero()),
+      bodies.frames.push_back({k, (k + 1) % count, (b - a).norm(),
+                               element_axes<2>(b - a, Vec2::Zero()),
                                EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
     }
   }
@@ -137,7 +138,8 @@ TEST_SUITE("tunnel/measurements") {
     for (int k = 0; k < count; ++k) system.add_body({1.2 * system.body(k).centre, 0, 1, false});
     for (int k = 0; k < count; ++k) {
       const Vec2 a = system.body(k).centre, b = system.body((k + 1) % count).centre;
-      system.frames.push_back({k, (k + 1) % count, (b - a).norm(), element_axes<2>(b - a, Vec2::Zero()),
+      system.frames.push_back({k, (k + 1) % count, (b - a).norm(),
+                               element_axes<2>(b - a, Vec2::Zero()),
                                EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
       const Segment facet{vertex(k), vertex(k + 1)};
       const FacetPoint<2> point{Vec2::Zero(), facet.length()};
