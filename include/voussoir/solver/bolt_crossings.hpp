@@ -12,11 +12,11 @@ namespace voussoir {
 /// Where a bar crosses a joint, and its anchors on either side.
 template <int Dim>
 struct BoltCrossingPoint {
-  int a, b;                     ///< body towards the head, body towards the tip
-  double position;              ///< of the joint, from the head [m]
-  Vec<Dim> anchor_a, anchor_b;  ///< [m]
-  Vec<Dim> joint_a, joint_b;    ///< where the bar leaves a and enters b: apart across a hole [m]
-  Vec<Dim> initial;             ///< from the first anchor to the second [m]
+  int a, b;                   ///< body towards the head, body towards the tip
+  double position;            ///< of the joint, from the head [m]
+  double before, after;       ///< of the anchors from there, towards head and tip [m]
+  Vec<Dim> joint_a, joint_b;  ///< where the bar leaves a and enters b: apart across a hole [m]
+  Vec<Dim> initial;           ///< from the first anchor to the second [m]
 };
 
 /// The joints that a bar crosses on its way through these bodies.
@@ -40,8 +40,7 @@ template <class Line, class Anchors>
     const Vec<dim> joint = bar.start + position * axis;
     const Vec<dim> face_a = is_joint ? joint : Vec<dim>(bar.start + before.to * axis);
     const Vec<dim> face_b = is_joint ? joint : Vec<dim>(bar.start + after.from * axis);
-    found.push_back({before.body, after.body, position, face_a - d.before * axis,
-                     face_b + d.after * axis, face_a, face_b,
+    found.push_back({before.body, after.body, position, d.before, d.after, face_a, face_b,
                      (d.before + (is_joint ? 0.0 : gap) + d.after) * axis});
   }
   return found;

@@ -96,8 +96,8 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
       spring.b = at.b;
       spring.bolt = number;
       spring.position = at.position;
-      spring.anchor_a = in(a, at.anchor_a);
-      spring.anchor_b = in(b, at.anchor_b);
+      spring.anchor_a = in(a, at.joint_a - at.before * axis);
+      spring.anchor_b = in(b, at.joint_b + at.after * axis);
       spring.joint_a = in(a, at.joint_a);
       spring.joint_b = in(b, at.joint_b);
       spring.initial = a.rotation.transpose() * at.initial;

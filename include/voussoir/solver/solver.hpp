@@ -123,8 +123,8 @@ class Solver {
       spring.position = at.position;
       spring.joint_a = at.joint_a - system_.body(at.a).centre;
       spring.joint_b = at.joint_b - system_.body(at.b).centre;
-      spring.arm_a = at.anchor_a - system_.body(at.a).centre;
-      spring.arm_b = at.anchor_b - system_.body(at.b).centre;
+      spring.arm_a = spring.joint_a - at.before * axis;
+      spring.arm_b = spring.joint_b + at.after * axis;
       spring.span = {at.initial, axis, Vec<dim>::Zero()};
       const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
       spring.span.motion = -present.motion;
