@@ -55,6 +55,26 @@ class ContactNetwork {
     for (const auto& c : walls_.contacts()) visit(walls_, c);
   }
 
+  /// Gives every contact that is open by no more than `closed` [m] the traction of a stress field,
+  /// and makes it the one without opening.
+  template <class StressAt>
+  void prescribe(const Bodies& bodies, StressAt&& stress_at, double closed) {
+    each([&](auto& group, const auto& c) {
+      const Pose<Dim>&a = bodies[index(c.a)].pose, &b = bodies[index(c.b)].pose;
+      const auto at = group.place_of(c, a, b);
+      for (auto i = index(c.first); i < index(c.last); ++i)
+        if (std::abs(group.motion_of(group.points()[i], at).opening) > closed) return;
+      const Rotation<Dim> frame = a.rotation * c.frame;
+      for (auto i = index(c.first); i < index(c.last); ++i) {
+        auto& p = group.points()[i];
+        const Vec<Dim> traction = stress_at(b(p.place)) * frame.col(0);
+        const Vec<Dim> force = p.weight * (frame.transpose() * traction);
+        p.initial = {force[0], force.template tail<Dim - 1>()};
+        p.zero[0] += group.motion_of(p, at).opening;
+      }
+    });
+  }
+
   /// Finds contacts again where bodies have moved.
   /// @param is_wall  for every body
   /// @param refound  energy that springs gain by their new form is added to it [J]

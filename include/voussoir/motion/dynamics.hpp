@@ -19,6 +19,7 @@
 #include <voussoir/motion/contact_tracker.hpp>
 #include <voussoir/motion/dynamics_settings.hpp>
 #include <voussoir/motion/energy_audit.hpp>
+#include <voussoir/motion/half_step.hpp>
 #include <voussoir/motion/health.hpp>
 #include <voussoir/motion/moving_body.hpp>
 #include <voussoir/motion/support.hpp>
@@ -120,20 +121,8 @@ class Dynamics {
   template <class StressAt>
   void prescribe(StressAt&& stress_at, double closed) {
     begin();
-    network_.each([&](auto& group, const auto& c) {
-      const Pose<Dim>&a = bodies_[index(c.a)].pose, &b = bodies_[index(c.b)].pose;
-      const auto at = group.place_of(c, a, b);
-      for (auto i = index(c.first); i < index(c.last); ++i)
-        if (std::abs(group.motion_of(group.points()[i], at).opening) > closed) return;
-      const Rotation<Dim> frame = a.rotation * c.frame;
-      for (auto i = index(c.first); i < index(c.last); ++i) {
-        auto& p = group.points()[i];
-        const Vec<Dim> traction = stress_at(Vec<Dim>(b(p.place) + origin_)) * frame.col(0);
-        const Vec<Dim> force = p.weight * (frame.transpose() * traction);
-        p.initial = {force[0], force.template tail<Dim - 1>()};
-        p.zero[0] += group.motion_of(p, at).opening;
-      }
-    });
+    network_.prescribe(
+        bodies_, [&](const Vec<Dim>& p) { return stress_at(Vec<Dim>(p + origin_)); }, closed);
     start_audit();
   }
   /// Loads every block with what it needs to be in equilibrium now, besides its other loads. This
@@ -269,17 +258,11 @@ class Dynamics {
   }
 
  private:
-  /// What acts on a body, kept between the two halves of a step.
-  struct Acting {
-    Vec<Dim> acceleration = Vec<Dim>::Zero();  ///< [m/s^2]
-    Spin<Dim> torque = Spin<Dim>::Zero();      ///< frame of the body [N m]
-    Vec<Dim> damping = Vec<Dim>::Zero();       ///< local damping, part of the above [N]
-    Spin<Dim> damping_torque = Spin<Dim>::Zero();
-  };
   /// Sums of one member of the team; apart in memory.
   struct alignas(64) Sums {
     Dissipation lost;
-    double gravity = 0, loads = 0, damping = 0, viscosity = 0;
+    double viscosity = 0;  ///< [J]
+    detail::StepWork work;
   };
   /// All that a run goes back to when it goes bad.
   struct Sound {
@@ -453,9 +436,9 @@ class Dynamics {
     for (const Sums& sums : sums_) {
       audit_.friction += sums.lost.friction;
       audit_.viscosity += sums.viscosity;
-      audit_.gravity += sums.gravity;
-      audit_.loads += sums.loads;
-      audit_.damping += sums.damping;
+      audit_.gravity += sums.work.gravity;
+      audit_.loads += sums.work.loads;
+      audit_.damping += sums.work.damping;
     }
     steps_ += count;
     time_ += count * step;
@@ -485,57 +468,24 @@ class Dynamics {
     return {force, moment};
   }
 
+  [[nodiscard]] Load<Dim> applied(std::size_t b) const {
+    return {loads_[b].force + held_fraction_ * held_[b].force,
+            loads_[b].moment + held_fraction_ * held_[b].moment};
+  }
   /// First half kick, and the drift.
   void start(std::size_t b, double step, Sums& sums) {
-    Body& body = bodies_[b];
-    const Acting& now = acting_[b];
-    body.velocity += 0.5 * step * now.acceleration;
-    body.momentum += 0.5 * step * now.torque;
-    add_work(b, step, sums);
-    body.drift(step);
+    acting_[b].kick(bodies_[b], step);
+    acting_[b].add_work(bodies_[b], step, settings_.gravity, applied(b), sums.work);
+    bodies_[b].drift(step);
   }
   /// Forces at the new place.
   void settle(std::size_t b) {
-    const Body& body = bodies_[b];
-    if (!body.movable()) return;
-    Load<Dim> total = total_load(b);
-    Acting& now = acting_[b];
-    now.torque = body.to_body(total.moment);
-    if (settings_.local_damping > 0) {
-      now.damping = opposed(total.force, body.velocity);
-      now.damping_torque = opposed(now.torque, body.momentum);
-      total.force += now.damping;
-      now.torque += now.damping_torque;
-    }
-    now.acceleration = total.force / body.mass;
+    if (bodies_[b].movable()) acting_[b].set(bodies_[b], total_load(b), settings_.local_damping);
   }
   /// Second half kick.
   void finish(std::size_t b, double step, Sums& sums) {
-    Body& body = bodies_[b];
-    const Acting& now = acting_[b];
-    add_work(b, step, sums);
-    body.velocity += 0.5 * step * now.acceleration;
-    body.momentum += 0.5 * step * now.torque;
-  }
-  /// Work of the present forces over half the way of this step.
-  void add_work(std::size_t b, double step, Sums& sums) const {
-    const Body& body = bodies_[b];
-    const Vec<Dim> way = 0.5 * step * body.velocity;
-    sums.gravity -= body.mass * settings_.gravity * way[Dim - 1];
-    if (settings_.local_damping > 0)
-      sums.damping -=
-          acting_[b].damping.dot(way) + 0.5 * step * acting_[b].damping_torque.dot(body.spin());
-    sums.loads += (loads_[b].force + held_fraction_ * held_[b].force).dot(way);
-    const Spin<Dim> moment = loads_[b].moment + held_fraction_ * held_[b].moment;
-    if (!moment.isZero(0)) sums.loads += 0.5 * step * body.to_body(moment).dot(body.spin());
-  }
-  template <class V>
-  [[nodiscard]] V opposed(const V& force, const V& velocity) const {
-    V damping = V::Zero();
-    for (Eigen::Index k = 0; k < force.size(); ++k)
-      if (velocity[k] != 0)
-        damping[k] = -settings_.local_damping * std::copysign(std::abs(force[k]), velocity[k]);
-    return damping;
+    acting_[b].add_work(bodies_[b], step, settings_.gravity, applied(b), sums.work);
+    acting_[b].kick(bodies_[b], step);
   }
 
   DynamicsSettings settings_;
@@ -549,7 +499,7 @@ class Dynamics {
   double held_fraction_ = 0;
   std::vector<std::shared_ptr<Support<Dim>>> supports_;
   std::vector<char> is_wall_;
-  std::vector<Acting> acting_;
+  std::vector<detail::HalfStep<Dim>> acting_;
   std::optional<ContactTracker<Dim>> tracker_;
   std::vector<Sums> sums_;
   EnergyAudit audit_;

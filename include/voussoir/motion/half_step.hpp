@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/support.hpp>
+
+namespace voussoir::detail {
+
+/// Work done on bodies in some steps [J].
+struct StepWork {
+  double gravity = 0;
+  double loads = 0;
+  double damping = 0;  ///< taken away by local damping
+};
+
+/// What acts on a body, kept between the two half kicks of a step, and what they do.
+template <int Dim>
+class HalfStep {
+ public:
+  /// Takes what acts on a body at its present place.
+  /// @param total          all forces but local damping, world axes
+  /// @param local_damping  alpha [-]; opposes the motion of every unknown with alpha |f|
+  void set(const MovingBody<Dim>& body, Load<Dim> total, double local_damping) {
+    torque_ = body.to_body(total.moment);
+    if (local_damping > 0) {
+      damping_ = opposed(total.force, body.velocity, local_damping);
+      damping_torque_ = opposed(torque_, body.momentum, local_damping);
+      total.force += damping_;
+      torque_ += damping_torque_;
+    }
+    acceleration_ = total.force / body.mass;
+  }
+
+  /// Half a step of velocity.
+  void kick(MovingBody<Dim>& body, double step) const {
+    body.velocity += 0.5 * step * acceleration_;
+    body.momentum += 0.5 * step * torque_;
+  }
+
+  /// Adds the work of the present forces over half the way of this step, with the velocity at its
+  /// middle: of both halves together it is that of the mean force.
+  /// @param load  other than weight, contacts and supports, world axes
+  void add_work(const MovingBody<Dim>& body, double step, double gravity, const Load<Dim>& load,
+                StepWork& work) const {
+    const Vec<Dim> way = 0.5 * step * body.velocity;
+    work.gravity -= body.mass * gravity * way[Dim - 1];
+    work.loads += load.force.dot(way);
+    const bool turns = !load.moment.isZero(0) || !damping_torque_.isZero(0);
+    if (turns) {
+      const Spin<Dim> turn = 0.5 * step * body.spin();
+      work.loads += body.to_body(load.moment).dot(turn);
+      work.damping -= damping_torque_.dot(turn);
+    }
+    work.damping -= damping_.dot(way);
+  }
+
+ private:
+  template <class V>
+  [[nodiscard]] static V opposed(const V& force, const V& velocity, double local_damping) {
+    V damping = V::Zero();
+    for (Eigen::Index k = 0; k < force.size(); ++k)
+      if (velocity[k] != 0)
+        damping[k] = -local_damping * std::copysign(std::abs(force[k]), velocity[k]);
+    return damping;
+  }
+
+  Vec<Dim> acceleration_ = Vec<Dim>::Zero();  ///< [m/s^2]
+  Spin<Dim> torque_ = Spin<Dim>::Zero();      ///< frame of the body [N m]
+  Vec<Dim> damping_ = Vec<Dim>::Zero();       ///< local damping, part of the above [N]
+  Spin<Dim> damping_torque_ = Spin<Dim>::Zero();
+};
+
+}  // namespace voussoir::detail
