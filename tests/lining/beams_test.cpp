@@ -25,7 +25,7 @@ LiningSection section() { return LiningSection::rectangular(0.1, 25e9, 0.2); }
 /// An element from a to b in world axes.
 template <class Beam>
 Element world_stiffness(const Vec2& a, const Vec2& b, const LiningSection& s) {
-  const Element turn = element_axes<2>(b - a, Vec2::Zero());
+  const Element turn = in_element_axes<2>(frame_axes<2>(b - a, Vec2::Zero()));
   return turn.transpose() * Beam::template stiffness<3>(s, (b - a).norm()) * turn;
 }
 
@@ -117,7 +117,7 @@ TEST_SUITE("lining/beams") {
 
   TEST_CASE("element axes: x runs from the first node to the second, y to the left of it") {
     const Vec2 a(1, 2), b(-1, 3);
-    const Element turn = element_axes<2>(b - a, Vec2::Zero());
+    const Element turn = in_element_axes<2>(frame_axes<2>(b - a, Vec2::Zero()));
     CHECK((turn * turn.transpose() - Element::Identity()).norm() <= 1e-15);
     const Vec2 along = (b - a).normalized();
     Ends world;

@@ -29,7 +29,7 @@ struct Ring {
   explicit Ring(int count, const LiningSection& section) : nodes(count) {
     for (int k = 0; k < nodes; ++k) {
       const Vec2 a = position(k), b = position(k + 1);
-      elements.push_back({k, (k + 1) % nodes, (b - a).norm(), element_axes<2>(b - a, Vec2::Zero()),
+      elements.push_back({k, (k + 1) % nodes, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
                           Beam::template stiffness<3>(section, (b - a).norm())});
     }
   }

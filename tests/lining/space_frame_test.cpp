@@ -23,7 +23,7 @@ Eigen::Matrix<double, 6, 1> cantilever(int elements, const Vec3& along, const Ve
   const int size = 6 * elements;
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size + 6, size + 6);
   const Vec3 step = along / elements;
-  const auto turn = element_axes<3>(step, outward);
+  const auto turn = in_element_axes<3>(frame_axes<3>(step, outward));
   const ElementMatrix<6> e =
       turn.transpose() * Beam::template stiffness<6>(rib(), step.norm()) * turn;
   for (int n = 0; n < elements; ++n) k.block<12, 12>(6 * n, 6 * n) += e;

@@ -74,7 +74,7 @@ struct Wall {
     system.interface.set_initial(pressure);
     const Vec2 a = system.body(4).centre, b = system.body(5).centre;
     system.frames.push_back(
-        {4, 5, (b - a).norm(), element_axes<2>(b - a, Vec2::Zero()),
+        {4, 5, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
          EulerBernoulliBeam::stiffness<3>(LiningSection::rectangular(0.1, 25e9), (b - a).norm())});
     system.bolt_laws.push_back(bolt);
     bolt_between(0, 1, -0.5);

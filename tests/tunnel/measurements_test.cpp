@@ -31,7 +31,7 @@ struct RingAlone {
     for (int k = 0; k < count; ++k) {
       const Vec2 a = position(k), b = position(k + 1);
       bodies.frames.push_back({k, (k + 1) % count, (b - a).norm(),
-                               element_axes<2>(b - a, Vec2::Zero()),
+                               frame_axes<2>(b - a, Vec2::Zero()),
                                EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
     }
   }
@@ -139,7 +139,7 @@ TEST_SUITE("tunnel/measurements") {
     for (int k = 0; k < count; ++k) {
       const Vec2 a = system.body(k).centre, b = system.body((k + 1) % count).centre;
       system.frames.push_back({k, (k + 1) % count, (b - a).norm(),
-                               element_axes<2>(b - a, Vec2::Zero()),
+                               frame_axes<2>(b - a, Vec2::Zero()),
                                EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
       const Segment facet{vertex(k), vertex(k + 1)};
       const FacetPoint<2> point{Vec2::Zero(), facet.length()};

@@ -25,7 +25,7 @@ namespace detail {
 }
 
 /// The frame element in space: the plane one about both axes of the section, and torsion. Axes as
-/// in `element_axes`: bending_stiffness acts in the plane of x and y.
+/// in `frame_axes`: bending_stiffness acts in the plane of x and y.
 [[nodiscard]] inline ElementMatrix<6> space_frame(const LiningSection& section, double length,
                                                   bool shears) {
   const auto phi = [&](double bending) {

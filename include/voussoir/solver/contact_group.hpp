@@ -38,19 +38,22 @@ class ContactGroup {
   static constexpr int dof = Geometry::dof;
   using State = typename Law::template State<dim>;
 
-  /// One facet in which body a touches body b, at the reference position.
+  /// One facet in which body a touches body b, where the bodies were when contacts were found.
   struct Contact {
-    Vec<dim> normal;        ///< from a to b
-    Vec<dim> arm_a, arm_b;  ///< from the centres of the bodies to the centre of the facet [m]
+    Vec<dim> normal;             ///< from a to b
+    TangentBasis<dim> tangents;  ///< with the normal a right-handed frame
+    Vec<dim> arm_a, arm_b;       ///< from the centres of the bodies to the centre of the facet [m]
     int a, b;
     int first, last;  ///< points first, ..., last - 1
   };
   struct Point {
-    Vec<dim - 1> offset;  ///< from the centre of the facet, along the tangents [m]
-    double weight;        ///< [m] or [m^2]
+    Vec<dim> offset;  ///< from the centre of the facet, along normal and tangents [m]
+    double weight;    ///< [m] or [m^2]
     PointForce<dim>
         initial;  ///< in the in-situ state, or minus what the installation must not feel
-    [[no_unique_address]] State state;
+    /// Opening and slips at displacement zero: not zero once contacts have been found again [m].
+    Vec<dim> start = Vec<dim>::Zero();
+    [[no_unique_address]] State state{};
   };
 
   explicit ContactGroup(Law law) : law_(std::move(law)) {}
@@ -72,9 +75,19 @@ class ContactGroup {
     contact.b = b;
     contact.first = static_cast<int>(points_.size());
     contact.last = contact.first + static_cast<int>(at.size());
-    const TangentBasis<dim> tangents = tangent_basis(contact.normal);
-    for (const FacetPoint<dim>& point : at)
-      points_.push_back({tangents.transpose() * point.offset, point.weight, {}, State{}});
+    contact.tangents = tangent_basis(contact.normal);
+    for (const FacetPoint<dim>& point : at) {
+      Vec<dim> offset;
+      offset << 0, contact.tangents.transpose() * point.offset;
+      points_.push_back({offset, point.weight, {}});
+    }
+    contacts_.push_back(contact);
+  }
+  /// Adds a contact as it is; `first` and `last` are set.
+  void add(Contact contact, std::span<const Point> points) {
+    contact.first = static_cast<int>(points_.size());
+    points_.insert(points_.end(), points.begin(), points.end());
+    contact.last = static_cast<int>(points_.size());
     contacts_.push_back(contact);
   }
 
@@ -82,9 +95,8 @@ class ContactGroup {
   template <class StressAt>
   void set_initial(StressAt&& stress_at) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const TangentBasis<dim> tangents = tangent_basis(c.normal);
       const Vec<dim> force = stress_at(c, offset) * c.normal * p.weight;
-      p.initial = {c.normal.dot(force), tangents.transpose() * force};
+      p.initial = {c.normal.dot(force), c.tangents.transpose() * force};
     });
   }
 
@@ -92,7 +104,7 @@ class ContactGroup {
   /// for contacts that are installed on ground which has already moved.
   void start_from(const double* u) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const PointMotion<dim> motion = motion_at(c, offset, u);
+      const PointMotion<dim> motion = motion_at(c, p, offset, u);
       p.initial = {law_.joint_normal_stiffness() * p.weight * motion.opening,
                    law_.joint_shear_stiffness() * p.weight * motion.slip};
     });
@@ -114,7 +126,7 @@ class ContactGroup {
   int commit(const double* u) {
     int weakened = 0;
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const PointLoad<dim> load{p.weight, p.initial, motion_at(c, offset, u)};
+      const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
       const PointForce<dim> before = law_.force(load, p.state);
       law_.commit(load, p.state);
       const PointForce<dim> after = law_.force(load, p.state);
@@ -128,7 +140,7 @@ class ContactGroup {
   /// Lets joints creep for a time [s] at displacement `u`.
   void creep(const double* u, double time) requires CreepingLaw<Law, dim> {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      law_.creep({p.weight, p.initial, motion_at(c, offset, u)}, p.state, time);
+      law_.creep({p.weight, p.initial, motion_at(c, p, offset, u)}, p.state, time);
     });
   }
 
@@ -138,13 +150,12 @@ class ContactGroup {
     using Block = Eigen::Matrix<double, dof, dof>;
     using Row = Eigen::Matrix<double, dof, 1>;
     for (const Contact& c : contacts_) {
-      const TangentBasis<dim> tangents = tangent_basis(c.normal);
       Block aa = Block::Zero(), ab = Block::Zero(), bb = Block::Zero();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = tangents * p.offset;
+        const Vec<dim> offset = offset_of(c, p);
         for (int direction = 0; direction < dim; ++direction) {
-          const Vec<dim> unit = direction == 0 ? c.normal : Vec<dim>(tangents.col(direction - 1));
+          const Vec<dim> unit = direction == 0 ? c.normal : Vec<dim>(c.tangents.col(direction - 1));
           const double stiffness = p.weight * (direction == 0 ? law_.joint_normal_stiffness()
                                                               : law_.joint_shear_stiffness());
           Row a, b;
@@ -172,12 +183,12 @@ class ContactGroup {
     for (const int number : which) {
       const Contact& c = contacts_[static_cast<std::size_t>(number)];
       Stress<dim> axes;  // columns: normal, tangents
-      axes << c.normal, tangent_basis(c.normal);
+      axes << c.normal, c.tangents;
       Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = tangent_basis(c.normal) * p.offset;
-        const PointMotion<dim> motion = motion_at(c, offset, u);
+        const Vec<dim> offset = offset_of(c, p);
+        const PointMotion<dim> motion = motion_at(c, p, offset, u);
         Stress<dim> stiffness;
         for (int l = 0; l < dim; ++l) {
           PointLoad<dim> more{p.weight, p.initial, motion}, less = more;
@@ -210,10 +221,22 @@ class ContactGroup {
     for (const Contact& c : contacts_)
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = tangent_basis(c.normal) * p.offset;
-        const PointLoad<dim> load{p.weight, p.initial, motion_at(c, offset, u)};
+        const Vec<dim> offset = offset_of(c, p);
+        const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
         visit(c, p, load, law_.force(load, p.state));
       }
+  }
+
+  /// From the centre of the facet to a point, world axes [m].
+  [[nodiscard]] static Vec<dim> offset_of(const Contact& c, const Point& p) {
+    return p.offset[0] * c.normal + c.tangents * p.offset.template tail<dim - 1>();
+  }
+  /// Opening and slips of a point that displacement `u` makes, besides those at the start.
+  [[nodiscard]] static Vec<dim> linear_motion(const Contact& c, const Point& p, const double* u) {
+    const Vec<dim> jump = jump_at(c, offset_of(c, p), u);
+    Vec<dim> motion;
+    motion << c.normal.dot(jump), c.tangents.transpose() * jump;
+    return motion;
   }
 
   /// Forgets the contacts of bodies for which `gone(body)` holds.
@@ -236,7 +259,7 @@ class ContactGroup {
  private:
   template <class History>
   void add_force(const Contact& c, const double* u, double* f) {
-    const TangentBasis<dim> tangents = tangent_basis(c.normal);
+    const TangentBasis<dim>& tangents = c.tangents;
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
     const Vec<dim> jump = displacement_at<dim>(ub, c.arm_b) - displacement_at<dim>(ua, c.arm_a);
     const Spin<dim> turn =
@@ -245,10 +268,12 @@ class ContactGroup {
     Spin<dim> moment = Spin<dim>::Zero();
     for (int k = c.first; k < c.last; ++k) {
       Point& p = points_[static_cast<std::size_t>(k)];
-      const Vec<dim> offset = tangents * p.offset;
+      const Vec<dim> offset = offset_of(c, p);
       const Vec<dim> motion = jump + turned(turn, offset);
-      const PointLoad<dim> load{
-          p.weight, p.initial, {c.normal.dot(motion), tangents.transpose() * motion}};
+      const PointLoad<dim> load{p.weight,
+                                p.initial,
+                                {p.start[0] + c.normal.dot(motion),
+                                 p.start.template tail<dim - 1>() + tangents.transpose() * motion}};
       const PointForce<dim> at = law_.force(load, p.state);
       if constexpr (std::is_same_v<History, Committing>) law_.commit(load, p.state);
       const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
@@ -261,11 +286,16 @@ class ContactGroup {
     Eigen::Map<Spin<dim>>{f + dof* c.a + dim} -= moment + moment_of(c.arm_a, force);
   }
 
-  [[nodiscard]] static PointMotion<dim> motion_at(const Contact& c, const Vec<dim>& offset,
-                                                  const double* u) {
-    const Vec<dim> motion = displacement_at<dim>(u + dof * c.b, c.arm_b + offset) -
-                            displacement_at<dim>(u + dof * c.a, c.arm_a + offset);
-    return {c.normal.dot(motion), tangent_basis(c.normal).transpose() * motion};
+  /// Of body b against body a, world axes.
+  [[nodiscard]] static Vec<dim> jump_at(const Contact& c, const Vec<dim>& offset, const double* u) {
+    return displacement_at<dim>(u + dof * c.b, c.arm_b + offset) -
+           displacement_at<dim>(u + dof * c.a, c.arm_a + offset);
+  }
+  [[nodiscard]] static PointMotion<dim> motion_at(const Contact& c, const Point& p,
+                                                  const Vec<dim>& offset, const double* u) {
+    const Vec<dim> motion = jump_at(c, offset, u);
+    return {p.start[0] + c.normal.dot(motion),
+            p.start.template tail<dim - 1>() + c.tangents.transpose() * motion};
   }
 
   template <class Visit>
@@ -273,7 +303,7 @@ class ContactGroup {
     for (const Contact& c : contacts_)
       for (int k = c.first; k < c.last; ++k) {
         Point& p = points_[static_cast<std::size_t>(k)];
-        visit(c, p, Vec<dim>(tangent_basis(c.normal) * p.offset));
+        visit(c, p, offset_of(c, p));
       }
   }
 

@@ -33,9 +33,12 @@ enum class Verdict {
 struct Acceptance {
   double error_estimate = 1e-3;         ///< largest elastic correction / largest displacement [-]
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
-  /// A body that moved further has fallen [m]: as far as contacts and rotations of the reference
-  /// position are good for blocks of half a metre. Beyond it answers depend on the path taken.
+  /// A body that moved further has fallen [m]. Beyond some centimetres answers depend on the path.
   double displacement_limit = 0.02;
+  /// Contacts are found again when a block has moved so far since they were last found [m]: as far
+  /// as contacts and levers are good for blocks of half a metre. A block that has lost all contacts
+  /// within twice this has fallen.
+  double refind_limit = 0.02;
   double collapse_measure = 20;  ///< more fallen rock than this is a collapse [m^2], [m^3]
 };
 

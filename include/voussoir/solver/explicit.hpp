@@ -9,6 +9,7 @@
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
+#include <voussoir/solver/found_again.hpp>
 
 namespace voussoir {
 
@@ -89,7 +90,8 @@ class Explicit {
         break;
       }
       const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-      if (!fallen.empty()) {
+      const bool found = detail::find_when_due(system, accept);
+      if (found || !fallen.empty()) {
         detail::drop(system, fallen, context, report);
         for (int b = 0; b < system.body_count(); ++b)
           if (!system.body(b).movable) velocity.template segment<dof>(dof * b).setZero();
@@ -108,6 +110,7 @@ class Explicit {
       elastic_correction(system, d, report);
       report.error_estimate = system.relative_correction(d, u);
       if (report.error_estimate < accept.error_estimate) {
+        if (detail::find_when_due(system, accept, true)) continue;
         report.verdict = Verdict::stable;
         report.reason = "error estimate, unbalance and displacements are within their limits";
         break;

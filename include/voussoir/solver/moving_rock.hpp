@@ -8,36 +8,12 @@
 #include <voussoir/motion/dynamics.hpp>
 #include <voussoir/motion/moving_bolts.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/edge_slabs.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/bolt_crossings.hpp>
 #include <voussoir/solver/in_situ.hpp>
 
 namespace voussoir {
-
-namespace detail {
-
-/// Blocks that stand for the edge of the domain, outside it, on every side but the top.
-template <int Dim>
-[[nodiscard]] auto edge_slabs(const Domain<Dim>& domain) {
-  using Shape = decltype(as_block(domain));
-  const double thickness = 0.1 * domain.size().maxCoeff();
-  std::vector<Shape> slabs;
-  for (int axis = 0; axis < Dim; ++axis)
-    for (const bool upper : {false, true}) {
-      if (upper && axis == Dim - 1) continue;
-      Domain<Dim> slab = domain;
-      slab.low.array() -= thickness;
-      slab.high.array() += thickness;
-      if (upper)
-        slab.low[axis] = domain.high[axis];
-      else
-        slab.high[axis] = domain.low[axis];
-      slabs.push_back(as_block(slab));
-    }
-  return slabs;
-}
-
-}  // namespace detail
 
 /// A rock mass whose blocks can move by any amount, in its in-situ stress, nothing moved yet.
 ///
@@ -53,7 +29,7 @@ template <class Geometry, class JointLaw>
   settings.gravity = in_situ.gravity;
   Dynamics<dim, JointLaw> run(law, settings);
   for (const auto& body : mass.bodies) run.add_block(body.parts, in_situ.density);
-  for (const auto& slab : detail::edge_slabs(mass.domain)) run.add_wall(slab);
+  for (const auto& slab : edge_slabs(mass.domain)) run.add_wall(slab);
   if (in_situ.surcharge > 0)
     for (const auto& f : boundary_facets(mass))
       if (f.side == SideOf<dim>::top) {

@@ -10,6 +10,7 @@
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
+#include <voussoir/solver/found_again.hpp>
 
 namespace voussoir {
 
@@ -77,7 +78,8 @@ class Relaxation {
         throw NumericalFault("relaxation: forces are not finite at step " +
                              std::to_string(report.steps));
       const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-      if (!fallen.empty()) {
+      const bool found = detail::find_when_due(system, accept);
+      if (found || !fallen.empty()) {
         detail::drop(system, fallen, context, report);
         if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
@@ -85,6 +87,7 @@ class Relaxation {
       }
       report.unbalance_over_weight = system.unbalance_over_weight(f);
       if (report.unbalance_over_weight < accept.unbalance_over_weight) {
+        if (detail::find_when_due(system, accept, true)) continue;
         report.verdict = Verdict::stable;
         report.reason = "every block is in equilibrium within the unbalance limit";
         break;

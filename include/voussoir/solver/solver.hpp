@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/edge_slabs.hpp>
 #include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/bolt_crossings.hpp>
@@ -121,8 +123,8 @@ class Solver {
       spring.b = at.b;
       spring.bolt = bolt_count_;
       spring.position = at.position;
-      spring.joint_a = at.joint_a - system_.body(at.a).centre;
-      spring.joint_b = at.joint_b - system_.body(at.b).centre;
+      spring.joint_a = system_.arm(at.a, at.joint_a);
+      spring.joint_b = system_.arm(at.b, at.joint_b);
       spring.arm_a = spring.joint_a - at.before * axis;
       spring.arm_b = spring.joint_b + at.after * axis;
       spring.span = {at.initial, axis, Vec<dim>::Zero()};
@@ -180,7 +182,7 @@ class Solver {
       const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
       const double length = (b - a).norm();
       system_.frames.push_back({first_node_ + member.first, first_node_ + member.second, length,
-                                element_axes<dim>(b - a, member.outward),
+                                frame_axes<dim>(b - a, member.outward),
                                 Lining::template stiffness<dof>(section, length)});
     }
     typename SystemType::Interface interface(interface_law);
@@ -255,8 +257,12 @@ class Solver {
 
   /// Displacement of a point that moves with a body since the in-situ state [m].
   [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const {
-    return displacement_at<dim>(system_.displacement.data() + dof * body,
-                                Vec<dim>(point - system_.body(body).centre));
+    const Vec<dim> arm = point - system_.body(body).centre;
+    if (system_.has_found_again()) {
+      const Pose<dim> now = system_.pose(body);
+      return now(arm) - point;
+    }
+    return displacement_at<dim>(system_.displacement.data() + dof * body, arm);
   }
 
  private:
@@ -276,7 +282,7 @@ class Solver {
       system_.load[dof * b + dim - 1] = -weight;
       measures_.push_back(p.measure);
     }
-    const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
+    const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
     measures_.push_back(0.0);
     for (const auto& c : Parts::Detector::find(mass_)) {
       const auto points = c.facet.gauss_points();
@@ -295,6 +301,10 @@ class Solver {
         add_edge_shear(f.body, f.facet, points);
       }
     }
+    auto shapes = std::make_shared<typename SystemType::Shapes>();
+    for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
+    shapes->push_back(edge_slabs(mass_.domain));
+    system_.shapes = std::move(shapes);
     const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
       const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
       return in_situ_.stress<dim>(mass_.domain.depth(point));

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/solver/block_matrix.hpp>
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/support_elements.hpp>
@@ -21,12 +24,13 @@ namespace voussoir {
 /// A body of the mechanical system: a rock body, a lining node, or the fixed ground.
 template <int Dim>
 struct SystemBody {
-  Vec<Dim> centre;  ///< at the reference position [m]
+  Vec<Dim> centre;  ///< in the in-situ state [m]
   double weight;    ///< m g [N]
   double gyration;  ///< radius of gyration: turns a moment into a force for comparison [m]
   bool movable = true;
   bool is_block =
-      true;  ///< false: a lining node, which cannot fall and is not judged by its motion
+      true;  ///< false: a lining node or the edge of the domain, not judged by its motion
+  bool is_gone = false;  ///< taken out for good
 };
 
 /// Everything that moves and every force between: the mechanical state that the equilibrium
@@ -39,6 +43,7 @@ struct SystemBody {
 template <class Geometry, class JointLaw, class BoltLaw>
 class System {
  public:
+  using GeometryType = Geometry;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
   using Body = SystemBody<dim>;
@@ -46,6 +51,8 @@ class System {
   using Joints = ContactGroup<Geometry, JointLaw>;
   using Boundary = ContactGroup<Geometry, SmoothWall>;
   using Interface = ContactGroup<Geometry, CoulombJoint>;
+  using Shape = typename PlacedShapes<dim>::Shape;
+  using Shapes = std::vector<std::vector<Shape>>;
 
   System(JointLaw joint_law, double boundary_stiffness, CoulombJoint interface_law)
       : joints(std::move(joint_law)),
@@ -58,18 +65,76 @@ class System {
   std::vector<BoltLaw> bolt_laws;
   std::vector<BoltSpring<Geometry, BoltLaw>> bolts;
   std::vector<FrameElement<Geometry>> frames;
+  /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
+  /// contacts cannot be found again.
+  std::shared_ptr<const Shapes> shapes;
 
   int add_body(const Body& body) {
     bodies_.push_back(body);
     const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
     displacement.conservativeResizeLike(Eigen::VectorXd::Zero(size));
     load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    if (has_found_again()) {
+      found_at_.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+      turned_.push_back(Rotation<dim>::Identity());
+    }
     wall_load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
     return static_cast<int>(bodies_.size()) - 1;
   }
 
   [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
+
+  /// Where a body is: from axes of the in-situ state with their origin in its centre to the world.
+  [[nodiscard]] Pose<dim> pose(int b) const {
+    Pose<dim> at = pose_when_found(b);
+    if (!body(b).movable) return at;
+    const auto now = displacement.segment<dof>(dof * b);
+    at.position = body(b).centre + now.template head<dim>();
+    Spin<dim> turn = now.template tail<dof - dim>();
+    if (has_found_again()) turn -= found_at_.template segment<dof - dim>(dof * b + dim);
+    at.rotation = rotation_by(turn) * at.rotation;
+    return at;
+  }
+  /// The same when contacts were last found.
+  [[nodiscard]] Pose<dim> pose_when_found(int b) const {
+    Pose<dim> at;
+    at.position = body(b).centre;
+    if (static_cast<std::size_t>(b) < turned_.size()) {
+      at.position += found_at_.template segment<dim>(dof * b);
+      at.rotation = turned_[static_cast<std::size_t>(b)];
+    }
+    return at;
+  }
+  /// The lever of a point that was there in the in-situ state, when contacts were last found [m].
+  [[nodiscard]] Vec<dim> arm(int b, const Vec<dim>& point) const {
+    const Vec<dim> arm = point - body(b).centre;
+    return has_found_again() ? Vec<dim>(turned_[static_cast<std::size_t>(b)] * arm) : arm;
+  }
+  /// Whether contacts have been found again since the in-situ state.
+  [[nodiscard]] bool has_found_again() const { return found_at_.size() > 0; }
+  /// The displacement at which they were; empty if never.
+  [[nodiscard]] const Eigen::VectorXd& found_at() const { return found_at_; }
+  /// Takes note that contacts, bolts and frames are now those of the present displacement.
+  void set_found() {
+    std::vector<Rotation<dim>> turned;
+    for (int b = 0; b < body_count(); ++b) turned.push_back(pose(b).rotation);
+    turned_ = std::move(turned);
+    found_at_ = displacement;
+  }
+  /// How far the block that has moved most has done so since contacts were found; turning counts at
+  /// the radius of gyration [m].
+  [[nodiscard]] double moved_since_found() const {
+    double farthest = 0;
+    for (int b = 0; b < body_count(); ++b) {
+      if (!body(b).movable || !body(b).is_block) continue;
+      Eigen::Matrix<double, dof, 1> u = displacement.segment<dof>(dof * b);
+      if (has_found_again()) u -= found_at_.template segment<dof>(dof * b);
+      farthest = std::max(farthest, u.template head<dim>().norm() +
+                                        body(b).gyration * u.template tail<dof - dim>().norm());
+    }
+    return farthest;
+  }
 
   [[nodiscard]] std::vector<int> movable_bodies() const {
     std::vector<int> movable;
@@ -143,6 +208,7 @@ class System {
     for (const int b : gone) {
       is_gone[static_cast<std::size_t>(b)] = 1;
       bodies_[static_cast<std::size_t>(b)].movable = false;
+      bodies_[static_cast<std::size_t>(b)].is_gone = true;
       displacement.segment<dof>(dof * b).setZero();
     }
     const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
@@ -224,6 +290,8 @@ class System {
 
  private:
   std::vector<Body> bodies_;
+  Eigen::VectorXd found_at_;           ///< displacement at which contacts were found again
+  std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 
 }  // namespace voussoir

@@ -14,6 +14,7 @@
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
 #include <voussoir/solver/fire.hpp>
+#include <voussoir/solver/found_again.hpp>
 #include <voussoir/solver/relaxation.hpp>
 
 namespace voussoir {
@@ -118,12 +119,15 @@ class TwoLevel {
       std::vector<int> bodies = system.movable_bodies();
       std::vector<bool> broken;
       for (const auto& bolt : system.bolts) broken.push_back(bolt.broken);
-      if (factor_ && bodies == bodies_ && broken == broken_) return;
+      const Eigen::VectorXd& found_at = system.found_at();
+      const bool same_place = found_at.size() == found_at_.size() && found_at == found_at_;
+      if (factor_ && bodies == bodies_ && broken == broken_ && same_place) return;
       const auto stiffness = system.elastic_stiffness();
       factor_.emplace(stiffness);
       fire_.emplace(stiffness.absolute_row_sums(), fire);
       bodies_ = std::move(bodies);
       broken_ = std::move(broken);
+      found_at_ = found_at;
       ++report.factorisations;
     }
     /// d = K^-1 f, in place.
@@ -138,6 +142,7 @@ class TwoLevel {
     std::optional<Fire> fire_;
     std::vector<int> bodies_;   ///< that could move when it was made
     std::vector<bool> broken_;  ///< bolts then
+    Eigen::VectorXd found_at_;  ///< the displacement at which contacts had been found
   };
 
   template <class System>
@@ -221,17 +226,24 @@ class TwoLevel {
     u += d;
     double estimate = 1;
     Eigen::VectorXd reach =
-        Eigen::VectorXd::Constant(system.body_count(), 0.2 * accept.displacement_limit);
+        Eigen::VectorXd::Constant(system.body_count(), 0.2 * longest_move(accept));
+    // More often than a block can need on its way to the displacement limit is no progress.
+    int may_find = 4 + static_cast<int>(8 * accept.displacement_limit / accept.refind_limit);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
       settle_locally(system, elastic.fire(), accept, estimate, reach, f, report);
       // A maximum would not tell: it passes over what is not a number.
       if (!u.allFinite())
         throw NumericalFault("two-level search: displacements are not finite in search " +
                              std::to_string(burst));
-      if (system.largest_translation(u) > accept.displacement_limit) {
-        if (give_up_at_a_fall) return Outcome::open;
+      const bool falls = system.largest_translation(u) > accept.displacement_limit;
+      if (falls && give_up_at_a_fall) return Outcome::open;
+      if (falls)
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
+      const bool found = detail::find_when_due(system, accept);
+      if (found) detail::drop(system, {}, context, report);
+      if (found && --may_find < 0) return Outcome::open;
+      if (falls || found) {
         if (detail::has_collapsed<System::dim>(report, accept)) {
           report.largest_displacement = system.largest_translation(u);
           report.error_estimate = report.unbalance_over_weight =
@@ -250,7 +262,8 @@ class TwoLevel {
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
-        if (system.commit() > 0) {  // a bolt broke, a joint failed: look again without it
+        // A bolt broke, a joint failed, or contacts are elsewhere: look again.
+        if (system.commit() > 0 || detail::find_when_due(system, accept, true)) {
           elastic.prepare(system, params_.fire, report);
           continue;
         }
@@ -266,6 +279,11 @@ class TwoLevel {
       correct(system, u, d, f, trial, report);
     }
     return Outcome::open;
+  }
+
+  /// Nobody goes further than half of this at a time.
+  [[nodiscard]] static double longest_move(const Acceptance& accept) {
+    return std::min(accept.displacement_limit, accept.refind_limit);
   }
 
   /// Settles the bodies that are out of balance, all others held.
@@ -300,10 +318,8 @@ class TwoLevel {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
           Eigen::Matrix<double, dof, 1> move =
               part * step.template segment<dof>(dof * static_cast<Eigen::Index>(b));
-          // Nobody goes further than half the displacement limit at a time.
           const double length = move.template head<dim>().norm();
-          if (length > 0.5 * accept.displacement_limit)
-            move *= 0.5 * accept.displacement_limit / length;
+          if (length > 0.5 * longest_move(accept)) move *= 0.5 * longest_move(accept) / length;
           u.template segment<dof>(dof * bodies[b]) =
               before.template segment<dof>(dof * bodies[b]) + move;
         }
@@ -321,8 +337,10 @@ class TwoLevel {
       }
       now = next;
       if (part == 1.0)
-        for (const int b : bodies) reach[b] = std::min(4 * reach[b], accept.displacement_limit);
-      if (active.largest_translation(u) > accept.displacement_limit) break;
+        for (const int b : bodies) reach[b] = std::min(4 * reach[b], longest_move(accept));
+      if (active.largest_translation(u) > accept.displacement_limit ||
+          system.moved_since_found() > accept.refind_limit)
+        break;
     }
   }
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+#include <voussoir/rockmass/domain.hpp>
+
+namespace voussoir {
+
+/// Blocks that stand for the edge of the domain, outside it, on every side but the top.
+template <int Dim>
+[[nodiscard]] auto edge_slabs(const Domain<Dim>& domain) {
+  using Shape = decltype(as_block(domain));
+  const double thickness = 0.1 * domain.size().maxCoeff();
+  std::vector<Shape> slabs;
+  for (int axis = 0; axis < Dim; ++axis)
+    for (const bool upper : {false, true}) {
+      if (upper && axis == Dim - 1) continue;
+      Domain<Dim> slab = domain;
+      slab.low.array() -= thickness;
+      slab.high.array() += thickness;
+      if (upper)
+        slab.low[axis] = domain.high[axis];
+      else
+        slab.high[axis] = domain.low[axis];
+      slabs.push_back(as_block(slab));
+    }
+  return slabs;
+}
+
+}  // namespace voussoir
