@@ -8,6 +8,7 @@ template <class Geometry>
 struct ContactFacet {
   int a, b;                        ///< bodies; the facet's area vector points from a to b
   typename Geometry::Facet facet;  ///< in 2-D: body a on its left
+  int cut = -1;                    ///< label of the faces that touch
 };
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/motion/contact_points.hpp>
 #include <voussoir/motion/contact_renewal.hpp>
@@ -32,9 +33,9 @@ class ContactNetwork {
   static constexpr int dof = Dim + spin_count<Dim>;
 
   /// @param viscous_damping  ratio to critical of the dashpots [-]
-  ContactNetwork(const JointLaw& law, ContactPoints rule, double viscous_damping)
-      : joints_(law),
-        walls_(SmoothWall(law.joint_normal_stiffness())),
+  ContactNetwork(const LawsBySet<JointLaw>& laws, ContactPoints rule, double viscous_damping)
+      : joints_(laws.all()),
+        walls_({SmoothWall(laws.stiffest())}),
         rule_(rule),
         viscous_damping_(viscous_damping) {}
 
@@ -77,10 +78,13 @@ class ContactNetwork {
 
   /// Finds contacts again where bodies have moved.
   /// @param is_wall  for every body
+  /// @param law_of   law_of(shape, normal): index of the law of the face of a shape that looks
+  /// there
   /// @param refound  energy that springs gain by their new form is added to it [J]
   /// @return  true if anything has changed
+  template <class LawOf>
   bool find(Tracker& tracker, const Bodies& bodies, const std::vector<char>& is_wall,
-            double& refound) {
+            LawOf&& law_of, double& refound) {
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
     bool changed = false, relisted = first_end_.empty();
@@ -90,9 +94,10 @@ class ContactNetwork {
     tracker.update(
         bodies,
         [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
+          const auto of_first = [](std::size_t, const Vec<Dim>&) { return 0; };
           const bool in_place = of_wall(pair)
-                                    ? renew(walls_, tracker, pair, found, bodies, refound)
-                                    : renew(joints_, tracker, pair, found, bodies, refound);
+                                    ? renew(walls_, tracker, pair, found, bodies, of_first, refound)
+                                    : renew(joints_, tracker, pair, found, bodies, law_of, refound);
           relisted = relisted || !in_place;
           changed = true;
         },
@@ -164,9 +169,9 @@ class ContactNetwork {
 
   /// Gives a pair the contact that was found.
   /// @return  true if the contact has kept its place in the lists
-  template <class Group>
+  template <class Group, class LawOf>
   bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
-             const Contact<Dim>& found, const Bodies& bodies, double& refound) {
+             const Contact<Dim>& found, const Bodies& bodies, LawOf&& law_of, double& refound) {
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
     const std::size_t owner = of_a ? pair.a : pair.b;
     const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
@@ -176,10 +181,11 @@ class ContactNetwork {
     typename Group::Contact contact =
         detail::ContactRenewal<Dim, Group>(bodies, group)
             .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
+    contact.law = known ? old->law : law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
     if (viscous_damping_ > 0)
-      contact.viscosity =
-          viscosity(bodies[index(a)], bodies[index(b)],
-                    group.law().joint_normal_stiffness() * std::max(found.measure, 1e-12));
+      contact.viscosity = viscosity(
+          bodies[index(a)], bodies[index(b)],
+          group.law_of(contact).joint_normal_stiffness() * std::max(found.measure, 1e-12));
     const auto count = static_cast<std::int32_t>(points.size());
     const bool in_place = known && a == old->a && count == old->last - old->first;
     if (known) refound -= group.stored_energy(index(pair.contact), bodies);
@@ -289,8 +295,8 @@ class ContactNetwork {
         for (int row = 0; row < spin_count<Dim>; ++row)
           g[Dim + row] = moment[row] / std::sqrt(body.inertia[row]);
         sum += p.weight *
-               (axis == 0 ? group.law().joint_normal_stiffness()
-                          : group.law().joint_shear_stiffness()) *
+               (axis == 0 ? group.law_of(c).joint_normal_stiffness()
+                          : group.law_of(c).joint_shear_stiffness()) *
                g * g.transpose();
       }
     }

@@ -14,6 +14,7 @@
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/thread_team.hpp>
+#include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/geometry/mass_properties.hpp>
 #include <voussoir/motion/contact_network.hpp>
 #include <voussoir/motion/contact_tracker.hpp>
@@ -45,8 +46,14 @@ class Dynamics {
 
   /// @throws InvalidInput  a setting out of range
   explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
+      : Dynamics(LawsBySet<JointLaw>(law), {}, settings) {}
+  /// The same with joints of several laws.
+  /// @param law_of_cut  for every label of the blocks' faces the index of its law
+  Dynamics(const LawsBySet<JointLaw>& laws, std::vector<int> law_of_cut,
+           const DynamicsSettings& settings = {})
       : settings_(settings),
-        network_(law, settings.points, settings.viscous_damping),
+        law_of_cut_(std::move(law_of_cut)),
+        network_(laws, settings.points, settings.viscous_damping),
         team_(std::make_unique<ThreadTeam>(settings.threads)) {
     settings.check();
   }
@@ -352,7 +359,15 @@ class Dynamics {
   }
 
   void find_contacts() {
-    if (!network_.find(*tracker_, bodies_, is_wall_, audit_.refound)) return;
+    const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
+      if (law_of_cut_.empty()) return 0;
+      const auto& [part, b] = shapes_[shape];
+      const Rotation<Dim> turn =
+          home_[index(b)].rotation * bodies_[index(b)].pose.rotation.transpose();
+      const int cut = cut_facing(part, Vec<Dim>(turn * normal));
+      return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
+    };
+    if (!network_.find(*tracker_, bodies_, is_wall_, law_of, audit_.refound)) return;
     stable_step_ = 0;
     fresh_ = false;
   }
@@ -489,6 +504,7 @@ class Dynamics {
   }
 
   DynamicsSettings settings_;
+  std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
   std::unique_ptr<ThreadTeam> team_;
   Vec<Dim> origin_ = Vec<Dim>::Zero();

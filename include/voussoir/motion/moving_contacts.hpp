@@ -25,7 +25,7 @@ struct Dissipation {
   double viscosity = 0;  ///< dashpots, per time [W]
 };
 
-/// Contacts that follow one law, between bodies that move and turn by any amount.
+/// Contacts that follow laws of one kind, between bodies that move and turn by any amount.
 ///
 /// A contact point is fixed in body b, and touches the face of body a: its opening and slip are its
 /// coordinates in a frame that turns with that face, less what they were when the joint was closed.
@@ -47,12 +47,16 @@ class MovingContacts {
     Rotation<Dim> frame;       ///< columns: normal from a to b, tangents; in the frame of body a
     std::int32_t a, b;         ///< bodies; a owns the face
     std::int32_t first, last;  ///< points
+    std::int32_t law = 0;      ///< index into the laws of the group
     double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
   };
 
-  explicit MovingContacts(Law law) : law_(std::move(law)) {}
+  explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
-  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  [[nodiscard]] const Law& law_of(const Contact& c) const {
+    return laws_[static_cast<std::size_t>(c.law)];
+  }
   [[nodiscard]] std::vector<Contact>& contacts() { return contacts_; }
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
   [[nodiscard]] std::vector<Point>& points() { return points_; }
@@ -91,8 +95,8 @@ class MovingContacts {
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
       Point& p = points_[i];
       const PointLoad<Dim> load = load_of(p, at);
-      const PointForce<Dim> f = law_.force(load, p.state);
-      lost.friction += law_.commit(load, p.state);
+      const PointForce<Dim> f = law_of(c).force(load, p.state);
+      lost.friction += law_of(c).commit(load, p.state);
       Vec<Dim> components;
       components << f.normal, f.tangential;
       if (c.viscosity > 0 && f.normal > 0)
@@ -116,7 +120,7 @@ class MovingContacts {
                               bodies[static_cast<std::size_t>(c.b)].pose);
     double sum = 0;
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
-      sum += law_.stored_energy(load_of(points_[i], at), points_[i].state);
+      sum += law_of(c).stored_energy(load_of(points_[i], at), points_[i].state);
     return sum;
   }
 
@@ -142,21 +146,22 @@ class MovingContacts {
     const double dy = b.pose.position.y() - a.pose.position.y();
     const double base_n = nx * dx + ny * dy, base_t = nx * dy - ny * dx;  // tangent (-ny, nx)
     double force_n = 0, force_t = 0, moment = 0;
+    const Law& law = law_of(c);
     const Point* const end = points_.data() + c.last;
     for (Point* p = points_.data() + c.first; p != end; ++p) {
       const double px = p->place.x(), py = p->place.y();
       const double along_n = mx * px + my * py, along_t = mx * py - my * px;
       PointLoad<Dim> load{p->weight, p->initial, {base_n + along_n - p->zero[0], {}}};
       load.motion.slip[0] = base_t + along_t - p->zero[1];
-      const PointForce<Dim> f = law_.force(load, p->state);
-      lost.friction += law_.commit(load, p->state);
+      const PointForce<Dim> f = law.force(load, p->state);
+      lost.friction += law.commit(load, p->state);
       double normal = f.normal;
       if (c.viscosity > 0 && normal > 0) {
         const double rate = nx * (b.velocity.x() - a.velocity.x()) +
                             ny * (b.velocity.y() - a.velocity.y()) - b.spin()[0] * along_t +
                             a.spin()[0] * (base_t + along_t);
         const double viscous =
-            std::max(-c.viscosity * p->weight * law_.joint_normal_stiffness() * rate, -normal);
+            std::max(-c.viscosity * p->weight * law.joint_normal_stiffness() * rate, -normal);
         lost.viscosity -= viscous * rate;
         normal += viscous;
       }
@@ -183,12 +188,12 @@ class MovingContacts {
     const double rate = frame.col(0).dot(b.velocity_at(p.place) -
                                          a.velocity_at(a.pose.rotation.transpose() * place));
     const double viscous =
-        std::max(-c.viscosity * p.weight * law_.joint_normal_stiffness() * rate, -normal);
+        std::max(-c.viscosity * p.weight * law_of(c).joint_normal_stiffness() * rate, -normal);
     lost.viscosity -= viscous * rate;
     return viscous;
   }
 
-  Law law_;
+  std::vector<Law> laws_;
   std::vector<Contact> contacts_;
   std::vector<Point> points_;
 };

@@ -28,8 +28,10 @@ struct CutContacts {
     for (std::size_t i = 0; i < faces.size();) {
       std::size_t end = i;
       while (end < faces.size() && faces[end].cut == faces[i].cut) ++end;
+      const std::size_t before = contacts.size();
       if (mass.cuts[static_cast<std::size_t>(faces[i].cut)].kind != Cut::Kind::boundary)
         detail::match_cut(mass, &faces[i], faces.data() + end, mass.domain.tolerance(), contacts);
+      for (std::size_t k = before; k < contacts.size(); ++k) contacts[k].cut = faces[i].cut;
       i = end;
     }
     return contacts;

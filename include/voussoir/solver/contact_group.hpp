@@ -30,7 +30,7 @@ void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
 struct Frozen {};      ///< read it: the force depends on the displacement alone
 struct Committing {};  ///< and bring it up to date at every evaluation
 
-/// All contacts that follow one law, with their points and history.
+/// All contacts that follow laws of one kind, with their points and history.
 template <class Geometry, class Law>
 class ContactGroup {
  public:
@@ -45,6 +45,7 @@ class ContactGroup {
     Vec<dim> arm_a, arm_b;       ///< from the centres of the bodies to the centre of the facet [m]
     int a, b;
     int first, last;  ///< points first, ..., last - 1
+    int law = 0;      ///< index into the laws of the group
   };
   struct Point {
     Vec<dim> offset;  ///< from the centre of the facet, along normal and tangents [m]
@@ -56,18 +57,23 @@ class ContactGroup {
     [[no_unique_address]] State state{};
   };
 
-  explicit ContactGroup(Law law) : law_(std::move(law)) {}
+  explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
-  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  [[nodiscard]] const Law& law_of(const Contact& c) const {
+    return laws_[static_cast<std::size_t>(c.law)];
+  }
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 
   /// @param facet     its area vector points from a to b
   /// @param centre_a, centre_b  of the bodies [m]
   /// @param at        integration points of the facet
+  /// @param law       index into the laws of the group
   void add(int a, int b, const typename Geometry::Facet& facet, const Vec<dim>& centre_a,
-           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at) {
+           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at, int law = 0) {
     Contact contact;
+    contact.law = law;
     contact.normal = facet.area_vector().normalized();
     contact.arm_a = facet.centre_from(centre_a);
     contact.arm_b = facet.centre_from(centre_b);
@@ -105,8 +111,8 @@ class ContactGroup {
   void start_from(const double* u) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
       const PointMotion<dim> motion = motion_at(c, p, offset, u);
-      p.initial = {law_.joint_normal_stiffness() * p.weight * motion.opening,
-                   law_.joint_shear_stiffness() * p.weight * motion.slip};
+      p.initial = {law_of(c).joint_normal_stiffness() * p.weight * motion.opening,
+                   law_of(c).joint_shear_stiffness() * p.weight * motion.slip};
     });
   }
 
@@ -127,9 +133,9 @@ class ContactGroup {
     int weakened = 0;
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
       const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
-      const PointForce<dim> before = law_.force(load, p.state);
-      law_.commit(load, p.state);
-      const PointForce<dim> after = law_.force(load, p.state);
+      const PointForce<dim> before = law_of(c).force(load, p.state);
+      law_of(c).commit(load, p.state);
+      const PointForce<dim> after = law_of(c).force(load, p.state);
       const double change =
           std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
       if (change > 1e-9 * (std::abs(before.normal) + before.tangential.norm())) ++weakened;
@@ -140,7 +146,7 @@ class ContactGroup {
   /// Lets joints creep for a time [s] at displacement `u`.
   void creep(const double* u, double time) requires CreepingLaw<Law, dim> {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      law_.creep({p.weight, p.initial, motion_at(c, p, offset, u)}, p.state, time);
+      law_of(c).creep({p.weight, p.initial, motion_at(c, p, offset, u)}, p.state, time);
     });
   }
 
@@ -156,8 +162,8 @@ class ContactGroup {
         const Vec<dim> offset = offset_of(c, p);
         for (int direction = 0; direction < dim; ++direction) {
           const Vec<dim> unit = direction == 0 ? c.normal : Vec<dim>(c.tangents.col(direction - 1));
-          const double stiffness = p.weight * (direction == 0 ? law_.joint_normal_stiffness()
-                                                              : law_.joint_shear_stiffness());
+          const double stiffness = p.weight * (direction == 0 ? law_of(c).joint_normal_stiffness()
+                                                              : law_of(c).joint_shear_stiffness());
           Row a, b;
           a << unit, moment_of(Vec<dim>(c.arm_a + offset), unit);
           b << unit, moment_of(Vec<dim>(c.arm_b + offset), unit);
@@ -194,7 +200,8 @@ class ContactGroup {
           PointLoad<dim> more{p.weight, p.initial, motion}, less = more;
           (l == 0 ? more.motion.opening : more.motion.slip[l - 1]) += step;
           (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
-          const PointForce<dim> up = law_.force(more, p.state), down = law_.force(less, p.state);
+          const PointForce<dim> up = law_of(c).force(more, p.state),
+                                down = law_of(c).force(less, p.state);
           stiffness(0, l) = (down.normal - up.normal) / (2 * step);
           stiffness.template block<dim - 1, 1>(1, l) =
               (down.tangential - up.tangential) / (2 * step);
@@ -223,7 +230,7 @@ class ContactGroup {
         const Point& p = points_[static_cast<std::size_t>(k)];
         const Vec<dim> offset = offset_of(c, p);
         const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
-        visit(c, p, load, law_.force(load, p.state));
+        visit(c, p, load, law_of(c).force(load, p.state));
       }
   }
 
@@ -274,8 +281,8 @@ class ContactGroup {
                                 p.initial,
                                 {p.start[0] + c.normal.dot(motion),
                                  p.start.template tail<dim - 1>() + tangents.transpose() * motion}};
-      const PointForce<dim> at = law_.force(load, p.state);
-      if constexpr (std::is_same_v<History, Committing>) law_.commit(load, p.state);
+      const PointForce<dim> at = law_of(c).force(load, p.state);
+      if constexpr (std::is_same_v<History, Committing>) law_of(c).commit(load, p.state);
       const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
       force += on_b;
       moment += moment_of(offset, on_b);
@@ -307,7 +314,7 @@ class ContactGroup {
       }
   }
 
-  Law law_;
+  std::vector<Law> laws_;
   std::vector<Contact> contacts_;
   std::vector<Point> points_;
 };

@@ -36,8 +36,9 @@ struct Acceptance {
   /// A body that moved further has fallen [m]. Beyond some centimetres answers depend on the path.
   double displacement_limit = 0.02;
   /// Contacts are found again when a block has moved so far since they were last found [m]: as far
-  /// as contacts and levers are good for blocks of half a metre. A block that has lost all contacts
-  /// within twice this has fallen.
+  /// as contacts and levers are good for blocks of half a metre; a quarter of it is better where
+  /// blocks turn. Without effect unless below the displacement limit. A block that has lost all
+  /// contacts within twice this has fallen.
   double refind_limit = 0.02;
   double collapse_measure = 20;  ///< more fallen rock than this is a collapse [m^2], [m^3]
 };

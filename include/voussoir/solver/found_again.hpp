@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/pose.hpp>
+#include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/motion/contact_renewal.hpp>
 #include <voussoir/motion/contact_tracker.hpp>
 #include <voussoir/motion/moving_body.hpp>
@@ -49,12 +50,13 @@ class FoundAgain {
           bodies_[index(b)].radius =
               std::max(bodies_[index(b)].radius, (v - system_.body(b).centre).norm());
         tracker.add(part, system_.body(b).centre, b, Rotation<dim>::Identity());
+        parts_.push_back(&part);
       }
     }
     using Pair = typename ContactTracker<dim>::Pair;
-    typename System::Joints new_joints(system_.joints.law());
-    typename System::Boundary new_boundary(system_.boundary.law());
-    typename System::Interface new_interface(system_.interface.law());
+    typename System::Joints new_joints(system_.joints.laws());
+    typename System::Boundary new_boundary(system_.boundary.laws());
+    typename System::Interface new_interface(system_.interface.laws());
     const ByBodies of_joints(joints, bodies_), of_boundary(boundary, bodies_);
     system_.set_found();
     tracker.update(
@@ -92,7 +94,7 @@ class FoundAgain {
   template <class Law>
   [[nodiscard]] MovingContacts<dim, Law> as_moving(
       const ContactGroup<typename System::GeometryType, Law>& group) const {
-    MovingContacts<dim, Law> moving(group.law());
+    MovingContacts<dim, Law> moving(group.laws());
     const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
     for (const auto& c : group.contacts()) {
       const Pose<dim>&a = then_[index(c.a)], &b = then_[index(c.b)];
@@ -104,6 +106,7 @@ class FoundAgain {
       contact.b = c.b;
       contact.first = c.first;
       contact.last = c.last;
+      contact.law = c.law;
       const auto at = MovingContacts<dim, Law>::place_of(contact, a, b);
       for (int k = c.first; k < c.last; ++k) {
         const auto& p = group.points()[index(k)];
@@ -183,10 +186,23 @@ class FoundAgain {
     const Rotation<dim> turn = now(a).rotation.transpose() * now(b).rotation;
     const bool gapes = (turn - Rotation<dim>::Identity()).norm() > gaping;
     const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
-    const auto contact = ContactRenewal<dim, Group>(bodies_, group)
-                             .run(found, tracker.shapes()[owner], a, b, rule,
-                                  by_bodies.nearest(a, b, found.normal, middle), points);
+    const typename Group::Contact* const old = by_bodies.nearest(a, b, found.normal, middle);
+    auto contact = ContactRenewal<dim, Group>(bodies_, group)
+                       .run(found, tracker.shapes()[owner], a, b, rule, old, points);
+    contact.law = old != nullptr ? old->law : law_of(group, owner, a, of_a, found);
     if (!points.empty()) add(group, contact, points, to);
+  }
+
+  /// Of a contact that is new: the law of the face that is touched.
+  template <class Group>
+  [[nodiscard]] int law_of(const Group& group, std::size_t owner, int a, bool of_a,
+                           const Contact<dim>& found) const {
+    if (group.laws().size() < 2 || system_.law_of_cut == nullptr) return 0;
+    const Vec<dim> normal =
+        now(a).rotation.transpose() * (of_a ? found.normal : Vec<dim>(-found.normal));
+    const int cut = cut_facing(*parts_[owner], normal);
+    return cut >= 0 && index(cut) < system_.law_of_cut->size() ? (*system_.law_of_cut)[index(cut)]
+                                                               : 0;
   }
 
   template <class Group>
@@ -206,6 +222,7 @@ class FoundAgain {
     contact.tangents = frame.template rightCols<dim - 1>();
     contact.a = c.a;
     contact.b = c.b;
+    contact.law = c.law;
     Vec<dim> middle = Vec<dim>::Zero();
     double whole = 0;
     for (const auto& p : points) {
@@ -258,8 +275,9 @@ class FoundAgain {
 
   System& system_;
   Vec<dim> origin_;
-  std::vector<MovingBody<dim>> bodies_;  ///< where they are
-  std::vector<Pose<dim>> then_;          ///< when contacts were found
+  std::vector<MovingBody<dim>> bodies_;               ///< where they are
+  std::vector<Pose<dim>> then_;                       ///< when contacts were found
+  std::vector<const typename System::Shape*> parts_;  ///< in the order of the tracker's shapes
 };
 
 }  // namespace detail
@@ -282,7 +300,15 @@ void find_contacts_again(System& system, double reach) {
 
 namespace detail {
 
-/// Finds contacts again if blocks have moved so far that it is due.
+/// Whether blocks have moved so far that contacts are to be found again. Where the limit on that is
+/// no shorter than the one beyond which a block has fallen, they never are.
+template <class System>
+[[nodiscard]] bool is_due(const System& system, const Acceptance& acceptance, double share = 1) {
+  return system.shapes != nullptr && acceptance.refind_limit < acceptance.displacement_limit &&
+         system.moved_since_found() > share * acceptance.refind_limit;
+}
+
+/// Finds contacts again if it is due.
 ///
 /// Where contacts have been found again before, an equilibrium is looked at from near by: rotations
 /// are finite there, and linear ones are off by half their square.
@@ -290,10 +316,8 @@ namespace detail {
 /// @return  true if it has
 template <class System>
 bool find_when_due(System& system, const Acceptance& acceptance, bool at_rest = false) {
-  if (system.shapes == nullptr) return false;
   const bool near_by = at_rest && system.has_found_again();
-  const double limit = (near_by ? 0.05 : 1.0) * acceptance.refind_limit;
-  if (!(system.moved_since_found() > limit)) return false;
+  if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
   find_contacts_again(system, 2 * acceptance.refind_limit);
   return true;
 }

@@ -21,13 +21,14 @@ namespace voussoir {
 /// (`Dynamics::hold`); `set_held(0)` takes it off at once. Block b of the mass is body b.
 template <class Geometry, class JointLaw>
 [[nodiscard]] Dynamics<Geometry::dim, JointLaw> moving_rock(const RockMass<Geometry>& mass,
-                                                            const JointLaw& law,
+                                                            const LawsBySet<JointLaw>& laws,
                                                             const InSitu& in_situ,
                                                             DynamicsSettings settings = {}) {
   constexpr int dim = Geometry::dim;
   in_situ.check();
   settings.gravity = in_situ.gravity;
-  Dynamics<dim, JointLaw> run(law, settings);
+  Dynamics<dim, JointLaw> run(laws, laws.all().size() > 1 ? laws.of_cuts(mass) : std::vector<int>{},
+                              settings);
   for (const auto& body : mass.bodies) run.add_block(body.parts, in_situ.density);
   for (const auto& slab : edge_slabs(mass.domain)) run.add_wall(slab);
   if (in_situ.surcharge > 0)
@@ -41,6 +42,14 @@ template <class Geometry, class JointLaw>
       10 * mass.domain.tolerance());
   run.hold();
   return run;
+}
+
+template <class Geometry, class JointLaw>
+[[nodiscard]] Dynamics<Geometry::dim, JointLaw> moving_rock(const RockMass<Geometry>& mass,
+                                                            const JointLaw& law,
+                                                            const InSitu& in_situ,
+                                                            DynamicsSettings settings = {}) {
+  return moving_rock(mass, LawsBySet<JointLaw>(law), in_situ, settings);
 }
 
 /// Installs bolts in rock that lies as it was sliced, free of force but for their pretension:

@@ -69,10 +69,14 @@ class Solver {
   /// Puts the rock in its in-situ state.
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
   Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ)
+      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ) {}
+  /// The same with a law for every joint set.
+  /// @throws InvalidInput  also: a joint of a set without a law
+  Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ)
       : mass_(std::move(mass)),
-        joint_law_(std::move(joint_law)),
+        joint_laws_(std::move(joint_laws)),
         in_situ_(in_situ),
-        system_(joint_law_, joint_law_.joint_normal_stiffness(), free_interface()) {
+        system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
     in_situ_.check();
     if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
     build();
@@ -88,7 +92,7 @@ class Solver {
   void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074) {
     if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
     mass_ = carve(std::move(mass_), opening, smallest_piece);
-    system_ = SystemType(joint_law_, joint_law_.joint_normal_stiffness(), free_interface());
+    system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
     build();
     Eigen::VectorXd f;
     system_.forces(system_.displacement, f);
@@ -185,7 +189,7 @@ class Solver {
                                 frame_axes<dim>(b - a, member.outward),
                                 Lining::template stiffness<dof>(section, length)});
     }
-    typename SystemType::Interface interface(interface_law);
+    typename SystemType::Interface interface({interface_law});
     for (const LiningContact<Geometry>& c : frame.contacts) {
       if (!system_.body(c.body).movable) continue;  // that block has fallen
       const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
@@ -221,7 +225,8 @@ class Solver {
     EquilibriumReport report;
   };
   /// Lets joints creep, equilibrium found again after every step: convergence against time.
-  /// A step is a fifth of the law's creep time: longer ones overshoot where blocks cannot follow.
+  /// A step is a fifth of the shortest creep time: longer ones overshoot where blocks cannot
+  /// follow.
   /// @param duration  [s], > 0
   /// @param seen      called after every equilibrium; returns false to stop
   /// @return  the states; the last is at `duration` unless one was not stable, which ends it
@@ -232,7 +237,9 @@ class Solver {
       CreepingLaw<JointLaw, dim> {
     require(duration > 0 && std::isfinite(duration), "duration of creep", duration, "> 0 s");
     std::vector<CreepState> states;
-    const double longest = 0.2 * joint_law_.creep_time();
+    double longest = duration;
+    for (const JointLaw& law : joint_laws_.all())
+      longest = std::min(longest, 0.2 * law.creep_time());
     for (double time = 0; time < duration;) {
       const double step = std::min(longest, duration - time);
       system_.joints.creep(system_.displacement.data(), step);
@@ -284,10 +291,12 @@ class Solver {
     }
     const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
     measures_.push_back(0.0);
+    const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
     for (const auto& c : Parts::Detector::find(mass_)) {
       const auto points = c.facet.gauss_points();
+      const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
       system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
-                         points);
+                         points, law);
     }
     for (const auto& f : boundary_facets(mass_)) {
       const auto points = f.facet.gauss_points();
@@ -305,6 +314,7 @@ class Solver {
     for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
     shapes->push_back(edge_slabs(mass_.domain));
     system_.shapes = std::move(shapes);
+    system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
     const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
       const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
       return in_situ_.stress<dim>(mass_.domain.depth(point));
@@ -339,7 +349,7 @@ class Solver {
   }
 
   RockMass<Geometry> mass_;
-  JointLaw joint_law_;
+  LawsBySet<JointLaw> joint_laws_;
   InSitu in_situ_;
   SystemType system_;
   std::vector<double> measures_;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -54,10 +55,11 @@ class System {
   using Shape = typename PlacedShapes<dim>::Shape;
   using Shapes = std::vector<std::vector<Shape>>;
 
-  System(JointLaw joint_law, double boundary_stiffness, CoulombJoint interface_law)
-      : joints(std::move(joint_law)),
-        boundary(SmoothWall(boundary_stiffness)),
-        interface(std::move(interface_law)) {}
+  System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness,
+         CoulombJoint interface_law)
+      : joints(joint_laws.all()),
+        boundary({SmoothWall(boundary_stiffness)}),
+        interface({std::move(interface_law)}) {}
 
   Joints joints;        ///< rock on rock
   Boundary boundary;    ///< rock on the fixed edge of the domain
@@ -68,6 +70,8 @@ class System {
   /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
   /// contacts cannot be found again.
   std::shared_ptr<const Shapes> shapes;
+  /// For every label of their faces the index of the joint law; null: the first for all.
+  std::shared_ptr<const std::vector<int>> law_of_cut;
 
   int add_body(const Body& body) {
     bodies_.push_back(body);

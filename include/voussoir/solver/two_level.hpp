@@ -339,7 +339,7 @@ class TwoLevel {
       if (part == 1.0)
         for (const int b : bodies) reach[b] = std::min(4 * reach[b], longest_move(accept));
       if (active.largest_translation(u) > accept.displacement_limit ||
-          system.moved_since_found() > accept.refind_limit)
+          detail::is_due(system, accept))
         break;
     }
   }

@@ -6,6 +6,7 @@
 #include <vector>
 #include <voussoir/detection/contact_search.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
+#include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 
@@ -25,10 +26,12 @@ template <class Detector, class Mass>
   constexpr int dim = Geometry::dim;
   PlacedShapes<dim> shapes;
   std::vector<int> body_of;
+  std::vector<const typename Geometry::Shape*> parts;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const auto& part : mass.bodies[b].parts) {
       shapes.add(part, mass.bodies[b].properties.centroid);
       body_of.push_back(static_cast<int>(b));
+      parts.push_back(&part);
     }
   // Welded vertices of one place differ by nothing, planes through them by roundings.
   const double tolerance = mass.domain.tolerance(), reach = 10 * tolerance;
@@ -48,12 +51,13 @@ template <class Detector, class Mass>
     }
     // Inclined faces that share an edge are within reach along a strip beside it.
     if (high - low > 0.2 * reach) continue;
+    const int cut = cut_facing(*parts[found[k].a], found[k].normal);
     if constexpr (dim == 2) {
       if (found[k].measure <= tolerance) continue;
-      facets.push_back({a, b, {polygon[0], polygon[1]}});
+      facets.push_back({a, b, {polygon[0], polygon[1]}, cut});
     } else {
       if (2 * found[k].measure <= tolerance * (outline + tolerance)) continue;
-      facets.push_back({a, b, {{polygon.begin(), polygon.end()}}});
+      facets.push_back({a, b, {{polygon.begin(), polygon.end()}}, cut});
     }
   }
   return facets;
