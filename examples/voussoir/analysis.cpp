@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -33,6 +34,22 @@ Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
   return acceptance;
 }
 
+/// The law of the joints, and of those sets that differ.
+LawsBySet<CoulombJoint> laws_of(const Input& input) {
+  const JointInput& common = input.joint;
+  LawsBySet<CoulombJoint> laws(
+      CoulombJoint({common.normal_stiffness, common.shear_stiffness, common.friction_angle}));
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
+    const JointSetInput& set = input.joint_sets[k];
+    if (!set.normal_stiffness && !set.shear_stiffness && !set.friction_angle) continue;
+    laws.add(static_cast<int>(k),
+             CoulombJoint({set.normal_stiffness.value_or(common.normal_stiffness),
+                           set.shear_stiffness.value_or(common.shear_stiffness),
+                           set.friction_angle.value_or(common.friction_angle)}));
+  }
+  return laws;
+}
+
 /// The rock of an input, excavated but not yet moved.
 struct Excavated {
   Tunnel tunnel;
@@ -42,10 +59,7 @@ struct Excavated {
 
 Excavated excavate(const Input& input) {
   const SimplePolygon opening = opening_of(input);
-  const CoulombJoint joint({.joint_normal_stiffness = input.joint.normal_stiffness,
-                            .joint_shear_stiffness = input.joint.shear_stiffness,
-                            .friction_angle = input.joint.friction_angle});
-  Tunnel tunnel(rock_of(input), joint,
+  Tunnel tunnel(rock_of(input), laws_of(input),
                 {.density = input.rock.density,
                  .k0 = input.stress.K0,
                  .surcharge = input.stress.surcharge,
@@ -153,14 +167,14 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(input.blocks.min_wall_area) + " m2 were dropped, " +
          number(mass.carving.dropped_measure) + " m2 in all");
   const double needed = run.tunnel.in_situ().required_friction_angle();
-  if (needed > input.joint.friction_angle)
+  double friction = input.joint.friction_angle;
+  for (const JointSetInput& set : input.joint_sets)
+    friction = std::min(friction, set.friction_angle.value_or(friction));
+  if (needed > friction)
     warn("in situ: with K0 = " + number(input.stress.K0) + " some joint orientations need " +
          number(needed * 180 / std::numbers::pi) +
          " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
-  if (run.last().largest_displacement > Acceptance{}.displacement_limit)
-    warn("blocks moved up to " + number(1e3 * run.last().largest_displacement) +
-         " mm; contacts are those of the initial position, which is good to about 20 mm");
   std::vector<int> holds(run.bars.size(), 0);
   for (const CrossingForce& c : bolt_forces(run.tunnel)) ++holds[static_cast<std::size_t>(c.bolt)];
   int idle = 0, lost = 0, broken = 0, yielded = 0;

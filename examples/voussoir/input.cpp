@@ -144,6 +144,9 @@ void read_joint_set(Section& s, JointSetInput& set) {
              {.low = 0, .high = 1e4, .low_included = false});
   s.quantity("spacing", set.spacing, dimension::length, above(0));
   s.quantity("extent", set.extent, dimension::length, above(0), Need::optional, Infinity::allowed);
+  s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, above(0));
+  s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, above(0));
+  s.quantity("friction", set.friction_angle, dimension::angle, angle_below_90());
   if (both) {
     s.complain("spacing", "is given besides intensity", "one of intensity and spacing");
   } else if (!s.has("intensity") && !s.has("spacing")) {

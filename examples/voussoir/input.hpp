@@ -73,9 +73,11 @@ struct JointSetInput {
   std::optional<double> intensity;  ///< joint centres per area [1/m^2], > 0, <= 1e4
   std::optional<double> spacing;    ///< mean, across the joints [m], > 0
   double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
+  /// Mechanics, where they differ from those of [joint]; ranges as there.
+  std::optional<double> normal_stiffness, shear_stiffness, friction_angle;
 };
 
-/// [joint] The mechanics of all joints.
+/// [joint] The mechanics of all joints whose set does not say otherwise.
 struct JointInput {
   double normal_stiffness = 0;  ///< kn [Pa/m], > 0
   double shear_stiffness = 0;   ///< ks [Pa/m], > 0

@@ -332,6 +332,18 @@ TEST_SUITE("program/run") {
     CHECK(crown(once) == crown(twice));
   }
 
+  TEST_CASE("a joint set can have mechanics of its own") {
+    const auto with = [](const char* lines) {
+      InputText given;
+      given.joints += lines;
+      return results_of(given.text());
+    };
+    const Results plain = with(""), same = with("friction = \"35 deg\"\n"),
+                  soft = with("kn = \"1 GPa/m\"\nks = \"0.1 GPa/m\"\n");
+    CHECK(plain.files.at("lining.csv") == same.files.at("lining.csv"));
+    CHECK(std::abs(crown(soft)) > 1.2 * std::abs(crown(plain)));
+  }
+
   TEST_CASE("mapped joints are moved by the site coordinates of the tunnel") {
     InputText mapped;
     mapped.joints = "[joints]\nfile = \"traces.csv\"\n";

@@ -70,8 +70,7 @@ class Solver {
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
   Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ)
       : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ) {}
-  /// The same with a law for every joint set.
-  /// @throws InvalidInput  also: a joint of a set without a law
+  /// The same with laws of their own for some joint sets.
   Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ)
       : mass_(std::move(mass)),
         joint_laws_(std::move(joint_laws)),
