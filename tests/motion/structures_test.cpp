@@ -77,9 +77,52 @@ bool arch_stands(int voussoirs, double thickness) {
   return comes_to_rest(run, 0.05, 1e-5);
 }
 
+struct Wedge {
+  const char* row;
+  double semi_apical, friction;  ///< [deg]
+  double normal, shear, thrust;  ///< k_n A, k_s A [N/m], H0 [N]
+};
+
+/// How far a wedge with faces of 1 m between two abutments has dropped when it is at rest under
+/// this part of its slip load [m]; negative if it falls. Closed form f.4.
+double wedge_drop(const Wedge& c, double part) {
+  const double a = c.semi_apical * degree, load = part * reference(std::string(c.row) + ".P");
+  const Vec2 apex(0, std::cos(a)), toe(std::sin(a), 0), left(-toe.x(), 0);
+  const ConvexPolygon rock({left, toe, apex}, {0, 1, 2});
+  // Weight alone cannot be raised: the load acts in the centre of mass, and gravity not at all.
+  Run run(CoulombJoint({c.normal, c.shear, c.friction * degree}),
+          {.gravity = 0, .local_damping = 0.7, .speed_limit = 100});
+  run.add_fixed_block(ConvexPolygon({left, apex, Vec2(-2, apex.y()), Vec2(-2, 0)}, {0, 1, 2, 3}));
+  run.add_fixed_block(ConvexPolygon({toe, Vec2(2, 0), Vec2(2, apex.y()), apex}, {0, 1, 2, 3}));
+  const int wedge = run.add_block(rock, 2700);
+  Stress<2> horizontal = Stress<2>::Zero();
+  horizontal(0, 0) = c.thrust / std::cos(a);
+  run.prescribe([&](const Vec2&) { return horizontal; }, 1e-9);
+  const double start = run.position(wedge).y();
+  // In small steps: a load at once would overshoot, and slip on the way.
+  for (int k = 0; k < 200; ++k) {
+    run.add_load(wedge, {0, -load / 200});
+    run.advance_steps(50);
+  }
+  return comes_to_rest(run, 0.02, 1e-7) ? start - run.position(wedge).y() : -1;
+}
+
 }  // namespace
 
 TEST_SUITE("motion/structures") {
+  TEST_CASE(
+      "a roof wedge under horizontal stress drops on its springs, and falls beyond its load") {
+    for (const Wedge& c : {Wedge{"F.wedge.20.35.0.1", 20, 35, 5e9, 5e8, 1e6},
+                           Wedge{"F.wedge.30.40.0.1", 30, 40, 1e10, 1e9, 5e5},
+                           Wedge{"F.wedge.20.35.1", 20, 35, 5e9, 5e9, 1e6}}) {
+      CAPTURE(c.row);
+      // The closed form keeps lengths and angles: 0.2 mm of drop on 1 m.
+      CHECK(wedge_drop(c, 0.98) ==
+            doctest::Approx(0.98 * reference(std::string(c.row) + ".u")).epsilon(2e-3));
+      CHECK(wedge_drop(c, 1.02) < 0);
+    }
+  }
+
   TEST_CASE("Goodman and Bray's slope topples where limit equilibrium says") {
     // Bisection on tan(phi). In the closed form every face is at its limit at once; in a slope of
     // elastic joints they need not be: 2 degrees are allowed (closed forms f.3).
