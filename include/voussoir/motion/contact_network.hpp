@@ -114,6 +114,9 @@ class ContactNetwork {
     return changed;
   }
 
+  /// Other laws for the joints from now on: as many, of the same kind.
+  void set_laws(const LawsBySet<JointLaw>& laws) { joints_.set_laws(laws.all()); }
+
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
     const std::size_t joints = joints_.size();

@@ -17,7 +17,9 @@ namespace voussoir {
 /// All but `centre` give the force and the moment of a closed joint exactly. What tells them apart
 /// is a joint that opens: a block that tips turns about its outermost point.
 enum class ContactPoints {
-  centre,  ///< one, in the middle: resists no turning (as the paper's code did)
+  /// One, in the middle: resists no turning, as in the paper's code. Good for joints that stay
+  /// closed: loose blocks pass through one another's corners.
+  centre,
   gauss,   ///< two (2-D), four (3-D) inside: the fewest; a block tips about a point 21 % inside
   corners  ///< also on the corners: a block tips about its edge
 };

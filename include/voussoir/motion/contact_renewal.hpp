@@ -54,9 +54,12 @@ class ContactRenewal {
     }
     if (!keeps) frame << normal, tangent_basis(normal);
     contact.frame = pose_a.rotation.transpose() * frame;
-    place(found, a, b, rule);
     const auto at = Group::place_of(contact, pose_a, pose_b);
     const double face = normal_reach(owner, normal);
+    if (found.touch == Touch::edge_edge)
+      place_at_edges(found, a, b);
+    else
+      place_points(rule, found.polygon, found.measure, places_);
     points.clear();
     for (const WeightedPoint<Dim>& it : places_) {
       if (!(it.weight > 0)) continue;
@@ -88,11 +91,7 @@ class ContactRenewal {
     return reach;
   }
 
-  void place(const voussoir::Contact<Dim>& found, int a, int b, ContactPoints rule) {
-    if (found.touch != Touch::edge_edge) {
-      place_points(rule, found.polygon, found.measure, places_);
-      return;
-    }
+  void place_at_edges(const voussoir::Contact<Dim>& found, int a, int b) {
     // The section of the overlap would be a spring that grows with the depth. A corner's share of a
     // face as large as the blocks is taken instead.
     Vec<Dim> middle = Vec<Dim>::Zero();

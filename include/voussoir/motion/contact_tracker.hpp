@@ -78,6 +78,10 @@ class ContactTracker {
     }
     typename FaceContacts::Pair<Dim> detector(shapes_);
     for (Pair& pair : pairs_) {
+      if (is_gone(bodies, pair)) {
+        if (pair.contact >= 0) parts(pair);
+        continue;
+      }
       const double now = path_[index(body_of_[pair.a])] + path_[index(body_of_[pair.b])];
       const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
       if (pair.moved >= 0 && now - pair.moved <= allowed) continue;
@@ -99,6 +103,11 @@ class ContactTracker {
 
  private:
   [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  template <class Bodies>
+  [[nodiscard]] bool is_gone(const Bodies& bodies, const Pair& pair) const {
+    return bodies[index(body_of_[pair.a])].is_gone || bodies[index(body_of_[pair.b])].is_gone;
+  }
 
   /// Adds what bodies have moved to their paths.
   template <class Bodies>

@@ -84,6 +84,12 @@ class Dynamics {
     is_wall_[index(b)] = 1;
     return b;
   }
+  /// The same of one that moves, until it is fixed.
+  int add_wall(const Shape& shape, double density) {
+    const int b = add_block(shape, density);
+    is_wall_[index(b)] = 1;
+    return b;
+  }
   /// Adds a body without shape, which touches nothing: a node of a lining.
   /// @param mass  [kg], > 0;  @param inertia  principal moments, along the axes [kg m^2], > 0
   int add_node(const Vec<Dim>& place, double mass, const Spin<Dim>& inertia) {
@@ -102,6 +108,48 @@ class Dynamics {
     supports_.push_back(std::move(support));
     stable_step_ = 0;
     fresh_ = false;
+  }
+  /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
+  void remove(int b) {
+    begin();
+    Body& body = bodies_[index(b)];
+    if (body.movable()) kinetic_at_start_ -= body.kinetic_energy();
+    body.is_gone = true;
+    body.mass = 0;
+    body.velocity.setZero();
+    body.momentum.setZero();
+    find_contacts();
+    sound_.reset();
+    stable_step_ = 0;
+    fresh_ = false;
+  }
+  /// Holds a block where it is from now on.
+  void fix(int b) {
+    begin();
+    Body& body = bodies_[index(b)];
+    if (body.movable()) kinetic_at_start_ -= body.kinetic_energy();
+    body.mass = 0;
+    body.velocity.setZero();
+    body.momentum.setZero();
+    sound_.reset();
+    stable_step_ = 0;
+    fresh_ = false;
+  }
+  /// Other joint laws from now on, as many as there are; what the springs then hold differently is
+  /// no work of the run.
+  void set_laws(const LawsBySet<JointLaw>& laws) {
+    begin();
+    const double before = network_.stored_energy(bodies_);
+    network_.set_laws(laws);
+    contacts_at_start_ += network_.stored_energy(bodies_) - before;
+    stable_step_ = 0;
+    fresh_ = false;
+  }
+  /// @param alpha  local damping from now on [-], 0 <= alpha < 1
+  void set_local_damping(double alpha) {
+    settings_.local_damping = alpha;
+    settings_.check();
+    stable_step_ = 0;
   }
   /// A force on the centre of mass from now on, besides the weight [N], and a moment [N m], both in
   /// world axes.
@@ -162,6 +210,12 @@ class Dynamics {
   /// Where a body is: from its own frame to the world.
   [[nodiscard]] Pose<Dim> pose(int b) const {
     Pose<Dim> pose = bodies_[index(b)].pose;
+    pose.position += origin_;
+    return pose;
+  }
+  /// Where it was added.
+  [[nodiscard]] Pose<Dim> home(int b) const {
+    Pose<Dim> pose = home_[index(b)];
     pose.position += origin_;
     return pose;
   }

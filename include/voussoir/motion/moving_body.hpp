@@ -41,6 +41,7 @@ struct MovingBody {
   Spin<Dim> inertia = Spin<Dim>::Ones();   ///< principal moments [kg m^2]
   double radius = 0;                       ///< of the farthest vertex from the centre [m]
   double angle = 0;                        ///< 2-D: turned so far, whole turns included [rad]
+  bool is_gone = false;                    ///< taken out: it touches nothing
 
   [[nodiscard]] bool movable() const { return mass > 0; }
   /// Angular velocity in the body's frame [rad/s].

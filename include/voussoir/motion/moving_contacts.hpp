@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -54,6 +55,12 @@ class MovingContacts {
   explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  /// @throws InvalidInput  not as many as there are
+  void set_laws(std::vector<Law> laws) {
+    require(laws.size() == laws_.size(), "number of contact laws", static_cast<double>(laws.size()),
+            "as many as before");
+    laws_ = std::move(laws);
+  }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
     return laws_[static_cast<std::size_t>(c.law)];
   }

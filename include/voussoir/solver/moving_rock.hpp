@@ -52,11 +52,12 @@ template <class Geometry, class JointLaw>
   return moving_rock(mass, LawsBySet<JointLaw>(law), in_situ, settings);
 }
 
-/// Installs bolts in rock that lies as it was sliced, free of force but for their pretension:
-/// before the first step of a run made by `moving_rock` from the same mass.
+/// Installs bolts in the rock as it lies now, free of force but for their pretension.
+/// @param run     made from the same mass, whose body b is its body b
+/// @param bars    where the rock was sliced; a bar has moved with every block that it passes
 /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
 /// @return  the bolts, which the run holds too: forces are read there
-/// @throws InvalidInput  spacing out of range, a bar without length, or the run has begun to move
+/// @throws InvalidInput  spacing out of range, or a bar without length
 template <class Geometry, class JointLaw, class BoltLaw, class Anchors>
 std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
     Dynamics<Geometry::dim, JointLaw>& run, const RockMass<Geometry>& mass,
@@ -64,7 +65,6 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
   require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
-  if (run.steps() > 0) throw InvalidInput("add_bolts: the rock has already moved");
   auto bolts = std::make_shared<MovingBolts<dim, BoltLaw>>(law);
   int number = 0;
   for (const auto& bar : bars) {
@@ -72,7 +72,7 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
     const Vec<dim> axis = (bar.end - bar.start) / bar.length();
     for (const auto& at :
          bolt_crossings(pierce(mass, bar), bar, anchors, mass.domain.tolerance())) {
-      const Pose<dim> a = run.pose(at.a), b = run.pose(at.b);
+      const Pose<dim> a = run.home(at.a), b = run.home(at.b);
       const auto in = [](const Pose<dim>& pose, const Vec<dim>& p) {
         return Vec<dim>(pose.rotation.transpose() * (p - pose.position));
       };
@@ -86,6 +86,9 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
       spring.joint_a = in(a, at.joint_a);
       spring.joint_b = in(b, at.joint_b);
       spring.initial = a.rotation.transpose() * at.initial;
+      if (run.steps() > 0)
+        spring.initial = run.pose(at.a).rotation.transpose() *
+                         (run.pose(at.b)(spring.anchor_b) - run.pose(at.a)(spring.anchor_a));
       spring.axis = a.rotation.transpose() * axis;
       spring.share = dim == 2 ? 1 / spacing : 1;
       bolts->add(spring);

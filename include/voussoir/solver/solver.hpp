@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/motion/contact_points.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/edge_slabs.hpp>
 #include <voussoir/rockmass/pierce.hpp>
@@ -67,14 +69,19 @@ class Solver {
   static_assert(explain_equilibrium_method<Method, SystemType>());
 
   /// Puts the rock in its in-situ state.
+  /// @param points  of every contact; with `centre` a block that touches others in one facet alone
+  ///                can turn freely, which `TwoLevel` does not accept
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
-  Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ)
-      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ) {}
+  Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
+         ContactPoints points = ContactPoints::gauss)
+      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points) {}
   /// The same with laws of their own for some joint sets.
-  Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ)
+  Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+         ContactPoints points = ContactPoints::gauss)
       : mass_(std::move(mass)),
         joint_laws_(std::move(joint_laws)),
         in_situ_(in_situ),
+        points_(points),
         system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
     in_situ_.check();
     if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
@@ -278,6 +285,23 @@ class Solver {
         {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
   }
 
+  [[nodiscard]] std::vector<FacetPoint<dim>> points_on(
+      const typename Geometry::Facet& facet) const {
+    if (points_ == ContactPoints::gauss) {
+      const auto gauss = facet.gauss_points();
+      return {gauss.begin(), gauss.end()};
+    }
+    std::vector<WeightedPoint<dim>> places;
+    if constexpr (dim == 2)
+      place_points(points_, std::array{facet.start, facet.end}, facet.measure(), places);
+    else
+      place_points(points_, facet.vertices, facet.measure(), places);
+    std::vector<FacetPoint<dim>> points;
+    for (const WeightedPoint<dim>& p : places)
+      points.push_back({p.place - facet.centre(), p.weight});
+    return points;
+  }
+
   void build() {
     measures_.clear();
     for (const Body<Geometry>& body : mass_.bodies) {
@@ -292,13 +316,13 @@ class Solver {
     measures_.push_back(0.0);
     const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
     for (const auto& c : Parts::Detector::find(mass_)) {
-      const auto points = c.facet.gauss_points();
+      const auto points = points_on(c.facet);
       const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
       system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
                          points, law);
     }
     for (const auto& f : boundary_facets(mass_)) {
-      const auto points = f.facet.gauss_points();
+      const auto points = points_on(f.facet);
       if (f.side == SideOf<dim>::top) {
         const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
         add_force_at<dim>(system_.load.data() + dof * f.body,
@@ -350,6 +374,7 @@ class Solver {
   RockMass<Geometry> mass_;
   LawsBySet<JointLaw> joint_laws_;
   InSitu in_situ_;
+  ContactPoints points_;
   SystemType system_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
