@@ -29,6 +29,7 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/generation_stage.hpp>
 #include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/solver/oedometer.hpp>
 #include <voussoir/solver/relaxation.hpp>

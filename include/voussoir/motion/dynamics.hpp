@@ -111,17 +111,9 @@ class Dynamics {
   }
   /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
   void remove(int b) {
-    begin();
-    Body& body = bodies_[index(b)];
-    if (body.movable()) kinetic_at_start_ -= body.kinetic_energy();
-    body.is_gone = true;
-    body.mass = 0;
-    body.velocity.setZero();
-    body.momentum.setZero();
+    fix(b);
+    bodies_[index(b)].is_gone = true;
     find_contacts();
-    sound_.reset();
-    stable_step_ = 0;
-    fresh_ = false;
   }
   /// Holds a block where it is from now on.
   void fix(int b) {
@@ -131,7 +123,7 @@ class Dynamics {
     body.mass = 0;
     body.velocity.setZero();
     body.momentum.setZero();
-    sound_.reset();
+    sound_.reset();  // it knows this block otherwise
     stable_step_ = 0;
     fresh_ = false;
   }

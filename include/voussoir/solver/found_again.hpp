@@ -40,7 +40,8 @@ class FoundAgain {
     for (auto& frame : system_.frames)
       frame.follow(now(frame.i), now(frame.j), system_.displacement.data());
     for (auto& bolt : system_.bolts) turn(bolt);
-    auto joints = as_moving(system_.joints), boundary = as_moving(system_.boundary);
+    auto joints = as_moving(system_.joints);
+    auto boundary = as_moving(system_.boundary);
     const auto interface = as_moving(system_.interface);
     ContactTracker<dim> tracker(reach, 0, 4 * reach);
     for (int b = 0; b < static_cast<int>(system_.shapes->size()); ++b) {
@@ -57,7 +58,8 @@ class FoundAgain {
     typename System::Joints new_joints(system_.joints.laws());
     typename System::Boundary new_boundary(system_.boundary.laws());
     typename System::Interface new_interface(system_.interface.laws());
-    const ByBodies of_joints(joints, bodies_), of_boundary(boundary, bodies_);
+    const ByBodies<decltype(joints)> of_joints(joints, bodies_);
+    const ByBodies<decltype(boundary)> of_boundary(boundary, bodies_);
     system_.set_found();
     tracker.update(
         bodies_,
