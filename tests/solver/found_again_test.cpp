@@ -52,6 +52,15 @@ TEST_SUITE("solver/found_again") {
     }
   }
 
+  TEST_CASE("limits out of range are refused") {
+    Solver<> tunnel = bolted_tunnel();
+    for (const Acceptance& bad :
+         {Acceptance{.error_estimate = 0}, Acceptance{.unbalance_over_weight = -1},
+          Acceptance{.displacement_limit = 0}, Acceptance{.refind_limit = 0},
+          Acceptance{.collapse_measure = -1}})
+      CHECK_THROWS_AS((void)tunnel.equilibrium(0, TwoLevel{}, bad), InvalidInput);
+  }
+
   TEST_CASE("to find them again often on the way to equilibrium changes nothing") {
     for (const double limit : {1e-3, 2e-4}) {
       CAPTURE(limit);

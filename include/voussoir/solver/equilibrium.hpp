@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 
 namespace voussoir {
@@ -41,6 +42,15 @@ struct Acceptance {
   /// contacts within twice this has fallen.
   double refind_limit = 0.02;
   double collapse_measure = 20;  ///< more fallen rock than this is a collapse [m^2], [m^3]
+
+  /// @throws InvalidInput  a limit out of range
+  void check() const {
+    require(error_estimate > 0, "error_estimate", error_estimate, "> 0");
+    require(unbalance_over_weight > 0, "unbalance_over_weight", unbalance_over_weight, "> 0");
+    require(displacement_limit > 0, "displacement_limit", displacement_limit, "> 0 m");
+    require(refind_limit > 0, "refind_limit", refind_limit, "> 0 m");
+    require(collapse_measure >= 0, "collapse_measure", collapse_measure, ">= 0");
+  }
 };
 
 /// The outcome of one search for equilibrium, with the numbers that decided it.

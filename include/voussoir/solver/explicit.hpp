@@ -21,9 +21,9 @@ namespace voussoir {
 /// taken away along a ramp unless `ramp_steps` is zero.
 ///
 /// Masses are density-scaled so that the critical step is the same for every unknown (quarter of
-/// the Gershgorin row sums): steps are no physical time; `Dynamics` has true ones. Local damping shrinks the stable step: an
-/// unknown with damping alpha behaves as if (1 + alpha) times as stiff, so the step is safety /
-/// sqrt(1 + alpha) of the undamped critical one.
+/// the Gershgorin row sums): steps are no physical time; `Dynamics` has true ones. Local damping
+/// shrinks the stable step: an unknown with damping alpha behaves as if (1 + alpha) times as stiff,
+/// so the step is safety / sqrt(1 + alpha) of the undamped critical one.
 ///
 /// Source: Cundall (1987), Distinct element models of rock and soil structure (local damping).
 class Explicit {

@@ -212,12 +212,14 @@ class Solver {
 
   /// Lets the rock and its supports find their equilibrium with a part of the in-situ traction left
   /// on the wall (relaxation before support: > 0; the final state: 0).
-  /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before
+  /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before; a limit of
+  ///                         the acceptance out of range
   /// @throws NumericalFault  see the method
   EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
                                 const Acceptance& acceptance = {}, const Progress& progress = {}) {
     require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
             wall_fraction, "0 to 1 and no more than was left before");
+    acceptance.check();
     started_ = true;
     const SearchContext context{acceptance, &measures_, wall_fraction, progress};
     EquilibriumReport report = method.find(system_, context);
