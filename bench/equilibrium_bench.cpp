@@ -78,6 +78,11 @@ void explicit_stepping(benchmark::State& state, double bolt_spacing, double thic
                  .find(tunnel.system(), voussoir::SearchContext{});
   }
   report_on(state, tunnel, report);
+  // The whole step, contacts that stay as they are: forces, slip, damping and motion.
+  const double contacts = static_cast<double>(tunnel.system().joints.contacts().size());
+  state.counters["time_per_contact_and_step"] =
+      benchmark::Counter(contacts * report.steps, benchmark::Counter::kIsIterationInvariantRate |
+                                                      benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(explicit_stepping, bolts_4m_15deg, 15, 0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(explicit_stepping, bolts_4m_15deg_lining_10cm, 15, 0.1)

@@ -62,7 +62,7 @@ class Explicit {
     const double from = system.wall_fraction, to = context.wall_fraction;
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
-    Eigen::VectorXd mass = masses(system);
+    Eigen::VectorXd mass = masses(system), inverse_mass = mass.cwiseInverse();
     double step = stable_step(system, mass);
     double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
     while (report.steps < params_.max_steps) {
@@ -72,12 +72,10 @@ class Explicit {
       system.wall_fraction = from + (to - from) * done;
       system.template forces<Committing>(u, f);
       ++report.steps;
-      for (Eigen::Index k = 0; k < u.size(); ++k) {
-        // Velocity Verlet in its leapfrog form: velocities live at half steps.
-        const double damped = f[k] - params_.damping * std::abs(f[k]) * sign(velocity[k]);
-        velocity[k] += step * damped / mass[k];
-        u[k] += step * velocity[k];
-      }
+      // Velocity Verlet in its leapfrog form: velocities live at half steps.
+      velocity.array() += step * inverse_mass.array() *
+                          (f.array() - params_.damping * f.array().abs() * velocity.array().sign());
+      u += step * velocity;
       if (report.steps % params_.check_every != 0) continue;
       report.largest_displacement = system.largest_translation(u);
       if (!u.allFinite())  // a maximum does not tell: it passes over what is not a number
@@ -98,6 +96,7 @@ class Explicit {
         report.largest_displacement = system.largest_translation(u);
         if (detail::has_collapsed<System::dim>(report, accept)) break;
         mass = masses(system);
+        inverse_mass = mass.cwiseInverse();
         step = stable_step(system, mass);
         continue;
       }
@@ -132,8 +131,6 @@ class Explicit {
   }
 
  private:
-  [[nodiscard]] static double sign(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
-
   template <class System>
   [[nodiscard]] double stable_step(const System& system, const Eigen::VectorXd& mass) const {
     return params_.safety * critical_step(system, mass) / std::sqrt(1 + params_.damping);
