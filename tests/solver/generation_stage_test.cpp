@@ -104,6 +104,12 @@ TEST_SUITE("solver/generation_stage") {
     CHECK(made.run.contact_load(made.inside.front()).force.norm() == 0);
     made.run.advance(0.01);
     CHECK(made.run.position(made.inside.front()) == gone);
+    // A fault right after a block was held is found before anything moves.
+    made.run.fix(0);
+    const double time = made.run.time();
+    made.run.set_velocity(1, {std::nan(""), 0});
+    CHECK_THROWS_AS(made.run.advance(0.1), NumericalFault);
+    CHECK(made.run.time() == time);
   }
 
   TEST_CASE("bad settings are named") {

@@ -134,6 +134,7 @@ class Dynamics {
     const double before = network_.stored_energy(bodies_);
     network_.set_laws(laws);
     contacts_at_start_ += network_.stored_energy(bodies_) - before;
+    sound_.reset();  // it has the laws of before
     stable_step_ = 0;
     fresh_ = false;
   }
@@ -446,7 +447,7 @@ class Dynamics {
 
   [[nodiscard]] double choose_step() {
     begin();
-    if (steps_ == 0 && !sound_) check();
+    if (!sound_) check();
     if (stable_step_ == 0) stable_step_ = stable_step();
     if (settings_.time_step > stable_step_)
       throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
