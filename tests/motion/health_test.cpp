@@ -136,7 +136,7 @@ TEST_SUITE("motion/health") {
     CHECK_THROWS_AS(Run(joint, {.check_every = 0}), InvalidInput);
     Run run = tower({});
     run.advance_steps(1);
-    CHECK_THROWS_AS(run.add_block(rectangle({5, 5}, 1, 1), 2700), InvalidInput);
+    CHECK_THROWS_AS(run.add_block(rectangle({5, 5}, 1, 1), 0), InvalidInput);
     CHECK_THROWS_AS(run.advance(-1), InvalidInput);
   }
 

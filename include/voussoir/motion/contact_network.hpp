@@ -13,7 +13,7 @@
 #include <voussoir/motion/contact_points.hpp>
 #include <voussoir/motion/contact_renewal.hpp>
 #include <voussoir/motion/contact_tracker.hpp>
-#include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/moving_bodies.hpp>
 #include <voussoir/motion/moving_contacts.hpp>
 
 namespace voussoir {
@@ -77,19 +77,21 @@ class ContactNetwork {
   }
 
   /// Finds contacts again where bodies have moved.
-  /// @param is_wall  for every body
-  /// @param law_of   law_of(shape, normal): index of the law of the face of a shape that looks
+  /// @param roles   of every body
+  /// @param law_of  law_of(shape, normal): index of the law of the face of a shape that looks
   /// there
   /// @param refound  energy that springs gain by their new form is added to it [J]
   /// @return  true if anything has changed
   template <class LawOf>
-  bool find(Tracker& tracker, const Bodies& bodies, const std::vector<char>& is_wall,
+  bool find(Tracker& tracker, const Bodies& bodies, const std::vector<BodyRole>& roles,
             LawOf&& law_of, double& refound) {
+    // Bodies may have come since.
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
-    bool changed = false, relisted = first_end_.empty();
+    bool changed = false, relisted = first_end_.size() != bodies.size() + 1;
     const auto of_wall = [&](const typename Tracker::Pair& pair) {
-      return is_wall[index(tracker.body_of(pair.a))] || is_wall[index(tracker.body_of(pair.b))];
+      return roles[index(tracker.body_of(pair.a))] == BodyRole::wall ||
+             roles[index(tracker.body_of(pair.b))] == BodyRole::wall;
     };
     tracker.update(
         bodies,

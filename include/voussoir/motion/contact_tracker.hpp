@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -71,7 +72,7 @@ class ContactTracker {
       const Pose<Dim>& pose = bodies[b].pose;
       shapes_.place(shape, {pose.position, pose.rotation * home_[shape]});
     };
-    if (since_looked_ > unseen * margin_ || pairs_.empty()) {
+    if (since_looked_ > unseen * margin_) {
       for (std::size_t s = 0; s < shapes_.size(); ++s) place(s);
       if (neighbours_.update(shapes_)) carry_over(bodies, parts);
       since_looked_ = 0;
@@ -112,12 +113,10 @@ class ContactTracker {
   /// Adds what bodies have moved to their paths.
   template <class Bodies>
   void follow(const Bodies& bodies) {
-    if (path_.empty()) {
-      path_.assign(bodies.size(), 0);
-      placed_.assign(shapes_.size(), -1);
-      for (const auto& body : bodies) seen_.push_back(body.pose);
-      return;
-    }
+    if (seen_.size() < bodies.size()) since_looked_ = std::numeric_limits<double>::infinity();
+    for (std::size_t b = seen_.size(); b < bodies.size(); ++b) seen_.push_back(bodies[b].pose);
+    path_.resize(bodies.size(), 0);
+    placed_.resize(shapes_.size(), -1);
     double farthest = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const auto& body = bodies[b];

@@ -15,14 +15,14 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/thread_team.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
-#include <voussoir/geometry/mass_properties.hpp>
 #include <voussoir/motion/contact_network.hpp>
 #include <voussoir/motion/contact_tracker.hpp>
 #include <voussoir/motion/dynamics_settings.hpp>
 #include <voussoir/motion/energy_audit.hpp>
 #include <voussoir/motion/half_step.hpp>
 #include <voussoir/motion/health.hpp>
-#include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/moving_bodies.hpp>
+#include <voussoir/motion/run_sizes.hpp>
 #include <voussoir/motion/support.hpp>
 
 namespace voussoir {
@@ -36,12 +36,13 @@ namespace voussoir {
 /// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
 /// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
 template <int Dim, class JointLaw>
-class Dynamics {
+class Dynamics : public MovingBodies<Dim> {
   static_assert(explain_contact_law<JointLaw, Dim>());
+  using Base = MovingBodies<Dim>;
 
  public:
-  using Body = MovingBody<Dim>;
-  using Shape = typename PlacedShapes<Dim>::Shape;
+  using typename Base::Body;
+  using typename Base::Shape;
   using Network = ContactNetwork<Dim, JointLaw>;
 
   /// @throws InvalidInput  a setting out of range
@@ -60,47 +61,6 @@ class Dynamics {
 
   // ---- what there is ---------------------------------------------------------------------------
 
-  /// Adds a block of uniform density where its shape lies, at rest.
-  /// @param density  [kg/m^3], > 0
-  /// @return  its number, from 0
-  /// @throws InvalidInput  density, or the run has begun
-  int add_block(const Shape& shape, double density) {
-    return add_block(std::vector<Shape>{shape}, density);
-  }
-  /// The same of several convex parts that move as one.
-  int add_block(const std::vector<Shape>& parts, double density) {
-    require(density > 0 && std::isfinite(density), "density", density, "> 0 kg/m^3");
-    return add(parts, moving_body(mass_properties(parts), density));
-  }
-  /// Adds a block that stays where it is.
-  int add_fixed_block(const Shape& shape) {
-    Body body;
-    body.pose.position = mass_properties(shape).centroid;
-    return add({shape}, body);
-  }
-  /// Adds a smooth wall: a block that stays, and against which nothing rubs.
-  int add_wall(const Shape& shape) {
-    const int b = add_fixed_block(shape);
-    is_wall_[index(b)] = 1;
-    return b;
-  }
-  /// The same of one that moves, until it is fixed.
-  int add_wall(const Shape& shape, double density) {
-    const int b = add_block(shape, density);
-    is_wall_[index(b)] = 1;
-    return b;
-  }
-  /// Adds a body without shape, which touches nothing: a node of a lining.
-  /// @param mass  [kg], > 0;  @param inertia  principal moments, along the axes [kg m^2], > 0
-  int add_node(const Vec<Dim>& place, double mass, const Spin<Dim>& inertia) {
-    require(mass > 0 && std::isfinite(mass), "mass of a node", mass, "> 0 kg");
-    require(inertia.minCoeff() > 0, "inertia of a node", inertia.minCoeff(), "> 0 kg m^2");
-    Body body;
-    body.pose.position = place;
-    body.mass = mass;
-    body.inertia = inertia;
-    return add({}, body);
-  }
   /// Adds what holds bodies besides contacts; at any time.
   void add_support(std::shared_ptr<Support<Dim>> support) {
     begin();
@@ -118,14 +78,9 @@ class Dynamics {
   /// Holds a block where it is from now on.
   void fix(int b) {
     begin();
-    Body& body = bodies_[index(b)];
-    if (body.movable()) kinetic_at_start_ -= body.kinetic_energy();
-    body.mass = 0;
-    body.velocity.setZero();
-    body.momentum.setZero();
+    this->stop(b);
     sound_.reset();  // it knows this block otherwise
     stable_step_ = 0;
-    fresh_ = false;
   }
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
@@ -144,24 +99,6 @@ class Dynamics {
     settings_.check();
     stable_step_ = 0;
   }
-  /// A force on the centre of mass from now on, besides the weight [N], and a moment [N m], both in
-  /// world axes.
-  void add_load(int b, const Vec<Dim>& force, const Spin<Dim>& moment = Spin<Dim>::Zero()) {
-    loads_[index(b)].force += force;
-    loads_[index(b)].moment += moment;
-    fresh_ = false;
-  }
-  /// @param spin  world axes [rad/s]
-  void set_velocity(int b, const Vec<Dim>& velocity, const Spin<Dim>& spin = Spin<Dim>::Zero()) {
-    Body& body = bodies_[index(b)];
-    const double before = body.kinetic_energy();
-    body.velocity = velocity;
-    body.momentum = body.inertia.cwiseProduct(body.to_body(spin));
-    // Energy that is given like this is none that a run has to account for.
-    if (begun_) kinetic_at_start_ += body.kinetic_energy() - before;
-    fresh_ = false;
-  }
-
   /// Gives every closed contact the traction of a stress field in which the blocks as they lie now
   /// are in equilibrium: before the first step.
   /// @param stress_at  stress_at(point) [Pa], compression positive
@@ -193,45 +130,11 @@ class Dynamics {
   // ---- what it does ----------------------------------------------------------------------------
 
   [[nodiscard]] const DynamicsSettings& settings() const { return settings_; }
-  [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
-  [[nodiscard]] const Body& body(int b) const { return bodies_[index(b)]; }
   [[nodiscard]] const auto& joints() const { return network_.joints(); }
   [[nodiscard]] double time() const { return time_; }  ///< [s]
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   [[nodiscard]] double step() const { return step_; }  ///< the last one [s]
 
-  /// Where a body is: from its own frame to the world.
-  [[nodiscard]] Pose<Dim> pose(int b) const {
-    Pose<Dim> pose = bodies_[index(b)].pose;
-    pose.position += origin_;
-    return pose;
-  }
-  /// Where it was added.
-  [[nodiscard]] Pose<Dim> home(int b) const {
-    Pose<Dim> pose = home_[index(b)];
-    pose.position += origin_;
-    return pose;
-  }
-  /// Centre of mass [m].
-  [[nodiscard]] Vec<Dim> position(int b) const { return bodies_[index(b)].pose.position + origin_; }
-  /// How a body has moved from where it was added: a point p there is now at motion(b)(p).
-  [[nodiscard]] Pose<Dim> motion(int b) const {
-    const Pose<Dim>&now = bodies_[index(b)].pose, &then = home_[index(b)];
-    Pose<Dim> motion;
-    motion.rotation = now.rotation * then.rotation.transpose();
-    motion.position = position(b) - motion.rotation * (then.position + origin_);
-    return motion;
-  }
-  /// Of the centre of mass [m/s].
-  [[nodiscard]] const Vec<Dim>& velocity(int b) const { return bodies_[index(b)].velocity; }
-  /// Angular velocity, world axes [rad/s].
-  [[nodiscard]] Spin<Dim> spin(int b) const {
-    return bodies_[index(b)].to_world(bodies_[index(b)].spin());
-  }
-  /// Angular momentum about the centre of mass, world axes [kg m^2/s].
-  [[nodiscard]] Spin<Dim> angular_momentum(int b) const {
-    return bodies_[index(b)].to_world(bodies_[index(b)].momentum);
-  }
   /// Force and moment of all contacts on a body, world axes [N], [N m].
   [[nodiscard]] Load<Dim> contact_load(int b) {
     begin();
@@ -257,18 +160,11 @@ class Dynamics {
   [[nodiscard]] EnergyAudit energy() {
     begin();
     EnergyAudit now = audit_;
-    now.kinetic = kinetic_energy() - kinetic_at_start_;
+    now.kinetic = this->kinetic_energy() - kinetic_given_;
     now.contacts = network_.stored_energy(bodies_) - contacts_at_start_;
     now.supports = support_energy() - supports_at_start_;
     return now;
   }
-  [[nodiscard]] double kinetic_energy() const {
-    double sum = 0;
-    for (const Body& body : bodies_)
-      if (body.movable()) sum += body.kinetic_energy();
-    return sum;
-  }
-
   /// The largest step that is stable for the contacts there are, damping included [s]; infinite
   /// without contacts.
   ///
@@ -324,40 +220,13 @@ class Dynamics {
     Network network;
     ContactTracker<Dim> tracker;
     EnergyAudit audit;
-    double time;
+    double kinetic_given, time;
     std::int64_t steps;
   };
 
-  [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
-
-  int add(const std::vector<Shape>& parts, Body body) {
-    if (begun_) throw InvalidInput("dynamics: blocks must be added before the run begins");
-    // Positions are kept near 0, whatever the site's coordinates.
-    if (bodies_.empty()) origin_ = body.pose.position;
-    for (const Shape& part : parts)
-      for (const auto& v : part.vertices())
-        body.radius = std::max(body.radius, (v - body.pose.position).norm());
-    body.pose.position -= origin_;
-    const int b = body_count();
-    for (const Shape& part : parts) shapes_.emplace_back(part, b);
-    bodies_.push_back(body);
-    home_.push_back(body.pose);
-    loads_.emplace_back();
-    held_.emplace_back();
-    support_loads_.emplace_back();
-    acting_.emplace_back();
-    is_wall_.push_back(0);
-    return b;
-  }
-
-  /// Before anything is asked: sizes are chosen, contacts found and forces computed.
+  /// Before anything is asked: bodies that are new are taken in, and forces computed.
   void begin() {
-    if (!begun_) {
-      begun_ = true;
-      choose_sizes();
-      find_contacts();
-      start_audit();
-    }
+    if (known_bodies_ < bodies_.size()) take_in();
     if (fresh_) return;
     Dissipation none;  // nothing slips that has not already
     network_.react(0, network_.size(), bodies_, none);
@@ -366,34 +235,29 @@ class Dynamics {
     fresh_ = true;
   }
 
-  void choose_sizes() {
-    double size = 0, thrown = 0;
-    int count = 0;
-    Vec<Dim> low = Vec<Dim>::Zero(), high = low;
-    for (const Body& body : bodies_) {
-      low = low.cwiseMin(body.pose.position);
-      high = high.cwiseMax(body.pose.position);
-      if (!body.movable()) continue;
-      thrown = std::max(thrown, body.velocity.norm() + body.spin().norm() * body.radius);
-      size += body.radius;
-      ++count;
+  void take_in() {
+    const bool is_first = known_bodies_ == 0;
+    if (is_first) {
+      sizes_ = detail::RunSizes::choose(bodies_, settings_);
+      tracker_.emplace(sizes_.reach, sizes_.refresh, 8 * sizes_.reach);
     }
-    if (count == 0) throw InvalidInput("dynamics: there is no block that can move");
-    const double reach = settings_.reach > 0 ? settings_.reach : 0.02 * size / count;
-    refresh_ = settings_.refresh > 0 ? settings_.refresh : 0.25 * reach;
-    tracker_.emplace(reach, refresh_, 8 * reach);
-    for (const auto& [shape, b] : shapes_)
-      tracker_->add(shape, position(b), b, bodies_[index(b)].pose.rotation);
-    // Falling through all there is; and a light block that heavy ones hit.
-    speed_limit_ =
-        settings_.speed_limit > 0
-            ? settings_.speed_limit
-            : 4 * thrown + std::sqrt(2 * settings_.gravity * ((high - low).norm() + size / count));
-    if (!(speed_limit_ > 0)) speed_limit_ = std::numeric_limits<double>::infinity();
+    for (; known_shapes_ < shapes_.size(); ++known_shapes_) {
+      const auto& [shape, b] = shapes_[known_shapes_];
+      const Pose<Dim> home = this->home(b);
+      tracker_->add(shape, home.position, b, home.rotation);
+    }
+    known_bodies_ = bodies_.size();
+    held_.resize(known_bodies_);
+    support_loads_.resize(known_bodies_);
+    acting_.resize(known_bodies_);
+    find_contacts();
+    sound_.reset();  // it does not know them
+    stable_step_ = 0;
+    if (is_first) start_audit();
   }
 
   void start_audit() {
-    kinetic_at_start_ = kinetic_energy();
+    kinetic_given_ = this->kinetic_energy();
     contacts_at_start_ = network_.stored_energy(bodies_);
     supports_at_start_ = support_energy();
     audit_ = {};
@@ -414,7 +278,7 @@ class Dynamics {
       const int cut = cut_facing(part, Vec<Dim>(turn * normal));
       return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
     };
-    if (!network_.find(*tracker_, bodies_, is_wall_, law_of, audit_.refound)) return;
+    if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.refound)) return;
     stable_step_ = 0;
     fresh_ = false;
   }
@@ -422,11 +286,11 @@ class Dynamics {
   /// Looks whether the run is sound; if not, goes back to when it was, and says what is wrong.
   void check() {
     const std::string fault =
-        detail::Health<Dim>(bodies_, origin_, speed_limit_, settings_.overlap_limit)
+        detail::Health<Dim>(bodies_, origin_, sizes_.speed_limit, settings_.overlap_limit)
             .fault(std::as_const(network_), step_);
     checked_ = steps_;
     if (fault.empty()) {
-      sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, time_, steps_});
+      sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, kinetic_given_, time_, steps_});
       return;
     }
     const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
@@ -435,6 +299,7 @@ class Dynamics {
     network_ = sound_->network;
     tracker_ = sound_->tracker;
     audit_ = sound_->audit;
+    kinetic_given_ = sound_->kinetic_given;
     time_ = sound_->time;
     steps_ = checked_ = sound_->steps;
     stable_step_ = 0;
@@ -468,7 +333,7 @@ class Dynamics {
       if (body.movable())
         fastest = std::max(fastest, body.velocity.norm() + body.spin().norm() * body.radius);
     // Both bodies of a pair move, and may get faster.
-    const double steps = 0.5 * std::min(refresh_, 0.5 * tracker_->reach()) / (fastest * step);
+    const double steps = 0.5 * std::min(sizes_.refresh, 0.5 * tracker_->reach()) / (fastest * step);
     return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(settings_.check_every)));
   }
 
@@ -554,24 +419,28 @@ class Dynamics {
   std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
   std::unique_ptr<ThreadTeam> team_;
-  Vec<Dim> origin_ = Vec<Dim>::Zero();
-  std::vector<std::pair<Shape, int>> shapes_;  ///< where they were added, with their body
-  std::vector<Body> bodies_;
-  std::vector<Pose<Dim>> home_;  ///< where they were added
-  std::vector<Load<Dim>> loads_, held_, support_loads_;
+  using Base::bodies_;
+  using Base::fresh_;
+  using Base::home_;
+  using Base::index;
+  using Base::kinetic_given_;
+  using Base::loads_;
+  using Base::origin_;
+  using Base::roles_;
+  using Base::shapes_;
+  std::vector<Load<Dim>> held_, support_loads_;
   double held_fraction_ = 0;
   std::vector<std::shared_ptr<Support<Dim>>> supports_;
-  std::vector<char> is_wall_;
   std::vector<detail::HalfStep<Dim>> acting_;
   std::optional<ContactTracker<Dim>> tracker_;
   std::vector<Sums> sums_;
   EnergyAudit audit_;
-  double kinetic_at_start_ = 0, contacts_at_start_ = 0, supports_at_start_ = 0;
-  double refresh_ = 0, speed_limit_ = 0;
+  double contacts_at_start_ = 0, supports_at_start_ = 0;
+  detail::RunSizes sizes_{};
   double time_ = 0, step_ = 0, stable_step_ = 0;
   std::int64_t steps_ = 0, checked_ = 0;
   std::optional<Sound> sound_;
-  bool begun_ = false, fresh_ = false;
+  std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
 
 }  // namespace voussoir

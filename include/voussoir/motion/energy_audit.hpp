@@ -10,7 +10,8 @@ namespace voussoir {
 ///
 /// What bodies and springs hold is a difference to the beginning; the rest is summed up step by
 /// step. What is left over when all is added up, the imbalance, is the error of the time steps: it
-/// shrinks with the square of the step while nothing slides.
+/// shrinks with the square of the step while nothing slides; with the step itself where dashpots
+/// act, whose velocity is half a step old.
 struct EnergyAudit {
   double kinetic = 0;    ///< held by the bodies, difference to the beginning
   double contacts = 0;   ///< held by the springs of joints, difference to the beginning

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/motion/dynamics_settings.hpp>
+#include <voussoir/motion/moving_body.hpp>
+
+namespace voussoir::detail {
+
+/// The lengths and the speed that a run goes by, where its settings leave them to be chosen.
+struct RunSizes {
+  double reach;        ///< contacts are listed up to this gap [m]
+  double refresh;      ///< bodies of a contact move so far before it is found again [m]
+  double speed_limit;  ///< nothing can be faster, unless the run has gone bad [m/s]
+
+  /// @throws InvalidInput  no body can move
+  template <int Dim>
+  [[nodiscard]] static RunSizes choose(const std::vector<MovingBody<Dim>>& bodies,
+                                       const DynamicsSettings& settings) {
+    double size = 0, thrown = 0;
+    int count = 0;
+    Vec<Dim> low = Vec<Dim>::Zero(), high = low;
+    for (const MovingBody<Dim>& body : bodies) {
+      low = low.cwiseMin(body.pose.position);
+      high = high.cwiseMax(body.pose.position);
+      if (!body.movable()) continue;
+      thrown = std::max(thrown, body.velocity.norm() + body.spin().norm() * body.radius);
+      size += body.radius;
+      ++count;
+    }
+    if (count == 0) throw InvalidInput("dynamics: there is no block that can move");
+    size /= count;
+    RunSizes sizes;
+    sizes.reach = settings.reach > 0 ? settings.reach : 0.02 * size;
+    sizes.refresh = settings.refresh > 0 ? settings.refresh : 0.25 * sizes.reach;
+    // Falling through all there is; and a light block that heavy ones hit.
+    sizes.speed_limit =
+        settings.speed_limit > 0
+            ? settings.speed_limit
+            : 4 * thrown + std::sqrt(2 * settings.gravity * ((high - low).norm() + size));
+    if (!(sizes.speed_limit > 0)) sizes.speed_limit = std::numeric_limits<double>::infinity();
+    return sizes;
+  }
+};
+
+}  // namespace voussoir::detail
