@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 #include <voussoir/lining/beams.hpp>
-#include <voussoir/solver/support_elements.hpp>
+#include <voussoir/lining/frame_element.hpp>
 
 #include "support/reference.hpp"
 

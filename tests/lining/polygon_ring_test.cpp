@@ -12,7 +12,7 @@
 #include <vector>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
-#include <voussoir/solver/support_elements.hpp>
+#include <voussoir/lining/frame_element.hpp>
 
 #include "support/reference.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/lining/beams.hpp>
-#include <voussoir/solver/support_elements.hpp>
+#include <voussoir/lining/frame_element.hpp>
 
 using namespace voussoir;
 

@@ -182,6 +182,14 @@ TEST_SUITE("solver/spatial") {
     }
     for (const auto& piece : wall_pieces(bare.mass())) wall += piece.facet.measure();
     CHECK(area == doctest::Approx(wall).epsilon(1e-6));
+    double panels = 0;
+    for (const auto& panel : frame.panels) {
+      panels += panel.facet.measure();
+      const Vec3 p = panel.facet.centre();
+      CHECK(panel.facet.area_vector().dot(Vec3(p.x(), 0, p.z())) > 0);
+      CHECK((frame.nodes[static_cast<std::size_t>(panel.node)] - p).norm() < 0.8);
+    }
+    CHECK(panels == doctest::Approx(6 * opening.section().perimeter()).epsilon(1e-9));
     lined.install_lining(frame,
                          {LiningSection::strip(0.1, 1, 25e9), LiningSection::strip(0.1, 0.5, 25e9)},
                          CoulombJoint({1e10, 1e10, 35 * degree}));

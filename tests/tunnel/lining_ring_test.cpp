@@ -74,6 +74,22 @@ TEST_SUITE("tunnel/lining_ring") {
     }
   }
 
+  TEST_CASE("panels cover the whole outline, rock or not, each in the stretch of its node") {
+    for (const int nodes : {8, 36, 50}) {
+      CAPTURE(nodes);
+      const auto mass = tunnel_wall(0.3);
+      REQUIRE(mass.carving.dropped_pieces > 0);
+      const double perimeter = mass.openings.back().perimeter();
+      const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = nodes});
+      std::vector<double> length(frame.nodes.size(), 0.0);
+      for (const auto& panel : frame.panels) {
+        length[static_cast<std::size_t>(panel.node)] += panel.facet.length();
+        CHECK(panel.facet.area_vector().dot(panel.facet.centre()) > 0);
+      }
+      for (const double l : length) CHECK(l == doctest::Approx(perimeter / nodes).epsilon(1e-9));
+    }
+  }
+
   TEST_CASE("where a piece of rock was dropped there is a gap, and no contact") {
     const auto mass = tunnel_wall(0.3);
     REQUIRE(mass.carving.dropped_pieces > 0);

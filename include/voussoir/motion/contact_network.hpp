@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/motion/contact_points.hpp>
@@ -18,9 +20,10 @@
 
 namespace voussoir {
 
-/// All contacts of bodies that move: joints between blocks, and smooth walls around them.
+/// All contacts of bodies that move, in three groups: joints between blocks, smooth walls around
+/// them, and the interface between rock and lining.
 ///
-/// Contacts are numbered in one row, joints first. Every body has the list of its contacts, in
+/// Contacts are numbered in one row, group after group. Every body has the list of its contacts, in
 /// which their forces are summed: always in the same order.
 template <int Dim, class JointLaw>
 class ContactNetwork {
@@ -29,31 +32,42 @@ class ContactNetwork {
   using Bodies = std::vector<Body>;
   using Joints = MovingContacts<Dim, JointLaw>;
   using Walls = MovingContacts<Dim, SmoothWall>;
+  using Interface = MovingContacts<Dim, CoulombJoint>;
   using Tracker = ContactTracker<Dim>;
   static constexpr int dof = Dim + spin_count<Dim>;
 
   /// @param viscous_damping  ratio to critical of the dashpots [-]
   ContactNetwork(const LawsBySet<JointLaw>& laws, ContactPoints rule, double viscous_damping)
-      : joints_(laws.all()),
-        walls_({SmoothWall(laws.stiffest())}),
+      : groups_(Joints(laws.all()), Walls({SmoothWall(laws.stiffest())}), Interface({})),
         rule_(rule),
         viscous_damping_(viscous_damping) {}
 
-  [[nodiscard]] const Joints& joints() const { return joints_; }
-  [[nodiscard]] const Walls& walls() const { return walls_; }
-  [[nodiscard]] std::size_t size() const { return joints_.size() + walls_.size(); }
-
-  /// Calls visit(group, contact) for every contact of both groups.
-  template <class Visit>
-  void each(Visit&& visit) {
-    for (auto& c : joints_.contacts()) visit(joints_, c);
-    for (auto& c : walls_.contacts()) visit(walls_, c);
+  [[nodiscard]] const Joints& joints() const { return std::get<0>(groups_); }
+  [[nodiscard]] const Interface& interface() const { return std::get<2>(groups_); }
+  [[nodiscard]] std::size_t size() const {
+    std::size_t sum = 0;
+    each_group([&](const auto& group) { sum += group.size(); });
+    return sum;
   }
 
+  /// Calls visit(group, contact) for every contact of all groups.
+  template <class Visit>
+  void each(Visit&& visit) {
+    each_group([&](auto& group) {
+      for (auto& c : group.contacts()) visit(group, c);
+    });
+  }
   template <class Visit>
   void each(Visit&& visit) const {
-    for (const auto& c : joints_.contacts()) visit(joints_, c);
-    for (const auto& c : walls_.contacts()) visit(walls_, c);
+    each_group([&](const auto& group) {
+      for (const auto& c : group.contacts()) visit(group, c);
+    });
+  }
+
+  /// @throws InvalidInput  there is a lining already
+  void set_interface_law(const CoulombJoint& law) {
+    if (!interface().laws().empty()) throw InvalidInput("lining: there is already one");
+    std::get<2>(groups_) = Interface({law});
   }
 
   /// Gives every contact that is open by no more than `closed` [m] the traction of a stress field,
@@ -89,43 +103,47 @@ class ContactNetwork {
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
     bool changed = false, relisted = first_end_.size() != bodies.size() + 1;
-    const auto of_wall = [&](const typename Tracker::Pair& pair) {
-      return roles[index(tracker.body_of(pair.a))] == BodyRole::wall ||
-             roles[index(tracker.body_of(pair.b))] == BodyRole::wall;
+    const auto kind_of = [&](const typename Tracker::Pair& pair) {
+      const BodyRole a = roles[index(tracker.body_of(pair.a))],
+                     b = roles[index(tracker.body_of(pair.b))];
+      if (a == BodyRole::wall || b == BodyRole::wall) return std::size_t{1};
+      return a == BodyRole::lining || b == BodyRole::lining ? std::size_t{2} : std::size_t{0};
     };
     tracker.update(
         bodies,
         [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
-          const auto of_first = [](std::size_t, const Vec<Dim>&) { return 0; };
-          const bool in_place = of_wall(pair)
-                                    ? renew(walls_, tracker, pair, found, bodies, of_first, refound)
-                                    : renew(joints_, tracker, pair, found, bodies, law_of, refound);
-          relisted = relisted || !in_place;
+          group_of_kind(kind_of(pair), [&](auto& group, bool is_of_joints) {
+            const bool in_place =
+                renew(group, tracker, pair, found, bodies, is_of_joints, law_of, refound);
+            relisted = relisted || !in_place;
+          });
           changed = true;
         },
         [&](typename Tracker::Pair& pair) {
-          const std::size_t k = index(pair.contact);
-          refound -=
-              of_wall(pair) ? walls_.stored_energy(k, bodies) : joints_.stored_energy(k, bodies);
+          group_of_kind(kind_of(pair), [&](auto& group, bool) {
+            refound -= group.stored_energy(index(pair.contact), bodies);
+          });
           pair.contact = -1;
           is_stale_[index(tracker.body_of(pair.a))] = 1;
           is_stale_[index(tracker.body_of(pair.b))] = 1;
           relisted = changed = true;
         });
-    if (relisted) list(tracker, bodies.size(), of_wall);
+    if (relisted) list(tracker, bodies.size(), kind_of);
     return changed;
   }
 
   /// Other laws for the joints from now on: as many, of the same kind.
-  void set_laws(const LawsBySet<JointLaw>& laws) { joints_.set_laws(laws.all()); }
+  void set_laws(const LawsBySet<JointLaw>& laws) { std::get<0>(groups_).set_laws(laws.all()); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
-    const std::size_t joints = joints_.size();
-    for (std::size_t k = first; k < std::min(last, joints); ++k)
-      reactions_[k] = joints_.react(k, bodies, lost);
-    for (std::size_t k = std::max(first, joints); k < last; ++k)
-      reactions_[k] = walls_.react(k - joints, bodies, lost);
+    std::size_t before = 0;
+    each_group([&](auto& group) {
+      const std::size_t end = std::min(last, before + group.size());
+      for (std::size_t k = std::max(first, before); k < end; ++k)
+        reactions_[k] = group.react(k - before, bodies, lost);
+      before += group.size();
+    });
   }
   /// Force and moment of all contacts on a body, as last computed; world axes.
   [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {
@@ -142,8 +160,9 @@ class ContactNetwork {
 
   [[nodiscard]] double stored_energy(const Bodies& bodies) const {
     double sum = 0;
-    for (std::size_t k = 0; k < joints_.size(); ++k) sum += joints_.stored_energy(k, bodies);
-    for (std::size_t k = 0; k < walls_.size(); ++k) sum += walls_.stored_energy(k, bodies);
+    each_group([&](const auto& group) {
+      for (std::size_t k = 0; k < group.size(); ++k) sum += group.stored_energy(k, bodies);
+    });
     return sum;
   }
 
@@ -172,21 +191,43 @@ class ContactNetwork {
     return static_cast<std::size_t>(i);
   }
 
+  template <class Visit>
+  void each_group(Visit&& visit) {
+    std::apply([&](auto&... group) { (visit(group), ...); }, groups_);
+  }
+  template <class Visit>
+  void each_group(Visit&& visit) const {
+    std::apply([&](const auto&... group) { (visit(group), ...); }, groups_);
+  }
+  /// Calls visit(group, whether it is that of the joints).
+  /// @param kind  0: joints, 1: walls, 2: interface
+  template <class Visit>
+  void group_of_kind(std::size_t kind, Visit&& visit) {
+    std::size_t k = 0;
+    each_group([&](auto& group) {
+      if (k++ == kind) visit(group, kind == 0);
+    });
+  }
+
   /// Gives a pair the contact that was found.
   /// @return  true if the contact has kept its place in the lists
   template <class Group, class LawOf>
   bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
-             const Contact<Dim>& found, const Bodies& bodies, LawOf&& law_of, double& refound) {
+             const Contact<Dim>& found, const Bodies& bodies, bool has_many_laws, LawOf&& law_of,
+             double& refound) {
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
     const std::size_t owner = of_a ? pair.a : pair.b;
     const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
-    std::vector<typename Group::Point>& points = scratch_of(group);
+    std::vector<typename Group::Point> points;
     const typename Group::Contact* const old =
         known ? &group.contacts()[index(pair.contact)] : nullptr;
     typename Group::Contact contact =
         detail::ContactRenewal<Dim, Group>(bodies, group)
             .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
-    contact.law = known ? old->law : law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
+    if (known)
+      contact.law = old->law;
+    else if (has_many_laws)
+      contact.law = law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
     if (viscous_damping_ > 0)
       contact.viscosity = viscosity(
           bodies[index(a)], bodies[index(b)],
@@ -211,13 +252,6 @@ class ContactNetwork {
     is_stale_[index(a)] = is_stale_[index(b)] = 1;
     return in_place;
   }
-  template <class Group>
-  [[nodiscard]] auto& scratch_of(const Group&) {
-    if constexpr (std::is_same_v<Group, Joints>)
-      return joint_points_;
-    else
-      return wall_points_;
-  }
 
   /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the
   /// ratio wanted: c / k = 2 zeta sqrt(m / k) [s].
@@ -228,10 +262,13 @@ class ContactNetwork {
   }
 
   /// Drops what is no longer used, puts contacts in the order of the pairs, and lists every body's.
-  template <class OfWall>
-  void list(Tracker& tracker, std::size_t body_count, OfWall&& of_wall) {
-    tidy(joints_, tracker, [&](const auto& pair) { return !of_wall(pair); });
-    tidy(walls_, tracker, of_wall);
+  template <class KindOf>
+  void list(Tracker& tracker, std::size_t body_count, KindOf&& kind_of) {
+    std::size_t kind = 0;
+    each_group([&](auto& group) {
+      tidy(group, tracker, [&](const auto& pair) { return kind_of(pair) == kind; });
+      ++kind;
+    });
     reactions_.resize(size());
     first_end_.assign(body_count + 1, 0);
     each([this](const auto&, const auto& c) {
@@ -270,11 +307,12 @@ class ContactNetwork {
   [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const {
     Stiffness sum = Stiffness::Zero();
     for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
-      const std::size_t k = ends_[e].contact;
-      if (k < joints_.size())
-        add_springs(joints_, k, ends_[e].end == 1, bodies, sum);
-      else
-        add_springs(walls_, k - joints_.size(), ends_[e].end == 1, bodies, sum);
+      std::size_t before = 0;
+      each_group([&](const auto& group) {
+        const std::size_t k = ends_[e].contact - before;  // wraps where it is of a group before
+        if (k < group.size()) add_springs(group, k, ends_[e].end == 1, bodies, sum);
+        before += group.size();
+      });
     }
     return sum.rowwise().template lpNorm<1>().maxCoeff();
   }
@@ -307,8 +345,7 @@ class ContactNetwork {
     }
   }
 
-  Joints joints_;
-  Walls walls_;
+  std::tuple<Joints, Walls, Interface> groups_;
   ContactPoints rule_;
   double viscous_damping_;
   std::vector<Reaction<Dim>> reactions_;
@@ -316,8 +353,6 @@ class ContactNetwork {
   std::vector<End> ends_;
   std::vector<char> is_stale_;    ///< contacts of the body have changed since `stiffest_`
   std::vector<double> stiffest_;  ///< [1/s^2]
-  std::vector<typename Joints::Point> joint_points_;
-  std::vector<typename Walls::Point> wall_points_;
 };
 
 }  // namespace voussoir

@@ -54,10 +54,13 @@ class ContactTracker {
   /// Adds a shape to a body.
   /// @param centre    of the body, in the coordinates in which the shape is given [m]
   /// @param rotation  from the body's frame to these
-  void add(const Shape& shape, const Vec<Dim>& centre, int body, const Rotation<Dim>& rotation) {
+  /// @param family    shapes of one family never touch: the parts of a body, or of a lining
+  void add(const Shape& shape, const Vec<Dim>& centre, int body, const Rotation<Dim>& rotation,
+           int family) {
     shapes_.add(shape, centre);
     body_of_.push_back(body);
-    home_.push_back(rotation.transpose());
+    family_of_.push_back(family);
+    home_.emplace_back().noalias() = rotation.transpose();
   }
 
   /// Follows the bodies to where they are now. Calls `touches(pair, contact)` for every pair asked
@@ -146,7 +149,8 @@ class ContactTracker {
     };
     for (const auto& pair : neighbours_.pairs()) {
       const auto a = index(body_of_[pair.a]), b = index(body_of_[pair.b]);
-      if (a == b || !(bodies[a].movable() || bodies[b].movable())) continue;
+      if (family_of_[pair.a] == family_of_[pair.b]) continue;
+      if (!(bodies[a].movable() || bodies[b].movable())) continue;
       while (old != pairs_.end() && before(*old, pair)) leave_behind();
       if (old != pairs_.end() && old->a == pair.a && old->b == pair.b)
         kept.push_back(*old++);
@@ -163,7 +167,7 @@ class ContactTracker {
   double reach_, refresh_, margin_;
   double since_looked_ = 0;  ///< path of the fastest body since the list was looked at [m]
   PlacedShapes<Dim> shapes_;
-  std::vector<int> body_of_;
+  std::vector<int> body_of_, family_of_;
   std::vector<Rotation<Dim>> home_;  ///< from the shape's own frame to that of its body
   NeighbourList<Dim> neighbours_;
   std::vector<Pair> pairs_;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/thread_team.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
@@ -68,6 +69,18 @@ class Dynamics : public MovingBodies<Dim> {
     supports_.push_back(std::move(support));
     stable_step_ = 0;
     fresh_ = false;
+  }
+  /// Adds the nodes of a lining; what joins them is a support.
+  /// @param interface_law  rock on lining
+  /// @return  number of the first
+  /// @throws InvalidInput  there is one already; a node without mass or inertia
+  int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
+                       const CoulombJoint& interface_law) {
+    for (const auto& node : nodes) node.check();
+    network_.set_interface_law(interface_law);
+    const int first = this->body_count();
+    for (const auto& node : nodes) this->add_node(node, BodyRole::lining);
+    return first;
   }
   /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
   void remove(int b) {
@@ -244,7 +257,9 @@ class Dynamics : public MovingBodies<Dim> {
     for (; known_shapes_ < shapes_.size(); ++known_shapes_) {
       const auto& [shape, b] = shapes_[known_shapes_];
       const Pose<Dim> home = this->home(b);
-      tracker_->add(shape, home.position, b, home.rotation);
+      // Nodes of a lining do not touch one another: they are one family.
+      const bool of_lining = roles_[index(b)] == BodyRole::lining;
+      tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b);
     }
     known_bodies_ = bodies_.size();
     held_.resize(known_bodies_);
@@ -286,7 +301,7 @@ class Dynamics : public MovingBodies<Dim> {
   /// Looks whether the run is sound; if not, goes back to when it was, and says what is wrong.
   void check() {
     const std::string fault =
-        detail::Health<Dim>(bodies_, origin_, sizes_.speed_limit, settings_.overlap_limit)
+        detail::Health<Dim>(bodies_, roles_, origin_, sizes_.speed_limit, settings_.overlap_limit)
             .fault(std::as_const(network_), step_);
     checked_ = steps_;
     if (fault.empty()) {
@@ -419,6 +434,8 @@ class Dynamics : public MovingBodies<Dim> {
   std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
   std::unique_ptr<ThreadTeam> team_;
+  static constexpr int lining_family = -1;
+
   using Base::bodies_;
   using Base::fresh_;
   using Base::home_;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/moving_bodies.hpp>
 
 namespace voussoir::detail {
 
@@ -25,8 +25,10 @@ class Health {
  public:
   using Bodies = std::vector<MovingBody<Dim>>;
 
-  Health(const Bodies& bodies, const Vec<Dim>& origin, double speed_limit, double overlap_limit)
+  Health(const Bodies& bodies, const std::vector<BodyRole>& roles, const Vec<Dim>& origin,
+         double speed_limit, double overlap_limit)
       : bodies_(bodies),
+        roles_(roles),
         origin_(origin),
         speed_limit_(speed_limit),
         overlap_limit_(overlap_limit) {}
@@ -74,11 +76,15 @@ class Health {
 
  private:
   [[nodiscard]] std::string name_of(std::size_t b) const {
-    return (bodies_[b].movable() ? "block " : "fixed block ") + std::to_string(b) + " at " +
-           text_of<Dim>(bodies_[b].pose.position + origin_) + " m";
+    const std::string what = roles_[b] == BodyRole::lining ? "lining node "
+                             : bodies_[b].movable()        ? "block "
+                                                           : "fixed block ";
+    return what + std::to_string(b) + " at " + text_of<Dim>(bodies_[b].pose.position + origin_) +
+           " m";
   }
 
   const Bodies& bodies_;
+  const std::vector<BodyRole>& roles_;
   Vec<Dim> origin_;
   double speed_limit_, overlap_limit_;
 };

@@ -18,8 +18,24 @@ namespace voussoir {
 
 /// What a body is to those that touch it.
 enum class BodyRole : char {
-  block,  ///< rock: joints between two of them
-  wall,   ///< smooth: nothing rubs against it
+  block,   ///< rock: joints between two of them
+  wall,    ///< smooth: nothing rubs against it
+  lining,  ///< a node of a lining: rock touches it by a law of its own, no other node does
+};
+
+/// A node of a lining as a body that moves.
+template <int Dim>
+struct LiningNode {
+  Vec<Dim> place;                                        ///< [m]
+  std::vector<typename PlacedShapes<Dim>::Shape> tiles;  ///< what rock touches
+  double mass = 0;                                       ///< [kg], > 0
+  Spin<Dim> inertia = Spin<Dim>::Zero();                 ///< about its place [kg m^2], > 0
+
+  /// @throws InvalidInput  a value out of range
+  void check() const {
+    require(mass > 0 && std::isfinite(mass), "mass of a node", mass, "> 0 kg");
+    require(inertia.minCoeff() > 0, "inertia of a node", inertia.minCoeff(), "> 0 kg m^2");
+  }
 };
 
 /// The bodies of a run: their shapes, where they were added, where they are now, how they move, and
@@ -59,13 +75,7 @@ class MovingBodies {
   /// Adds a body without shape, which touches nothing.
   /// @param mass  [kg], > 0;  @param inertia  principal moments, along the axes [kg m^2], > 0
   int add_node(const Vec<Dim>& place, double mass, const Spin<Dim>& inertia) {
-    require(mass > 0 && std::isfinite(mass), "mass of a node", mass, "> 0 kg");
-    require(inertia.minCoeff() > 0, "inertia of a node", inertia.minCoeff(), "> 0 kg m^2");
-    Body body;
-    body.pose.position = place;
-    body.mass = mass;
-    body.inertia = inertia;
-    return add({}, body);
+    return add_node({place, {}, mass, inertia}, BodyRole::block);
   }
 
   // ---- changing --------------------------------------------------------------------------------
@@ -126,6 +136,15 @@ class MovingBodies {
 
  protected:
   [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
+
+  int add_node(const LiningNode<Dim>& node, BodyRole role) {
+    node.check();
+    Body body;
+    body.pose.position = node.place;
+    body.mass = node.mass;
+    body.inertia = node.inertia;
+    return add(node.tiles, body, role);
+  }
 
   /// Holds a body where it is from now on.
   void stop(int b) {

@@ -50,7 +50,7 @@ class FoundAgain {
         for (const auto& v : part.vertices())
           bodies_[index(b)].radius =
               std::max(bodies_[index(b)].radius, (v - system_.body(b).centre).norm());
-        tracker.add(part, system_.body(b).centre, b, Rotation<dim>::Identity());
+        tracker.add(part, system_.body(b).centre, b, Rotation<dim>::Identity(), b);
         parts_.push_back(&part);
       }
     }

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/motion/contact_points.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/edge_slabs.hpp>
@@ -20,31 +21,6 @@
 #include <voussoir/solver/system.hpp>
 
 namespace voussoir {
-
-/// Where a lining touches the rock: node `node` and body `body` share this facet of the wall.
-template <class Geometry>
-struct LiningContact {
-  int node, body;
-  typename Geometry::Facet facet;  ///< node on its left (2-D): anticlockwise round the opening
-};
-
-/// A straight member of a lining.
-template <class Geometry>
-struct LiningMember {
-  int first, second;  ///< node numbers
-  /// In space: towards the rock, about perpendicular to the member; bending in the plane of this
-  /// and the member is that of `LiningSection::bending_stiffness`.
-  Vec<Geometry::dim> outward = Vec<Geometry::dim>::Zero();
-  int section = 0;  ///< index into the sections given
-};
-
-/// A lining as the solver takes it: nodes, the members between them, and its contact with the rock.
-template <class Geometry>
-struct LiningFrame {
-  std::vector<Vec<Geometry::dim>> nodes;  ///< [m]
-  std::vector<LiningMember<Geometry>> members;
-  std::vector<LiningContact<Geometry>> contacts;
-};
 
 /// Rock, excavation, supports and the search for equilibrium, composed from policies.
 ///
@@ -166,23 +142,11 @@ class Solver {
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
     first_node_ = system_.body_count();
-    std::vector<double> tributary(frame.nodes.size(), 0.0), mass(frame.nodes.size(), 0.0);
-    for (const auto& member : frame.members) {
-      const auto i = static_cast<std::size_t>(member.first),
-                 j = static_cast<std::size_t>(member.second);
-      const double length = (frame.nodes[j] - frame.nodes[i]).norm();
-      require(length > 0, "length of a lining member", length, "> 0 m");
-      require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),
-              "section of a lining member", member.section, "the index of a section given");
-      for (const std::size_t node : {i, j}) {
-        tributary[node] += 0.5 * length;
-        mass[node] += 0.5 * length * sections[static_cast<std::size_t>(member.section)].mass;
-      }
-    }
+    const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
     for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
-      const double weight = mass[k] * in_situ_.gravity;
+      const double weight = shares[k].mass * in_situ_.gravity;
       const int node =
-          system_.add_body({frame.nodes[k], weight, std::max(tributary[k], 1e-3), true, false});
+          system_.add_body({frame.nodes[k], weight, std::max(shares[k].length, 1e-3), true, false});
       system_.load[dof * node + dim - 1] = -weight;
       measures_.push_back(0.0);
     }

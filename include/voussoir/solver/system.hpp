@@ -16,9 +16,10 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
+#include <voussoir/lining/frame_element.hpp>
 #include <voussoir/solver/block_matrix.hpp>
+#include <voussoir/solver/bolt_spring.hpp>
 #include <voussoir/solver/contact_group.hpp>
-#include <voussoir/solver/support_elements.hpp>
 
 namespace voussoir {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/rockmass/carving.hpp>
-#include <voussoir/solver/solver.hpp>
 
 namespace voussoir {
 
@@ -77,6 +77,31 @@ struct RingNodes {
   return nodes;
 }
 
+/// A straight part of the outline in the stretch of one node, opening on its left.
+struct OutlinePart {
+  int node;
+  Segment edge;
+};
+/// @param shortest  parts that are no longer are left out [m]
+[[nodiscard]] inline std::vector<OutlinePart> outline_parts(const SimplePolygon& opening,
+                                                            const RingNodes& nodes,
+                                                            double shortest) {
+  std::vector<OutlinePart> parts;
+  double start = 0;
+  for (std::size_t e = 0; e < opening.size(); ++e) {
+    const Segment edge = opening.edge(e);
+    const double length = edge.length();
+    for (std::size_t k = 0; k < nodes.number.size(); ++k) {
+      const double from = std::max(0.0, static_cast<double>(k) * nodes.stretch - start);
+      const double to = std::min(length, static_cast<double>(k + 1) * nodes.stretch - start);
+      if (nodes.number[k] >= 0 && to - from > shortest)
+        parts.push_back({nodes.number[k], {edge.at(from / length), edge.at(to / length)}});
+    }
+    start += length;
+  }
+  return parts;
+}
+
 }  // namespace detail
 
 /// Nodes and members of a ring, and its contact with the wall that `carve` left.
@@ -99,6 +124,9 @@ struct RingNodes {
       frame.members.push_back(
           {static_cast<int>(n), n + 1 == nodes.places.size() ? 0 : static_cast<int>(n) + 1});
   const double shortest = mass.domain.tolerance();
+  for (const detail::OutlinePart& part :
+       detail::outline_parts(mass.openings.back(), nodes, shortest))
+    frame.panels.push_back({part.node, part.edge});
   for (const WallPiece<Planar>& wall : wall_pieces(mass)) {
     const auto first = static_cast<int>(std::floor(wall.from / stretch));
     for (int k = std::max(0, first); k < ring.nodes && k * stretch < wall.to; ++k) {
@@ -164,6 +192,14 @@ struct LiningRibs {
       }
     }
   const double tolerance = mass.domain.tolerance();
+  for (const detail::OutlinePart& part : detail::outline_parts(section, nodes, tolerance))
+    for (int row = 0; row < rows; ++row) {
+      const auto at = [&](const Vec2& p, int end) {
+        return PrismaticOpening::in_space(p, from + (row + end) * width);
+      };
+      const Vec2 &a = part.edge.start, &b = part.edge.end;
+      frame.panels.push_back({node_at(row, part.node), {{at(a, 0), at(a, 1), at(b, 1), at(b, 0)}}});
+    }
   for (const WallPiece<Spatial>& wall : wall_pieces(mass)) {
     const Segment edge = section.edge(static_cast<std::size_t>(wall.edge));
     const Vec3 along = PrismaticOpening::in_space((edge.end - edge.start).normalized(), 0);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <vector>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/motion/moving_lining.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
 
@@ -115,19 +117,20 @@ struct LiningForce {
   double convergence;  ///< towards the tunnel centre since installation [m]
 };
 
-/// One entry per node: the mean of the two members that meet there.
-template <class Solver>
-[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
-  const auto& system = solver.system();
-  const int first = solver.first_lining_node();
-  if (first < 0) return {};
-  const auto count = static_cast<std::size_t>(system.body_count() - first);
-  std::vector<LiningForce> forces(count, {Vec2::Zero(), 0, 0, 0, 0});
-  std::vector<int> ends(count, 0);
-  for (const auto& frame : system.frames) {
+namespace detail {
+
+/// The mean of the two members that meet at each of `count` nodes, where the first is body `first`;
+/// position and convergence are left at zero.
+/// @param end_forces  of an element, in its axes
+template <class Elements, class EndForces>
+[[nodiscard]] std::vector<LiningForce> mean_of_members(const Elements& elements, int first,
+                                                       int count, EndForces&& end_forces) {
+  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {Vec2::Zero(), 0, 0, 0, 0});
+  std::vector<int> ends(forces.size(), 0);
+  for (const auto& element : elements) {
     // Members run anticlockwise: their second axis points into the opening, so what a beam calls
     // sagging (tension below) is tension at the outer fibre here.
-    const auto f = frame.end_forces(system.displacement.data());
+    const auto f = end_forces(element);
     const auto add = [&](int node, double thrust, double shear, double moment) {
       LiningForce& at = forces[static_cast<std::size_t>(node - first)];
       at.thrust += thrust;
@@ -135,18 +138,52 @@ template <class Solver>
       at.moment += moment;
       ++ends[static_cast<std::size_t>(node - first)];
     };
-    add(frame.i, f[0], f[1], -f[2]);
-    add(frame.j, -f[3], -f[4], f[5]);
+    add(element.i, f[0], f[1], -f[2]);
+    add(element.j, -f[3], -f[4], f[5]);
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const int body = first + static_cast<int>(k);
-    LiningForce& at = forces[k];
-    at.position = system.body(body).centre;
+  for (std::size_t k = 0; k < forces.size(); ++k) {
     const double share = ends[k] > 0 ? 1.0 / ends[k] : 0.0;
-    at.thrust *= share;
-    at.shear *= share;
-    at.moment *= share;
-    at.convergence = -solver.displacement_of(body, at.position).dot(at.position.normalized());
+    forces[k].thrust *= share;
+    forces[k].shear *= share;
+    forces[k].moment *= share;
+  }
+  return forces;
+}
+
+}  // namespace detail
+
+/// One entry per node: the mean of the two members that meet there.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+  const auto& system = solver.system();
+  const int first = solver.first_lining_node();
+  if (first < 0) return {};
+  auto forces = detail::mean_of_members(
+      system.frames, first, system.body_count() - first,
+      [&](const auto& element) { return element.end_forces(system.displacement.data()); });
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const int body = first + static_cast<int>(k);
+    forces[k].position = system.body(body).centre;
+    forces[k].convergence =
+        -solver.displacement_of(body, forces[k].position).dot(forces[k].position.normalized());
+  }
+  return forces;
+}
+
+/// The same of a lining that moves; position is where the node is now.
+template <class Run>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
+                                                     const MovingLining<Planar>& lining) {
+  const int first = lining.first_node();
+  auto forces = detail::mean_of_members(
+      lining.members(), first, lining.node_count(), [&](const auto& element) {
+        return element.end_forces(run.pose(element.i), run.pose(element.j));
+      });
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const int body = first + static_cast<int>(k);
+    const Vec2 home = run.home(body).position;
+    forces[k].position = run.position(body);
+    forces[k].convergence = (home - forces[k].position).dot(home.normalized());
   }
   return forces;
 }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/lining/lining_model.hpp>
+
+namespace voussoir {
+
+/// The axes of an element, in rows. The first runs along it. In space the second lies in the plane
+/// of the element and `outward`, on its side.
+/// @param along  from the first node to the second, of any length
+template <int Dim>
+[[nodiscard]] Rotation<Dim> frame_axes(const Vec<Dim>& along, const Vec<Dim>& outward) {
+  const Vec<Dim> x = along.normalized();
+  Rotation<Dim> axes;
+  if constexpr (Dim == 2) {
+    axes << x.x(), x.y(), -x.y(), x.x();
+  } else {
+    const Vec3 y = (outward - outward.dot(x) * x).normalized();
+    axes << x.transpose(), y.transpose(), cross(x, y).transpose();
+  }
+  return axes;
+}
+
+/// World axes to those of an element, for translations and rotations of both ends.
+template <int Dim>
+[[nodiscard]] ElementMatrix<Dim + spin_count<Dim>> in_element_axes(const Rotation<Dim>& axes) {
+  constexpr int dof = Dim + spin_count<Dim>;
+  ElementMatrix<dof> turn = ElementMatrix<dof>::Zero();
+  for (int end = 0; end < 2; ++end) {
+    turn.template block<Dim, Dim>(dof * end, dof * end) = axes;
+    if constexpr (Dim == 2)
+      turn(dof * end + 2, dof * end + 2) = 1;
+    else
+      turn.template block<3, 3>(dof * end + 3, dof * end + 3) = axes;
+  }
+  return turn;
+}
+
+/// A straight piece of lining between two nodes.
+template <class Geometry>
+struct FrameElement {
+  static constexpr int dim = Geometry::dim;
+  static constexpr int dof = Geometry::dof;
+  using Matrix = ElementMatrix<dof>;
+  using Values = Eigen::Matrix<double, 2 * dof, 1>;
+
+  /// @param axes  of the element, in rows (see `frame_axes`)
+  FrameElement(int first, int second, double rest_length, const Rotation<dim>& axes,
+               const Matrix& stiffness)
+      : i(first),
+        j(second),
+        length(rest_length),
+        at_rest(axes),
+        turn(in_element_axes<dim>(axes)),
+        local(stiffness) {}
+
+  int i, j;               ///< nodes, as bodies of the system
+  double length;          ///< at rest [m]
+  Rotation<dim> at_rest;  ///< its axes, in rows
+  Matrix turn;            ///< world to element axes
+  Matrix local;           ///< stiffness in element axes
+  /// Forces on the ends at displacement zero, element axes: not zero once contacts have been found
+  /// again, and the element has turned.
+  Values start = Values::Zero();
+
+  /// Forces on the two ends in element axes at displacement `u`.
+  [[nodiscard]] Values end_forces(const double* u) const {
+    Values q;
+    q << Eigen::Map<const Eigen::Matrix<double, dof, 1>>(u + dof * i),
+        Eigen::Map<const Eigen::Matrix<double, dof, 1>>(u + dof * j);
+    return start + local * (turn * q);
+  }
+  /// The same with the nodes anywhere: from the length of the chord and the turns of the nodes
+  /// against it, which are small.
+  /// @param a, b  of the nodes; turned from how they were at rest
+  [[nodiscard]] Values end_forces(const Pose<dim>& a, const Pose<dim>& b) const {
+    return local * deformation(a, b);
+  }
+  /// Forces and moments that it puts on its nodes then, world axes.
+  [[nodiscard]] Values push(const Pose<dim>& a, const Pose<dim>& b) const {
+    const Rotation<dim> now = axes_along(b.position - a.position, a);
+    return -(in_element_axes<dim>(now).transpose() * end_forces(a, b));
+  }
+  /// Energy that it holds then [J].
+  [[nodiscard]] double energy(const Pose<dim>& a, const Pose<dim>& b) const {
+    const Values q = deformation(a, b);
+    return 0.5 * q.dot(local * q);
+  }
+  /// Turns the element to where its nodes are now; it keeps its forces.
+  void follow(const Pose<dim>& a, const Pose<dim>& b, const double* u) {
+    const Values forces = end_forces(a, b);
+    turn = in_element_axes<dim>(axes_along(b.position - a.position, a));
+    start.setZero();
+    start = forces - end_forces(u);
+  }
+
+  void add_force(const double* u, double* f) const {
+    const Values back = turn.transpose() * end_forces(u);
+    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* i} -= back.template head<dof>();
+    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* j} -= back.template tail<dof>();
+  }
+  template <class Sink>
+  void add_stiffness(Sink&& sink) const {
+    const Matrix k = turn.transpose() * local * turn;
+    using Block = Eigen::Matrix<double, dof, dof>;
+    sink(i, j, Block(k.template topLeftCorner<dof, dof>()),
+         Block(k.template topRightCorner<dof, dof>()),
+         Block(k.template bottomRightCorner<dof, dof>()));
+  }
+
+ private:
+  /// Displacements of the ends that strain it, element axes: the second node along the chord, and
+  /// both turns against it.
+  [[nodiscard]] Values deformation(const Pose<dim>& a, const Pose<dim>& b) const {
+    const Vec<dim> along = b.position - a.position;
+    const Rotation<dim> now = axes_along(along, a);
+    Values q = Values::Zero();
+    q[dof] = along.norm() - length;
+    q.template segment<dof - dim>(dim) = small_turn(now * a.rotation * at_rest.transpose());
+    q.template segment<dof - dim>(dof + dim) = small_turn(now * b.rotation * at_rest.transpose());
+    return q;
+  }
+  /// Axes of the element along a chord, its second axis turned with node a.
+  [[nodiscard]] Rotation<dim> axes_along(const Vec<dim>& along, const Pose<dim>& a) const {
+    return frame_axes<dim>(along, a.rotation * Vec<dim>(at_rest.row(1).transpose()));
+  }
+  /// The vector of a rotation that is small [rad].
+  [[nodiscard]] static Spin<dim> small_turn(const Rotation<dim>& r) {
+    if constexpr (dim == 2)
+      return Spin<2>(0.5 * (r(1, 0) - r(0, 1)));
+    else
+      return 0.5 * Spin<3>(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
+  }
+};
+
+}  // namespace voussoir

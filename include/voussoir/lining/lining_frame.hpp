@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/lining/lining_model.hpp>
+
+namespace voussoir {
+
+/// Where a lining touches the rock: node `node` and body `body` share this facet of the wall.
+template <class Geometry>
+struct LiningContact {
+  int node, body;
+  typename Geometry::Facet facet;  ///< node on its left (2-D): anticlockwise round the opening
+};
+
+/// A straight member of a lining.
+template <class Geometry>
+struct LiningMember {
+  int first, second;  ///< node numbers
+  /// In space: towards the rock, about perpendicular to the member; bending in the plane of this
+  /// and the member is that of `LiningSection::bending_stiffness`.
+  Vec<Geometry::dim> outward = Vec<Geometry::dim>::Zero();
+  int section = 0;  ///< index into the sections given
+};
+
+/// The part of a lining's outer side that stands for a node, whether rock is there or not.
+template <class Geometry>
+struct LiningPanel {
+  int node;
+  typename Geometry::Facet facet;  ///< node on its left, as in `LiningContact`
+};
+
+/// A lining as solvers take it: nodes, the members between them, and its contact with the rock.
+template <class Geometry>
+struct LiningFrame {
+  std::vector<Vec<Geometry::dim>> nodes;  ///< [m]
+  std::vector<LiningMember<Geometry>> members;
+  std::vector<LiningContact<Geometry>> contacts;
+  std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
+};
+
+/// What a node has of the members that meet there.
+struct LiningNodeShare {
+  double length = 0;  ///< half of every member [m]
+  double mass = 0;    ///< [kg]
+};
+
+/// @return  one for every node
+/// @throws InvalidInput  a member without length, or of a section that is not given
+template <class Geometry>
+[[nodiscard]] std::vector<LiningNodeShare> node_shares(const LiningFrame<Geometry>& frame,
+                                                       const std::vector<LiningSection>& sections) {
+  std::vector<LiningNodeShare> shares(frame.nodes.size());
+  for (const auto& member : frame.members) {
+    const auto i = static_cast<std::size_t>(member.first),
+               j = static_cast<std::size_t>(member.second);
+    const double length = (frame.nodes[j] - frame.nodes[i]).norm();
+    require(length > 0, "length of a lining member", length, "> 0 m");
+    require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),
+            "section of a lining member", member.section, "the index of a section given");
+    for (const std::size_t node : {i, j}) {
+      shares[node].length += 0.5 * length;
+      shares[node].mass += 0.5 * length * sections[static_cast<std::size_t>(member.section)].mass;
+    }
+  }
+  return shares;
+}
+
+}  // namespace voussoir
