@@ -122,13 +122,19 @@ class ContactNetwork {
         [&](typename Tracker::Pair& pair) {
           group_of_kind(kind_of(pair), [&](auto& group, bool) {
             refound -= group.stored_energy(index(pair.contact), bodies);
+            auto& contact = group.contacts()[index(pair.contact)];
+            contact.last = contact.first;
           });
           pair.contact = -1;
+          ++unused_;
           is_stale_[index(tracker.body_of(pair.a))] = 1;
           is_stale_[index(tracker.body_of(pair.b))] = 1;
           relisted = changed = true;
         });
-    if (relisted) list(tracker, bodies.size(), kind_of);
+    if (relisted) {
+      if (unused_ > size() / 16) tidy(tracker, kind_of);
+      list(bodies.size());
+    }
     return changed;
   }
 
@@ -239,6 +245,7 @@ class ContactNetwork {
       contact.first = old->first;
       std::copy(points.begin(), points.end(), group.points().begin() + contact.first);
     } else {
+      if (known) ++unused_;
       contact.first = static_cast<std::int32_t>(group.points().size());
       group.points().insert(group.points().end(), points.begin(), points.end());
     }
@@ -261,28 +268,35 @@ class ContactNetwork {
     return 2 * viscous_damping_ * std::sqrt(mass / stiffness);
   }
 
-  /// Drops what is no longer used, puts contacts in the order of the pairs, and lists every body's.
+  /// Lists every body's contacts; those without points are on no list.
+  void list(std::size_t body_count) {
+    reactions_.resize(size());
+    first_end_.assign(body_count + 1, 0);
+    each([this](const auto&, const auto& c) {
+      if (c.first == c.last) return;
+      ++first_end_[index(c.a) + 1];
+      ++first_end_[index(c.b) + 1];
+    });
+    for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
+    ends_.resize(first_end_.back());
+    std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
+    std::uint32_t k = 0;
+    each([&](const auto&, const auto& c) {
+      const std::uint32_t contact = k++;
+      if (c.first == c.last) return;
+      ends_[next[index(c.a)]++] = {contact, 0};
+      ends_[next[index(c.b)]++] = {contact, 1};
+    });
+  }
+  /// Drops what is no longer used, and puts contacts in the order of the pairs.
   template <class KindOf>
-  void list(Tracker& tracker, std::size_t body_count, KindOf&& kind_of) {
+  void tidy(Tracker& tracker, KindOf&& kind_of) {
     std::size_t kind = 0;
     each_group([&](auto& group) {
       tidy(group, tracker, [&](const auto& pair) { return kind_of(pair) == kind; });
       ++kind;
     });
-    reactions_.resize(size());
-    first_end_.assign(body_count + 1, 0);
-    each([this](const auto&, const auto& c) {
-      ++first_end_[index(c.a) + 1];
-      ++first_end_[index(c.b) + 1];
-    });
-    for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
-    ends_.resize(2 * size());
-    std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
-    std::uint32_t k = 0;
-    each([&](const auto&, const auto& c) {
-      ends_[next[index(c.a)]++] = {k, 0};
-      ends_[next[index(c.b)]++] = {k++, 1};
-    });
+    unused_ = 0;
   }
   template <class Group, class Belongs>
   static void tidy(Group& group, Tracker& tracker, Belongs&& belongs) {
@@ -348,6 +362,7 @@ class ContactNetwork {
   std::tuple<Joints, Walls, Interface> groups_;
   ContactPoints rule_;
   double viscous_damping_;
+  std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
   std::vector<Reaction<Dim>> reactions_;
   std::vector<std::uint32_t> first_end_;  ///< of every body in `ends_`, and one more
   std::vector<End> ends_;

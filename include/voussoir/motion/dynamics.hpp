@@ -241,10 +241,15 @@ class Dynamics : public MovingBodies<Dim> {
   void begin() {
     if (known_bodies_ < bodies_.size()) take_in();
     if (fresh_) return;
-    Dissipation none;  // nothing slips that has not already
-    network_.react(0, network_.size(), bodies_, none);
-    act_supports();
-    for (std::size_t b = 0; b < bodies_.size(); ++b) settle(b);
+    team_->run([&](unsigned member) {
+      const auto bodies = team_->share(bodies_.size(), member);
+      const auto contacts = team_->share(network_.size(), member);
+      Dissipation none;  // nothing slips that has not already
+      network_.react(contacts.first, contacts.last, bodies_, none);
+      if (member == 0) act_supports();
+      team_->meet();
+      for (std::size_t b = bodies.first; b < bodies.last; ++b) settle(b);
+    });
     fresh_ = true;
   }
 
