@@ -29,6 +29,7 @@ Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
   acceptance.displacement_limit = input.run.displacement_limit;
+  acceptance.refind_limit = input.run.refind_limit;
   // A quarter of the opening's own area: more than any spalling, less than any cave.
   acceptance.collapse_measure = 0.25 * opening.area();
   return acceptance;

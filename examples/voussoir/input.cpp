@@ -302,6 +302,11 @@ void read_run(Section& s, RunInput& run) {
   s.number("tolerance", run.tolerance, between(1e-8, 0.1), Need::optional);
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);
+  const bool refinds = s.find("refind_limit", Need::optional).has_value();
+  s.quantity("refind_limit", run.refind_limit, dimension::length, above(0), Need::optional);
+  if (refinds && run.refind_limit >= run.displacement_limit)
+    s.complain("refind_limit", "is never reached: a block that has moved so far has fallen",
+               "a length below displacement_limit");
   if (const auto value = s.find("max_steps", Need::optional))
     run.max_steps = value->as_integer(1, 2'000'000'000);
   const auto of_explicit = [&] {

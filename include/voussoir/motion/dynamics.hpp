@@ -309,6 +309,8 @@ class Dynamics : public MovingBodies<Dim> {
         detail::Health<Dim>(bodies_, roles_, origin_, sizes_.speed_limit, settings_.overlap_limit)
             .fault(std::as_const(network_), step_);
     checked_ = steps_;
+    audit_.highest_kinetic =
+        std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
     if (fault.empty()) {
       sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, kinetic_given_, time_, steps_});
       return;

@@ -22,16 +22,17 @@ struct EnergyAudit {
   double viscosity = 0;  ///< lost to dashpots at contacts
   double damping = 0;    ///< lost to local damping
   double refound = 0;    ///< given to the springs where contacts were found anew in another form
+  double highest_kinetic = 0;  ///< of the differences seen at checks so far: what has been at stake
 
   /// What is held and lost, less the work done: zero but for the error of the steps.
   [[nodiscard]] double imbalance() const {
     return kinetic + contacts + supports + friction + viscosity + damping - gravity - loads -
            refound;
   }
-  /// The largest of the amounts that should balance.
+  /// The largest of the amounts that should balance, now or at the height of the motion.
   [[nodiscard]] double scale() const {
     return std::max({std::abs(kinetic), std::abs(contacts), std::abs(supports), std::abs(gravity),
-                     std::abs(loads), friction, viscosity, damping});
+                     std::abs(loads), friction, viscosity, damping, highest_kinetic});
   }
   /// Imbalance over the largest amount [-]; 0 where nothing has happened.
   [[nodiscard]] double relative_imbalance() const {
