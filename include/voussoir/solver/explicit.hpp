@@ -73,9 +73,12 @@ class Explicit {
       system.template forces<Committing>(u, f);
       ++report.steps;
       // Velocity Verlet in its leapfrog form: velocities live at half steps.
-      velocity.array() += step * inverse_mass.array() *
-                          (f.array() - params_.damping * f.array().abs() * velocity.array().sign());
-      u += step * velocity;
+      // A loop: Eigen's sign() is not made of vector instructions.
+      for (Eigen::Index k = 0; k < u.size(); ++k) {
+        const double along = velocity[k] > 0 ? 1.0 : velocity[k] < 0 ? -1.0 : 0.0;
+        velocity[k] += step * inverse_mass[k] * (f[k] - params_.damping * std::abs(f[k]) * along);
+        u[k] += step * velocity[k];
+      }
       if (report.steps % params_.check_every != 0) continue;
       report.largest_displacement = system.largest_translation(u);
       if (!u.allFinite())  // a maximum does not tell: it passes over what is not a number
