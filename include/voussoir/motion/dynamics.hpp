@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,8 +64,7 @@ class Dynamics : public MovingBodies<Dim> {
   /// Adds what holds bodies besides contacts; at any time.
   void add_support(std::shared_ptr<Support<Dim>> support) {
     begin();
-    supports_at_start_ += support->energy(bodies_);
-    supports_.push_back(std::move(support));
+    supports_.add(std::move(support), bodies_);
     stable_step_ = 0;
     fresh_ = false;
   }
@@ -175,9 +173,10 @@ class Dynamics : public MovingBodies<Dim> {
     EnergyAudit now = audit_;
     now.kinetic = this->kinetic_energy() - kinetic_given_;
     now.contacts = network_.stored_energy(bodies_) - contacts_at_start_;
-    now.supports = support_energy() - supports_at_start_;
+    now.supports = supports_.energy(bodies_);
     return now;
   }
+
   /// The largest step that is stable for the contacts there are, damping included [s]; infinite
   /// without contacts.
   ///
@@ -187,12 +186,7 @@ class Dynamics : public MovingBodies<Dim> {
   /// sqrt(1 + zeta^2) - zeta.
   [[nodiscard]] double stable_step() {
     begin();
-    std::vector<double> sums = network_.stiffness_over_mass(bodies_);
-    for (const auto& support : supports_) support->add_stiffness_over_mass(bodies_, sums);
-    const double largest = *std::max_element(sums.begin(), sums.end());
-    const double zeta = settings_.viscous_damping;
-    return 2 / std::sqrt(2 * largest * (1 + settings_.local_damping)) *
-           (std::sqrt(1 + zeta * zeta) - zeta);
+    return longest_step();
   }
 
   /// Moves on by a time; steps are shortened a little so that a whole number of them meets it.
@@ -203,7 +197,7 @@ class Dynamics : public MovingBodies<Dim> {
     while (end - time_ > 1e-12 * std::max(time, step_)) {
       const double step = choose_step();
       const int steps = static_cast<int>(std::min(std::ceil((end - time_) / step - 1e-9), 1e9));
-      const int batch = std::min(steps, batch_size(step));
+      const int batch = std::min(steps, sizes_.steps_in_batch(bodies_, settings_, step));
       // A last step of another length would spoil the order of the scheme: all are shortened.
       run_batch(batch, batch == steps ? (end - time_) / steps : step);
     }
@@ -214,7 +208,7 @@ class Dynamics : public MovingBodies<Dim> {
     require(count >= 0, "steps to advance", count, ">= 0");
     while (count > 0) {
       const double step = choose_step();
-      const int batch = std::min(count, batch_size(step));
+      const int batch = std::min(count, sizes_.steps_in_batch(bodies_, settings_, step));
       run_batch(batch, step);
       count -= batch;
     }
@@ -239,21 +233,14 @@ class Dynamics : public MovingBodies<Dim> {
 
   /// Before anything is asked: bodies that are new are taken in, and forces computed.
   void begin() {
-    if (known_bodies_ < bodies_.size()) take_in();
+    take_in();
     if (fresh_) return;
-    team_->run([&](unsigned member) {
-      const auto bodies = team_->share(bodies_.size(), member);
-      const auto contacts = team_->share(network_.size(), member);
-      Dissipation none;  // nothing slips that has not already
-      network_.react(contacts.first, contacts.last, bodies_, none);
-      if (member == 0) act_supports();
-      team_->meet();
-      for (std::size_t b = bodies.first; b < bodies.last; ++b) settle(b);
-    });
+    team_->run([this](unsigned member) { freshen(member); });
     fresh_ = true;
   }
 
   void take_in() {
+    if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
     const bool is_first = known_bodies_ == 0;
     if (is_first) {
       sizes_ = detail::RunSizes::choose(bodies_, settings_);
@@ -268,7 +255,6 @@ class Dynamics : public MovingBodies<Dim> {
     }
     known_bodies_ = bodies_.size();
     held_.resize(known_bodies_);
-    support_loads_.resize(known_bodies_);
     acting_.resize(known_bodies_);
     find_contacts();
     sound_.reset();  // it does not know them
@@ -279,14 +265,9 @@ class Dynamics : public MovingBodies<Dim> {
   void start_audit() {
     kinetic_given_ = this->kinetic_energy();
     contacts_at_start_ = network_.stored_energy(bodies_);
-    supports_at_start_ = support_energy();
+    supports_.start(bodies_);
     audit_ = {};
     fresh_ = false;
-  }
-  [[nodiscard]] double support_energy() const {
-    double sum = 0;
-    for (const auto& support : supports_) sum += support->energy(bodies_);
-    return sum;
   }
 
   void find_contacts() {
@@ -332,10 +313,18 @@ class Dynamics : public MovingBodies<Dim> {
 
   // ---- steps -----------------------------------------------------------------------------------
 
+  [[nodiscard]] double longest_step() {
+    std::vector<double> sums = network_.stiffness_over_mass(bodies_);
+    supports_.add_stiffness_over_mass(bodies_, sums);
+    const double largest = *std::max_element(sums.begin(), sums.end());
+    const double zeta = settings_.viscous_damping;
+    return 2 / std::sqrt(2 * largest * (1 + settings_.local_damping)) *
+           (std::sqrt(1 + zeta * zeta) - zeta);
+  }
   [[nodiscard]] double choose_step() {
-    begin();
+    take_in();
     if (!sound_) check();
-    if (stable_step_ == 0) stable_step_ = stable_step();
+    if (stable_step_ == 0) stable_step_ = longest_step();
     if (settings_.time_step > stable_step_)
       throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
                            detail::short_number(settings_.time_step) +
@@ -347,34 +336,19 @@ class Dynamics : public MovingBodies<Dim> {
     return step_;
   }
 
-  /// Steps that can be made before contacts must be looked at again.
-  [[nodiscard]] int batch_size(double step) const {
-    if (!settings_.find_contacts) return settings_.check_every;
-    double fastest = settings_.gravity * step;
-    for (const Body& body : bodies_)
-      if (body.movable())
-        fastest = std::max(fastest, body.velocity.norm() + body.spin().norm() * body.radius);
-    // Both bodies of a pair move, and may get faster.
-    const double steps = 0.5 * std::min(sizes_.refresh, 0.5 * tracker_->reach()) / (fastest * step);
-    return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(settings_.check_every)));
-  }
-
   void run_batch(int count, double step) {
-    begin();
     step_ = step;
     sums_.assign(team_->size(), {});
     team_->run([&](unsigned member) {
+      if (!fresh_) freshen(member);
       Sums& sums = sums_[member];
       const auto bodies = team_->share(bodies_.size(), member);
-      const auto contacts = team_->share(network_.size(), member);
       for (int k = 0; k < count; ++k) {
         for (std::size_t b = bodies.first; b < bodies.last; ++b)
           if (bodies_[b].movable()) start(b, step, sums);
         team_->meet();
-        network_.react(contacts.first, contacts.last, bodies_, sums.lost);
+        respond(member, sums.lost);
         sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
-        if (member == 0) act_supports();
-        team_->meet();
         for (std::size_t b = bodies.first; b < bodies.last; ++b)
           if (bodies_[b].movable()) {
             settle(b);
@@ -382,6 +356,7 @@ class Dynamics : public MovingBodies<Dim> {
           }
       }
     });
+    fresh_ = true;
     for (const Sums& sums : sums_) {
       audit_.friction += sums.lost.friction;
       audit_.viscosity += sums.viscosity;
@@ -397,23 +372,28 @@ class Dynamics : public MovingBodies<Dim> {
     if (settings_.find_contacts) find_contacts();
   }
 
-  void act_supports() {
-    if (supports_.empty()) return;
-    for (const auto& support : supports_)
-      for (const int b : support->bodies()) support_loads_[index(b)] = {};
-    for (const auto& support : supports_) support->act(bodies_, support_loads_);
+  /// A member's share of what contacts and supports do to the bodies where they are; all of it is
+  /// done when it returns.
+  void respond(unsigned member, Dissipation& lost) {
+    const auto contacts = team_->share(network_.size(), member);
+    network_.react(contacts.first, contacts.last, bodies_, lost);
+    if (member == 0) supports_.act(bodies_);
+    team_->meet();
   }
-
+  /// A member's share of bringing what acts on the bodies up to date, with nothing moving.
+  void freshen(unsigned member) {
+    Dissipation none;  // nothing slips that has not already
+    respond(member, none);
+    const auto bodies = team_->share(bodies_.size(), member);
+    for (std::size_t b = bodies.first; b < bodies.last; ++b) settle(b);
+  }
   /// All that acts on a body but local damping, world axes.
   [[nodiscard]] Load<Dim> total_load(std::size_t b) const {
     auto [force, moment] = network_.gather(b);
     force += loads_[b].force + held_fraction_ * held_[b].force;
     force[Dim - 1] -= bodies_[b].mass * settings_.gravity;
     moment += loads_[b].moment + held_fraction_ * held_[b].moment;
-    if (!supports_.empty()) {
-      force += support_loads_[b].force;
-      moment += support_loads_[b].moment;
-    }
+    supports_.add_load_on(b, force, moment);
     return {force, moment};
   }
 
@@ -452,14 +432,14 @@ class Dynamics : public MovingBodies<Dim> {
   using Base::origin_;
   using Base::roles_;
   using Base::shapes_;
-  std::vector<Load<Dim>> held_, support_loads_;
+  std::vector<Load<Dim>> held_;
   double held_fraction_ = 0;
-  std::vector<std::shared_ptr<Support<Dim>>> supports_;
+  SupportSet<Dim> supports_;
   std::vector<detail::HalfStep<Dim>> acting_;
   std::optional<ContactTracker<Dim>> tracker_;
   std::vector<Sums> sums_;
   EnergyAudit audit_;
-  double contacts_at_start_ = 0, supports_at_start_ = 0;
+  double contacts_at_start_ = 0;
   detail::RunSizes sizes_{};
   double time_ = 0, step_ = 0, stable_step_ = 0;
   std::int64_t steps_ = 0, checked_ = 0;

@@ -102,6 +102,8 @@ class MovingBodies {
   [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] const Body& body(int b) const { return bodies_[index(b)]; }
   [[nodiscard]] BodyRole role(int b) const { return roles_[index(b)]; }
+  /// All shapes, where they were added, with their body; where one is now: motion(body).
+  [[nodiscard]] const std::vector<std::pair<Shape, int>>& shapes() const { return shapes_; }
 
   /// Where a body is: from its own frame to the world.
   [[nodiscard]] Pose<Dim> pose(int b) const { return in_world(bodies_[index(b)].pose); }

@@ -45,6 +45,20 @@ struct RunSizes {
     if (!(sizes.speed_limit > 0)) sizes.speed_limit = std::numeric_limits<double>::infinity();
     return sizes;
   }
+
+  /// Steps that can be made before contacts must be looked at again.
+  template <int Dim>
+  [[nodiscard]] int steps_in_batch(const std::vector<MovingBody<Dim>>& bodies,
+                                   const DynamicsSettings& settings, double step) const {
+    if (!settings.find_contacts) return settings.check_every;
+    double fastest = settings.gravity * step;
+    for (const MovingBody<Dim>& body : bodies)
+      if (body.movable())
+        fastest = std::max(fastest, body.velocity.norm() + body.spin().norm() * body.radius);
+    // Both bodies of a pair move, and may get faster.
+    const double steps = 0.5 * std::min(refresh, 0.5 * reach) / (fastest * step);
+    return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(settings.check_every)));
+  }
 };
 
 }  // namespace voussoir::detail
