@@ -57,6 +57,22 @@ TEST_SUITE("motion/bolts") {
     CHECK(std::abs(run.position(block).y()) < 1e-5);
   }
 
+  TEST_CASE("a run that goes back to its last sound state takes its bolts with it") {
+    Run run(joint, {.gravity = 0, .speed_limit = 10});
+    const int a = run.add_fixed_block(rectangle({0, 0}, 1, 1));
+    const int b = run.add_block(rectangle({2, 0}, 1, 1), 2700);
+    const auto bolts =
+        between(run, a, b, {2, 0}, AxialBolt({.axial_stiffness = 1e8, .rupture_force = 5e4}));
+    run.add_support(bolts);
+    run.advance_steps(1);
+    run.set_velocity(b, {50, 0});
+    CHECK_THROWS_AS(run.advance_steps(200), NumericalFault);
+    CHECK(run.steps() == 0);
+    CHECK(!bolts->springs()[0].broken);
+    CHECK(bolts->springs()[0].axial == 0);
+    CHECK(run.energy().supports == 0);
+  }
+
   TEST_CASE("its force follows the line between anchors far apart, as the closed form says") {
     // Pulled across by s: K (sqrt(d^2 + s^2) - d), most of it across only when s is large.
     const double stiffness = 2e8, d = 0.77;

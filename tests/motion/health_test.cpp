@@ -138,6 +138,8 @@ TEST_SUITE("motion/health") {
     run.advance_steps(1);
     CHECK_THROWS_AS(run.add_block(rectangle({5, 5}, 1, 1), 0), InvalidInput);
     CHECK_THROWS_AS(run.advance(-1), InvalidInput);
+    CHECK_THROWS_AS(run.set_local_damping(1.5), InvalidInput);
+    CHECK(run.settings().local_damping == 0);  // as it was
   }
 
   TEST_CASE("without damping and without friction a run is not at fault") {

@@ -98,6 +98,23 @@ TEST_SUITE("solver/lined_rock") {
     }
   }
 
+  // Bars between pins that the rock pushes in their middle, there and here.
+  TEST_CASE("so does a ring of bars") {
+    const auto opening = circular_opening(5, 36);
+    Solver<PinnedBar> still(jointed_rock(domain_around(opening, 20, 7, 7), 4), joint, in_situ);
+    still.excavate(opening);
+    const auto frame = lining_frame(still.mass(), {.nodes = 36});
+    still.install_lining(frame, shotcrete(360), interface_law);
+    REQUIRE(still.equilibrium(0).verdict == Verdict::stable);
+    auto run = moving_rock(still.mass(), joint, in_situ,
+                           {.local_damping = 0.8, .points = ContactPoints::gauss});
+    const auto lining = add_lining<PinnedBar>(run, frame, {shotcrete(360)}, interface_law, 0.15);
+    unload(run, 1, 0, 4);
+    const Mean a = mean_of(lining_forces(still)), b = mean_of(lining_forces(run, *lining));
+    CHECK(b.thrust == doctest::Approx(a.thrust).epsilon(0.01));
+    CHECK(b.largest_moment == 0);
+  }
+
   TEST_CASE("so do ribs in space") {
     const Domain<3> ground{{-6, 0, -6}, {6, 2, 7}};
     SpatialJointSet a{"J1", 75 * degree, 80 * degree}, b{"J2", 25 * degree, 100 * degree},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,8 +66,7 @@ class Dynamics : public MovingBodies<Dim> {
   void add_support(std::shared_ptr<Support<Dim>> support) {
     begin();
     supports_.add(std::move(support), bodies_);
-    stable_step_ = 0;
-    fresh_ = false;
+    forget();
   }
   /// Adds the nodes of a lining; what joins them is a support.
   /// @param interface_law  rock on lining
@@ -90,8 +90,7 @@ class Dynamics : public MovingBodies<Dim> {
   void fix(int b) {
     begin();
     this->stop(b);
-    sound_.reset();  // it knows this block otherwise
-    stable_step_ = 0;
+    forget();
   }
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
@@ -100,14 +99,14 @@ class Dynamics : public MovingBodies<Dim> {
     const double before = network_.stored_energy(bodies_);
     network_.set_laws(laws);
     contacts_at_start_ += network_.stored_energy(bodies_) - before;
-    sound_.reset();  // it has the laws of before
-    stable_step_ = 0;
-    fresh_ = false;
+    forget();
   }
   /// @param alpha  local damping from now on [-], 0 <= alpha < 1
   void set_local_damping(double alpha) {
-    settings_.local_damping = alpha;
-    settings_.check();
+    DynamicsSettings settings = settings_;
+    settings.local_damping = alpha;
+    settings.check();
+    settings_ = settings;
     stable_step_ = 0;
   }
   /// Gives every closed contact the traction of a stress field in which the blocks as they lie now
@@ -215,18 +214,14 @@ class Dynamics : public MovingBodies<Dim> {
   }
 
  private:
-  /// Sums of one member of the team; apart in memory.
-  struct alignas(64) Sums {
-    Dissipation lost;
-    double viscosity = 0;  ///< [J]
-    detail::StepWork work;
-  };
+  using Sums = detail::MemberSums;
   /// All that a run goes back to when it goes bad.
   struct Sound {
     std::vector<Body> bodies;
     Network network;
     ContactTracker<Dim> tracker;
     EnergyAudit audit;
+    std::function<void()> supports;  ///< restores their histories
     double kinetic_given, time;
     std::int64_t steps;
   };
@@ -257,9 +252,14 @@ class Dynamics : public MovingBodies<Dim> {
     held_.resize(known_bodies_);
     acting_.resize(known_bodies_);
     find_contacts();
-    sound_.reset();  // it does not know them
-    stable_step_ = 0;
+    forget();
     if (is_first) start_audit();
+  }
+  /// After a change by hand: the last sound state knows nothing of it, nor does what was computed.
+  void forget() {
+    sound_.reset();
+    stable_step_ = 0;
+    fresh_ = false;
   }
 
   void start_audit() {
@@ -267,7 +267,7 @@ class Dynamics : public MovingBodies<Dim> {
     contacts_at_start_ = network_.stored_energy(bodies_);
     supports_.start(bodies_);
     audit_ = {};
-    fresh_ = false;
+    forget();
   }
 
   void find_contacts() {
@@ -293,7 +293,8 @@ class Dynamics : public MovingBodies<Dim> {
     audit_.highest_kinetic =
         std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
     if (fault.empty()) {
-      sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, kinetic_given_, time_, steps_});
+      sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, supports_.keep(), kinetic_given_,
+                           time_, steps_});
       return;
     }
     const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
@@ -302,6 +303,7 @@ class Dynamics : public MovingBodies<Dim> {
     network_ = sound_->network;
     tracker_ = sound_->tracker;
     audit_ = sound_->audit;
+    sound_->supports();
     kinetic_given_ = sound_->kinetic_given;
     time_ = sound_->time;
     steps_ = checked_ = sound_->steps;
@@ -357,13 +359,7 @@ class Dynamics : public MovingBodies<Dim> {
       }
     });
     fresh_ = true;
-    for (const Sums& sums : sums_) {
-      audit_.friction += sums.lost.friction;
-      audit_.viscosity += sums.viscosity;
-      audit_.gravity += sums.work.gravity;
-      audit_.loads += sums.work.loads;
-      audit_.damping += sums.work.damping;
-    }
+    for (const Sums& sums : sums_) sums.add_to(audit_);
     steps_ += count;
     time_ += count * step;
     for (Body& body : bodies_)

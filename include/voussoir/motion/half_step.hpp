@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/motion/energy_audit.hpp>
 #include <voussoir/motion/moving_body.hpp>
+#include <voussoir/motion/moving_contacts.hpp>
 #include <voussoir/motion/support.hpp>
 
 namespace voussoir::detail {
@@ -13,6 +15,21 @@ struct StepWork {
   double gravity = 0;
   double loads = 0;
   double damping = 0;  ///< taken away by local damping
+};
+
+/// What one member of a team has summed up in some steps; apart in memory from the others.
+struct alignas(64) MemberSums {
+  Dissipation lost;      ///< `viscosity` only within a step
+  double viscosity = 0;  ///< [J]
+  StepWork work;
+
+  void add_to(EnergyAudit& audit) const {
+    audit.friction += lost.friction;
+    audit.viscosity += viscosity;
+    audit.gravity += work.gravity;
+    audit.loads += work.loads;
+    audit.damping += work.damping;
+  }
 };
 
 /// What acts on a body, kept between the two half kicks of a step, and what they do.

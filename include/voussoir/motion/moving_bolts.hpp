@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
@@ -73,6 +74,10 @@ class MovingBolts : public Support<Dim> {
       push(loads[index(s.a)], a.pose.rotation * s.joint_a, dowel);
       push(loads[index(s.b)], b.pose.rotation * s.joint_b, -dowel);
     }
+  }
+
+  [[nodiscard]] std::function<void()> keep() override {
+    return [this, springs = springs_] { springs_ = springs; };
   }
 
   [[nodiscard]] double energy(const Bodies&) const override {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,6 +32,10 @@ class Support {
   virtual void act(const Bodies& bodies, std::vector<Load<Dim>>& loads) = 0;
   /// Energy that it holds, and has lost to yield [J].
   [[nodiscard]] virtual double energy(const Bodies& bodies) const = 0;
+  /// What brings its history back to what it is now, where it has one.
+  [[nodiscard]] virtual std::function<void()> keep() {
+    return [] {};
+  }
   /// Adds to every body's number a bound on the largest eigenvalue of M^-1 K [1/s^2], K its own
   /// stiffness with all other bodies held.
   virtual void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const = 0;
@@ -63,6 +68,14 @@ class SupportSet {
   /// Held, and lost to yield, since each of them was added or `start` was called [J].
   [[nodiscard]] double energy(const Bodies& bodies) const { return sum(bodies) - at_start_; }
   void start(const Bodies& bodies) { at_start_ = sum(bodies); }
+  /// What brings all histories back to what they are now.
+  [[nodiscard]] std::function<void()> keep() const {
+    std::vector<std::function<void()>> kept;
+    for (const auto& support : supports_) kept.push_back(support->keep());
+    return [kept = std::move(kept)] {
+      for (const auto& restore : kept) restore();
+    };
+  }
   void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const {
     for (const auto& support : supports_) support->add_stiffness_over_mass(bodies, sums);
   }
