@@ -8,10 +8,12 @@
 #include <voussoir/motion/dynamics.hpp>
 
 #include "support/blocks.hpp"
+#include "support/faults.hpp"
 
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
+using voussoir_test::says;
 
 namespace {
 
@@ -28,15 +30,7 @@ Run tower(const DynamicsSettings& settings, const CoulombJoint& law = joint) {
 
 /// The message of the fault that advancing by `steps` ends in; "" without.
 std::string fault_of(Run& run, int steps) {
-  try {
-    run.advance_steps(steps);
-  } catch (const NumericalFault& fault) {
-    return fault.what();
-  }
-  return "";
-}
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return voussoir_test::fault_of([&] { run.advance_steps(steps); });
 }
 
 }  // namespace

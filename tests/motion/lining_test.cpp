@@ -19,10 +19,13 @@
 #include <voussoir/tunnel/measurements.hpp>
 
 #include "support/blocks.hpp"
+#include "support/faults.hpp"
 
 using namespace voussoir;
 using voussoir_test::degree;
+using voussoir_test::fault_of;
 using voussoir_test::rectangle;
+using voussoir_test::says;
 
 namespace {
 
@@ -96,18 +99,6 @@ struct Beam {
   }
   [[nodiscard]] double deflection() const { return -run.position(middle).y(); }
 };
-
-std::string fault_of(Run& run, double time) {
-  try {
-    run.advance(time);
-  } catch (const NumericalFault& fault) {
-    return fault.what();
-  }
-  return "";
-}
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 
@@ -196,7 +187,7 @@ TEST_SUITE("motion/lining") {
     Beam through({.speed_limit = 200}, 2400);
     int block = through.run.add_block(rectangle({0, 1}, 0.5, 0.5), 2700);
     through.run.set_velocity(block, {0, -50});
-    const std::string text = fault_of(through.run, 0.5);
+    const std::string text = fault_of([&] { through.run.advance(0.5); });
     CAPTURE(text);
     CHECK(says(text, "overlaps"));
     CHECK(says(text, "lining node"));
@@ -207,7 +198,7 @@ TEST_SUITE("motion/lining") {
     past.run.advance(0.01);
     past.run.set_velocity(block, {0, -50});
     const double before = past.run.time();
-    const std::string other = fault_of(past.run, 0.5);
+    const std::string other = fault_of([&] { past.run.advance(0.5); });
     CAPTURE(other);
     CHECK(says(other, "block " + std::to_string(block) + " at (2.6, "));
     CHECK(says(other, "moves at 50 m/s"));

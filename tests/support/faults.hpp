@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <voussoir/core/errors.hpp>
+
+/// What a run says when it goes bad.
+namespace voussoir_test {
+
+/// The message of the fault that an action ends in; "" without.
+template <class Action>
+[[nodiscard]] std::string fault_of(Action&& action) {
+  try {
+    action();
+  } catch (const voussoir::NumericalFault& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+[[nodiscard]] inline bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace voussoir_test
