@@ -302,9 +302,10 @@ void read_run(Section& s, RunInput& run) {
   s.number("tolerance", run.tolerance, between(1e-8, 0.1), Need::optional);
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);
-  const bool refinds = s.find("refind_limit", Need::optional).has_value();
-  s.quantity("refind_limit", run.refind_limit, dimension::length, above(0), Need::optional);
-  if (refinds && run.refind_limit >= run.displacement_limit)
+  std::optional<double> refind_limit;
+  s.quantity("refind_limit", refind_limit, dimension::length, above(0));
+  run.refind_limit = refind_limit.value_or(run.refind_limit);
+  if (refind_limit && run.refind_limit >= run.displacement_limit)
     s.complain("refind_limit", "is never reached: a block that has moved so far has fallen",
                "a length below displacement_limit");
   if (const auto value = s.find("max_steps", Need::optional))
