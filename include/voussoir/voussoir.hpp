@@ -2,7 +2,7 @@
 #pragma once
 
 /// The toolkit: everything an analysis in two or three dimensions needs, at rest and in motion.
-/// Pictures and files (io/) are apart.
+/// Pictures and files (io/) are apart, and so are statistics/, which need Boost.Math.
 
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
@@ -35,6 +35,15 @@
 #include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/solver/two_level.hpp>
+#include <voussoir/theory/bolts_and_lining.hpp>
+#include <voussoir/theory/circular_opening.hpp>
+#include <voussoir/theory/equivalent_moduli.hpp>
+#include <voussoir/theory/ground_reaction.hpp>
+#include <voussoir/theory/initial_friction.hpp>
+#include <voussoir/theory/lining_in_ground.hpp>
+#include <voussoir/theory/longitudinal_profile.hpp>
+#include <voussoir/theory/polygon_ring.hpp>
+#include <voussoir/theory/smeared_bolts.hpp>
 #include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>

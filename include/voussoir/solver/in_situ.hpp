@@ -4,6 +4,7 @@
 #include <cmath>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/theory/initial_friction.hpp>
 
 namespace voussoir {
 
@@ -62,9 +63,7 @@ struct InSitu {
 
   /// Friction that every joint orientation can need to carry this stress in the plane x, z [rad]:
   /// sin(phi) = |1 - K0| / (1 + K0), from the Mohr circle; zero for K0 = 1.
-  [[nodiscard]] double required_friction_angle() const {
-    return std::asin(std::abs(1 - k0) / (1 + k0));
-  }
+  [[nodiscard]] double required_friction_angle() const { return largest_initial_friction(k0); }
 };
 
 }  // namespace voussoir

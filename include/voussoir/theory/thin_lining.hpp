@@ -36,6 +36,12 @@ struct ThinLining {
     const double phi = std::numbers::pi / chords;
     return phi / std::sin(phi);
   }
+  /// Inward movement of the ring per pressure on it, a^2 / (E_L t) of a circle [m/Pa].
+  [[nodiscard]] double ring_flexibility() const {
+    return chord_factor() * radius * (radius / (elastic_modulus * thickness));
+  }
+  /// The same of the wall behind it: ring and interface in series [m/Pa].
+  [[nodiscard]] double flexibility() const { return ring_flexibility() + 1 / interface_stiffness; }
 };
 
 /// How ground and lining share the in-situ pressure.
@@ -72,14 +78,13 @@ struct ThinLiningResponse {
   require(ground_shear_modulus > 0, "ground_shear_modulus", ground_shear_modulus, "> 0 Pa");
   const double a = lining.radius;
   const double ground = a / (2 * ground_shear_modulus);
-  const double ring = lining.chord_factor() * a * (a / (lining.elastic_modulus * lining.thickness));
-  const double support = ring + 1 / lining.interface_stiffness;
+  const double support = lining.flexibility();
   ThinLiningResponse response{};
   response.pressure = ground_pressure * (ground / (ground + support));
   response.thrust = lining.chord_factor() * a * response.pressure;
   response.convergence =
       support * response.pressure;  // = a (p0 - dp) / 2G without its cancellation
-  response.lining_shortening = ring * response.pressure;
+  response.lining_shortening = lining.ring_flexibility() * response.pressure;
   return response;
 }
 

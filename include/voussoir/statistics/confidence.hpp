@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/statistics/sample.hpp>
+
+namespace voussoir {
+
+struct Interval {
+  double low, high;
+  [[nodiscard]] double width() const { return high - low; }
+  [[nodiscard]] bool holds(double x) const { return low <= x && x <= high; }
+};
+
+namespace detail {
+/// The part beyond each end.
+[[nodiscard]] inline double tail(double confidence) {
+  require(confidence > 0 && confidence < 1, "confidence", confidence, "> 0 and < 1");
+  return 0.5 * (1 - confidence);
+}
+}  // namespace detail
+
+/// Interval for the mean of normal data: mean +- t s / sqrt(n).
+/// @param size, mean, deviation  n, mean and sqrt(S / (n - 1)) of the sample
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline Interval mean_interval(double size, double mean, double deviation,
+                                            double confidence = 0.95) {
+  require(size >= 2 && std::isfinite(size), "sample size n", size, ">= 2");
+  require(deviation >= 0 && std::isfinite(deviation), "sample deviation", deviation, ">= 0");
+  const boost::math::students_t t(size - 1);
+  const double half =
+      quantile(complement(t, detail::tail(confidence))) * deviation / std::sqrt(size);
+  return {mean - half, mean + half};
+}
+[[nodiscard]] inline Interval mean_interval(const Sample& sample, double confidence = 0.95) {
+  return mean_interval(static_cast<double>(sample.size()), sample.mean(), sample.deviation(),
+                       confidence);
+}
+
+/// Interval for the standard deviation of normal data, from chi squared of n - 1 degrees.
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline Interval deviation_interval(const Sample& sample, double confidence = 0.95) {
+  const double s = sample.deviation(), degrees = static_cast<double>(sample.size()) - 1;
+  const boost::math::chi_squared chi(degrees);
+  const double tail = detail::tail(confidence);
+  return {s * std::sqrt(degrees / quantile(complement(chi, tail))),
+          s * std::sqrt(degrees / quantile(chi, tail))};
+}
+
+/// Interval for a probability of which `events` of `trials` were seen, for example tunnels that
+/// collapsed: exact, never too short.
+/// @throws InvalidInput  a value out of range
+/// Source: Clopper & Pearson (1934).
+[[nodiscard]] inline Interval probability_interval(int events, int trials,
+                                                   double confidence = 0.95) {
+  require(trials >= 1, "trials", trials, ">= 1");
+  require(events >= 0 && events <= trials, "events", events, "0 to the number of trials");
+  using boost::math::binomial;
+  const double tail = detail::tail(confidence);
+  return {binomial::find_lower_bound_on_p(trials, events, tail),
+          binomial::find_upper_bound_on_p(trials, events, tail)};
+}
+
+}  // namespace voussoir

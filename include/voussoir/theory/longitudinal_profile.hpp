@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <voussoir/core/errors.hpp>
+
+namespace voussoir {
+
+/// Longitudinal displacement profile: how much of its final convergence the wall has had at a
+/// distance from the face.
+///
+///   u0 = exp(-0.15 R) / 3                          at the face
+///   x <= 0:  u = u0 exp(x)                         ahead of it
+///   x >= 0:  u = 1 - (1 - u0) exp(-1.5 x / R)      behind it, R = r_p / a
+///
+/// Source: Vlachopoulos & Diederichs (2009), Rock Mech. Rock Eng. 42, a fit to continuum analyses.
+/// No more can be claimed for jointed rock: its profile needs runs in space.
+///
+/// @param distance        X / a from the face, positive towards the excavated side [-]
+/// @param plastic_radius  r_p / a of the unsupported opening [-], >= 1
+/// @return  u / u_max [-], 0 to 1
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline double longitudinal_profile(double distance, double plastic_radius) {
+  require(!std::isnan(distance), "distance from the face X / a", distance, "a number");
+  require(plastic_radius >= 1 && std::isfinite(plastic_radius), "plastic radius r_p / a",
+          plastic_radius, ">= 1");
+  const double at_face = std::exp(-0.15 * plastic_radius) / 3;
+  if (distance <= 0) return at_face * std::exp(distance);
+  return 1 - (1 - at_face) * std::exp(-1.5 * distance / plastic_radius);
+}
+
+/// Fictitious support pressure in elastic ground: what must act on the wall of a plane run so that
+/// the wall has come in by a part of its convergence. In ground that yields it is
+/// `GroundReactionCurve::pressure_at`.
+///
+///   p_f = p0 (1 - u / u_max)
+///
+/// Install the support under it, then take it away.
+/// @param ground_pressure  p0 [Pa], >= 0
+/// @param part             u / u_max when the support is installed [-], 0 to 1
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline double fictitious_pressure(double ground_pressure, double part) {
+  require(ground_pressure >= 0 && std::isfinite(ground_pressure), "ground pressure p0",
+          ground_pressure, ">= 0 Pa");
+  require(part >= 0 && part <= 1, "part of the convergence u / u_max", part, "0 to 1");
+  return ground_pressure * (1 - part);
+}
+
+}  // namespace voussoir
