@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // voussoir: tunnel support design from an input file. `voussoir run FILE`, `voussoir diagram FILE`;
-// `voussoir patterns` shows how unsupported tunnels fail.
+// `voussoir patterns` shows how unsupported tunnels fail; `voussoir paper` runs every analysis of
+// the paper behind it.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -17,8 +19,11 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
 
+#include "analyses.hpp"
 #include "outputs.hpp"
 #include "patterns.hpp"
+#include "plotting.hpp"
+#include "report.hpp"
 
 namespace {
 
@@ -202,6 +207,58 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   return finished;
 }
 
+int paper_verb(const Options& options, int samples) {
+  check_folder(options);
+  voussoir::paper::check_gnuplot();
+  const auto start = std::chrono::steady_clock::now();
+  ProgressLine line(options.quiet);
+  std::string doing;
+  voussoir::paper::Study study(samples, options.threads,
+                               [&](const std::string& what, double fraction) {
+                                 return line.show(doing + ": " + what, fraction);
+                               });
+  std::vector<voussoir::paper::Section> sections;
+  try {
+    for (const auto& analysis : voussoir::paper::analyses()) {
+      doing = analysis.name;
+      line.show(doing, -1);
+      sections.push_back(analysis.run(study));
+      if (stop_asked != 0) throw voussoir::paper::Study::Stopped{};
+    }
+  } catch (const voussoir::paper::Study::Stopped&) {
+    line.clear();
+    return say_interrupted();
+  }
+  line.show("plots", -1);
+  std::vector<voussoir::paper::Plot> plots;
+  for (const auto& section : sections)
+    plots.insert(plots.end(), section.plots.begin(), section.plots.end());
+  const std::vector<std::string> drawings = voussoir::paper::drawn(plots);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string page = voussoir::paper::report_html(sections, drawings, study, seconds);
+  line.clear();
+  const std::filesystem::path folder = prepared_folder(options);
+  voussoir::OutputSet outputs;
+  outputs.add(folder / "paper.html", page);
+  outputs.add(folder / "scoreboard.csv", voussoir::paper::scoreboard_csv(sections));
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    outputs.add(folder / (plots[k].name + ".svg"), drawings[k]);
+    outputs.add(folder / (plots[k].name + ".csv"), voussoir::paper::plot_csv(plots[k]));
+    outputs.add(folder / (plots[k].name + ".gp"), voussoir::paper::plot_script(plots[k]));
+  }
+  for (const auto& section : sections)
+    for (const auto& picture : section.pictures)
+      outputs.add(folder / (picture.name + ".svg"), picture.svg);
+  if (!options.quiet)
+    std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
+              << (samples == 1 ? " sample" : " samples") << " of the rock, "
+              << study.tunnels_solved() << " supported tunnels, " << static_cast<int>(seconds)
+              << " s\n";
+  publish(outputs, options, "paper.html, scoreboard.csv, plots (.svg, .csv, .gp)");
+  return finished;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -252,6 +309,18 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(1U, 1024U));
   patterns->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  CLI::App* paper = app.add_subcommand(
+      "paper", "every analysis of Boon, Houlsby and Utili (2015) and what became of its claims");
+  int samples = 5;
+  paper->add_option("-o,--out", options.folder, "folder for the report, made if missing")
+      ->capture_default_str();
+  paper->add_option("--samples", samples, "random samples of the rock mass")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  paper->add_option("-j,--threads", options.threads, "tunnels computed at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1024U));
+  paper->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -261,6 +330,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, ask_to_stop);
   try {
     if (*patterns) return patterns_verb(options, choice, settings);
+    if (*paper) return paper_verb(options, samples);
     return *run ? run_verb(options) : diagram_verb(options);
   } catch (const InputErrors& errors) {
     std::cerr << errors.what() << "\n";

@@ -223,12 +223,16 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
 
   // ---- what has been lost, and how ----
   std::vector<char> lost(count, 0);
-  double wall_left = 0, wall_right = 0;
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
   for (std::size_t b = 0; b < count; ++b) {
     const auto& body = mass.bodies[b].properties;
     const Place place = place_of(body.centroid);
-    if (place == Place::elsewhere || !(displacement(b).norm() > lost_at)) continue;
+    if (!(displacement(b).norm() > lost_at)) continue;
+    const double direction =
+        std::atan2(body.centroid.y(), body.centroid.x()) + 2 * std::numbers::pi;
+    result.by_direction[static_cast<std::size_t>(direction / (0.25 * std::numbers::pi)) % 8] +=
+        body.measure;
+    if (place == Place::elsewhere) continue;
     lost[b] = place == Place::roof;
     const Release& r = releases[b];
     const int along = set_along(the_case.sets, r.way);
@@ -242,11 +246,15 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
       result.height = std::max(result.height, body.centroid.y() - 0.5 * diameter);
     } else {
       result.wall_area += body.measure;
-      (body.centroid.x() < 0 ? wall_left : wall_right) += body.measure;
-      if (r.turn > 0.5)
+      const bool left = body.centroid.x() < 0;
+      (left ? result.left_area : result.right_area) += body.measure;
+      if (r.turn > 0.5) {
         result.toppled += body.measure;
-      else if (along >= 0)
+      } else if (along >= 0) {
         result.wall_slides[static_cast<std::size_t>(along)] += body.measure;
+        (left ? result.left_slides : result.right_slides)[static_cast<std::size_t>(along)] +=
+            body.measure;
+      }
     }
   }
   double edge = 0;
@@ -260,6 +268,8 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
   for (std::size_t k = 0; k < 3; ++k) {
     result.roof_slides[k] = share(result.roof_slides[k], result.roof_area);
     result.wall_slides[k] = share(result.wall_slides[k], result.wall_area);
+    result.left_slides[k] = share(result.left_slides[k], result.left_area);
+    result.right_slides[k] = share(result.right_slides[k], result.right_area);
     result.bounds[k] = share(result.bounds[k], edge);
   }
   result.roof_free = share(result.roof_free, result.roof_area);
@@ -297,7 +307,8 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
     result.wall = WallFailure::none;
   else if (result.toppled > 0.5)
     result.wall = WallFailure::toppling;
-  else if (wall_left > 0.25 * result.wall_area && wall_right > 0.25 * result.wall_area)
+  else if (result.left_area > 0.25 * result.wall_area &&
+           result.right_area > 0.25 * result.wall_area)
     result.wall = WallFailure::both_ways;
   else
     result.wall = result.wall_slides[0] + result.wall_slides[1] + result.wall_slides[2] > 0.4

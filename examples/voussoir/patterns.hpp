@@ -44,10 +44,16 @@ struct PatternResult {
   double imbalance = 0;                 ///< of energy [-]
   double roof_area = 0, wall_area = 0;  ///< rock that has moved by more than 0.3 m [m^2]
   std::array<double, 3> roof_slides{}, wall_slides{};  ///< part of it that moved along a set [-]
-  double roof_free = 0;              ///< part that fell without touching a set [-]
-  double toppled = 0;                ///< part at the walls that turned more than it moved [-]
-  std::array<double, 3> bounds{};    ///< part of the edge of the roof fall made by each set [-]
-  double height = 0;                 ///< of the roof fall above the crown [m]
+  double roof_free = 0;                  ///< part that fell without touching a set [-]
+  double toppled = 0;                    ///< part at the walls that turned more than it moved [-]
+  std::array<double, 3> bounds{};        ///< part of the edge of the roof fall made by each set [-]
+  double height = 0;                     ///< of the roof fall above the crown [m]
+  double left_area = 0, right_area = 0;  ///< of `wall_area`
+  /// Parts of these that moved along a set [-].
+  std::array<double, 3> left_slides{}, right_slides{};
+  /// Lost rock by the direction it was in from the centre, in eighths of the circle from the
+  /// right-hand springing [m^2].
+  std::array<double, 8> by_direction{};
   std::array<int, 2> widest_pair{};  ///< sets of the largest acute angle
   RoofFall roof = RoofFall::none;
   WallFailure wall = WallFailure::none;

@@ -39,6 +39,7 @@
 #include <voussoir/theory/circular_opening.hpp>
 #include <voussoir/theory/equivalent_moduli.hpp>
 #include <voussoir/theory/ground_reaction.hpp>
+#include <voussoir/theory/grouted_bolt.hpp>
 #include <voussoir/theory/initial_friction.hpp>
 #include <voussoir/theory/lining_in_ground.hpp>
 #include <voussoir/theory/longitudinal_profile.hpp>

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/theory/bolts_and_lining.hpp>
+#include <voussoir/theory/elastic_ground.hpp>
+#include <voussoir/theory/equivalent_moduli.hpp>
+
+#include "section.hpp"
+#include "study.hpp"
+
+/// What several analyses do alike.
+namespace voussoir::paper {
+
+/// The equivalent grounds of Table 3: lower and upper estimate, and as measured.
+struct NamedGround {
+  const char* name;
+  ElasticGround ground;
+};
+[[nodiscard]] inline const std::vector<NamedGround>& elastic_grounds() {
+  static const JointedModuli one_set =
+      goodman_moduli({normal_stiffness, shear_stiffness}, joint_spacing);
+  static const std::vector<NamedGround> grounds{
+      {"G_1", {one_set.shear_modulus, 0.2}},
+      {"G_2", {shear_modulus_from(one_set.youngs_modulus, 0.2), 0.2}},
+      {"G_3", {5.27e8, 0.37}}};
+  return grounds;
+}
+[[nodiscard]] inline SmearedBoltPattern smeared(const Bolts& bolts) {
+  return {radius, bolts.length, bolts.spacing, bolts.stiffness * joint_spacing, 1};
+}
+[[nodiscard]] inline ThinLining thin(const Lining& lining) {
+  return {radius, lining.thickness, lining_modulus, lining.interface_stiffness};
+}
+
+using Quantity = std::function<double(const Outcome&)>;
+[[nodiscard]] inline double crown(const Outcome& o) { return o.convergence.crown; }
+/// Mean of the two sides [m].
+[[nodiscard]] inline double springing(const Outcome& o) {
+  return 0.5 * (o.convergence.left_springing + o.convergence.right_springing);
+}
+/// The paper's normalisation of bolt forces, F / (p0 D), with bolts one metre apart along the
+/// tunnel [-].
+inline constexpr double force_unit = ground_pressure * diameter;
+
+/// A series over variants along an axis: mean and deviation over the samples that stand.
+struct Swept {
+  Series series;
+  Series failed;  ///< where a sample has no value, at that of the others or at 0
+  std::vector<Measured> measured;
+};
+/// @param scale  of the values for the plot
+[[nodiscard]] inline Swept swept(Study& study, const std::string& name,
+                                 const std::vector<double>& axis,
+                                 const std::function<Variant(double)>& variant_at,
+                                 const Quantity& quantity, double scale,
+                                 Mark mark = Mark::linked_points) {
+  std::vector<Variant> variants;
+  for (const double x : axis) variants.push_back(variant_at(x));
+  study.prepare(variants);
+  Swept result;
+  result.series = {name, mark, {}, {}, {}};
+  result.failed = {"not all samples stand", Mark::failed, {}, {}, {}};
+  for (std::size_t k = 0; k < axis.size(); ++k) {
+    const Measured m = study.measure(variants[k], quantity);
+    result.measured.push_back(m);
+    if (!m.values.empty()) {
+      result.series.x.push_back(axis[k]);
+      result.series.y.push_back(scale * m.mean());
+      result.series.spread.push_back(scale * m.deviation());
+    }
+    if (!m.complete()) {
+      result.failed.x.push_back(axis[k]);
+      result.failed.y.push_back(m.values.empty() ? 0.0 : scale * m.mean());
+    }
+  }
+  return result;
+}
+
+/// A comparison of two variants sample by sample, where both stand.
+[[nodiscard]] inline Measured paired(
+    Study& study, const Variant& first, const Variant& second,
+    const std::function<double(const Outcome&, const Outcome&)>& compare) {
+  study.prepare({first, second});
+  const std::vector<Outcome>&a = study.of(first), &b = study.of(second);
+  Measured m;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].stable())
+      m.add(b[k], b[k].stable() ? compare(a[k], b[k]) : 0.0);
+    else
+      m.add(a[k], 0.0);
+  }
+  return m;
+}
+/// second / first of a quantity.
+[[nodiscard]] inline Measured ratio(Study& study, const Variant& first, const Variant& second,
+                                    const Quantity& quantity) {
+  return paired(study, first, second,
+                [&](const Outcome& a, const Outcome& b) { return quantity(b) / quantity(a); });
+}
+
+/// Whether the means go up (or down) along the axis; equal steps count as going.
+[[nodiscard]] inline bool rises(const std::vector<Measured>& values, double tolerance = 0) {
+  for (std::size_t k = 0; k + 1 < values.size(); ++k)
+    if (!(values[k + 1].mean() >= values[k].mean() - tolerance * std::abs(values[k].mean())))
+      return false;
+  return true;
+}
+[[nodiscard]] inline bool falls(const std::vector<Measured>& values, double tolerance = 0) {
+  for (std::size_t k = 0; k + 1 < values.size(); ++k)
+    if (!(values[k + 1].mean() <= values[k].mean() + tolerance * std::abs(values[k].mean())))
+      return false;
+  return true;
+}
+/// "3.17, 2.80, 1.71 mm"
+[[nodiscard]] inline std::string means(const std::vector<Measured>& values, double scale,
+                                       const std::string& unit, int digits = 3) {
+  std::string text;
+  for (const Measured& m : values)
+    text +=
+        (text.empty() ? "" : ", ") +
+        (m.values.empty() ? std::string("none stands") : printed_text(scale * m.mean(), digits));
+  return text + (unit.empty() ? "" : " " + unit);
+}
+[[nodiscard]] inline std::string percent(double part, int digits = 2) {
+  return printed_text(100 * part, digits) + " %";
+}
+
+}  // namespace voussoir::paper

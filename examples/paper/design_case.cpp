@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "design_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <voussoir/voussoir.hpp>
+
+#include "models.hpp"
+
+namespace voussoir::paper {
+
+namespace {
+
+using program::ChosenAnchors;
+using program::ChosenMethod;
+using program::Tunnel;
+
+const SimplePolygon& opening() {
+  static const SimplePolygon circle = circular_opening(diameter);
+  return circle;
+}
+
+ChosenAnchors anchors_at(AnchorPlace place) {
+  switch (place) {
+    case AnchorPlace::mid_block:
+      return ChosenAnchors(GargaWangAnchors{});
+    case AnchorPlace::on_joint:
+      return ChosenAnchors(JointFaceAnchors{});
+    case AnchorPlace::near_joint:
+      break;
+  }
+  return ChosenAnchors(LorigAnchors{1.2 * bolt_diameter});
+}
+
+void support(Tunnel& tunnel, const Variant& variant) {
+  if (variant.bolts) {
+    const Bolts& b = *variant.bolts;
+    const AxialShearBolt law({.axial = {.axial_stiffness = b.stiffness,
+                                        .pretension = b.pretension,
+                                        .rupture_force = bolt_strength},
+                              .shear_stiffness = b.shear_stiffness});
+    for (const Segment& bar :
+         bolt_bars({.length = b.length, .angular_spacing = b.spacing, .from = b.from, .to = b.to},
+                   opening()))
+      tunnel.install_bolt(bar, law, 1.0, anchors_at(b.anchors));
+  }
+  if (variant.lining) {
+    LiningSection section = LiningSection::rectangular(variant.lining->thickness, lining_modulus);
+    section.bending_stiffness *= variant.lining->bending_factor;
+    section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
+    tunnel.install_lining(lining_frame(tunnel.mass(), {}), section,
+                          CoulombJoint({variant.lining->interface_stiffness,
+                                        variant.lining->interface_stiffness, interface_friction}));
+  }
+}
+
+/// Mean of a quantity over the entries within half a window of an angle.
+template <class Entries, class Value>
+double mean_near(const Entries& entries, double angle, const Value& value) {
+  constexpr double half_window = 15 * degree;
+  double sum = 0;
+  int count = 0;
+  for (const auto& e : entries)
+    if (std::abs(std::remainder(e.angle - angle, 2 * std::numbers::pi)) <= half_window) {
+      sum += value(e);
+      ++count;
+    }
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<JointSet> joint_sets(const RockReading& reading) {
+  const auto set = [&](const char* name, double dip, DipDirection direction) {
+    return JointSet{name, dip * degree, direction, 1 * degree, 1, 0, reading.joint_extent};
+  };
+  return {set("J1", 75, DipDirection::east), set("J2", 25, DipDirection::east),
+          set("J3", 25, DipDirection::west)};
+}
+
+Domain<2> domain() { return domain_around(opening(), width, cover, below); }
+
+RockMass<Planar> sliced_rock(const RockReading& reading, std::uint64_t seed,
+                             const Domain<2>& ground) {
+  return slice(
+      ground, joint_network(joint_sets(reading), ground, seed),
+      {.min_inscribed_radius = reading.min_radius, .max_elongation = reading.max_elongation});
+}
+
+InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle) {
+  const auto mass = sliced_rock(mass_a, seed);
+  Tunnel tunnel(mass, CoulombJoint({normal_stiffness, shear_stiffness, friction_angle}),
+                {.density = density, .k0 = k0, .gravity = gravity});
+  auto& system = tunnel.system();
+  // The stress in a block is the sum of (place of a contact force) x (force) over its area.
+  std::vector<Stress<2>> stress(mass.bodies.size(), Stress<2>::Zero());
+  const auto collect = [&](const auto& group) {
+    using Group = std::decay_t<decltype(group)>;
+    group.visit(system.displacement.data(), [&](const auto& c, const auto& point, const auto&,
+                                                const auto& force) {
+      // On b: along the normal from a to b, and along the tangent.
+      const Vec2 on_b = force.normal * c.normal + c.tangents * force.tangential;
+      const Vec2 offset = Group::offset_of(c, point);
+      for (const auto& [body, arm, f] : {std::tuple(c.a, Vec2(c.arm_a + offset), Vec2(-on_b)),
+                                         {c.b, Vec2(c.arm_b + offset), on_b}})
+        if (body < static_cast<int>(stress.size()))
+          stress[static_cast<std::size_t>(body)] -= arm * f.transpose();
+    });
+  };
+  collect(system.joints);
+  collect(system.boundary);
+  const auto mean_around = [&](const Vec2& centre, double reach) {
+    Stress<2> sum = Stress<2>::Zero();
+    double area = 0;
+    for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+      if ((mass.bodies[b].properties.centroid - centre).norm() < reach) {
+        sum += stress[b];
+        area += mass.bodies[b].properties.measure;
+      }
+    return Stress<2>(sum / area);
+  };
+  InSituState state{};
+  const Stress<2> middle = mean_around(Vec2::Zero(), 5);
+  state.vertical = middle(1, 1);
+  state.horizontal = middle(0, 0);
+  state.gradient = (mean_around(Vec2(0, -5), 4)(1, 1) - mean_around(Vec2(0, 5), 4)(1, 1)) / 10;
+  Eigen::VectorXd f;
+  system.forces(system.displacement, f);
+  state.unbalance = system.unbalance_over_weight(f);
+  (void)tunnel.equilibrium(1.0);
+  state.drift = system.largest_translation(system.displacement);
+  return state;
+}
+
+std::vector<double> Outcome::largest_forces() const {
+  std::vector<double> forces;
+  for (const BoltOutcome& b : bolts) forces.push_back(b.largest);
+  return forces;
+}
+double Outcome::mean_force() const {
+  double sum = 0;
+  for (const BoltOutcome& b : bolts) sum += b.largest / static_cast<double>(bolts.size());
+  return sum;
+}
+double Outcome::largest_force() const {
+  double largest = 0;
+  for (const BoltOutcome& b : bolts) largest = std::max(largest, b.largest);
+  return largest;
+}
+double Outcome::mean_thrust() const {
+  double sum = 0;
+  for (const LiningOutcome& l : lining) sum += l.thrust / static_cast<double>(lining.size());
+  return sum;
+}
+double Outcome::largest_thrust() const {
+  double largest = 0;
+  for (const LiningOutcome& l : lining) largest = std::max(largest, l.thrust);
+  return largest;
+}
+double Outcome::largest_moment() const {
+  double largest = 0;
+  for (const LiningOutcome& l : lining) largest = std::max(largest, std::abs(l.moment));
+  return largest;
+}
+double Outcome::thrust_near(double angle) const {
+  return mean_near(lining, angle, [](const LiningOutcome& l) { return l.thrust; });
+}
+double Outcome::moment_near(double angle) const {
+  return mean_near(lining, angle, [](const LiningOutcome& l) { return l.moment; });
+}
+
+struct ExcavatedRock::Parts {
+  std::uint64_t seed;
+  Tunnel tunnel;
+};
+
+ExcavatedRock::ExcavatedRock(std::uint64_t seed, const Variant& variant) {
+  Tunnel tunnel(sliced_rock(mass_a, seed),
+                CoulombJoint({normal_stiffness, shear_stiffness, variant.friction}),
+                {.density = density, .k0 = variant.k0, .gravity = gravity},
+                variant.way == Way::as_the_paper ? ContactPoints::centre : ContactPoints::gauss);
+  tunnel.excavate(opening());
+  parts_ = std::make_unique<Parts>(Parts{seed, std::move(tunnel)});
+}
+ExcavatedRock::~ExcavatedRock() = default;
+ExcavatedRock::ExcavatedRock(ExcavatedRock&&) noexcept = default;
+ExcavatedRock& ExcavatedRock::operator=(ExcavatedRock&&) noexcept = default;
+
+Outcome ExcavatedRock::run(const Variant& variant) const {
+  const auto start = std::chrono::steady_clock::now();
+  Tunnel tunnel = parts_->tunnel;
+  Outcome outcome;
+  outcome.seed = parts_->seed;
+  const bool explicit_way = variant.way == Way::as_the_paper;
+  const ChosenMethod method = explicit_way
+                                  ? ChosenMethod(Explicit({.damping = 0.1, .ramp_steps = 0}))
+                                  : ChosenMethod(TwoLevel{});
+  Acceptance acceptance;
+  acceptance.collapse_measure = 0.25 * opening().area();
+  acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
+  // The overshoot of an explicit run is no fall.
+  if (explicit_way) acceptance.displacement_limit = acceptance.refind_limit = 0.05;
+  double fallen = 0;
+  bool go_on = true;
+  if (variant.held_at_support < 1) {
+    outcome.report = tunnel.equilibrium(variant.held_at_support, method, acceptance);
+    fallen = outcome.report.fallen_measure;
+    go_on = outcome.report.verdict == Verdict::stable;
+  }
+  if (go_on) {
+    support(tunnel, variant);
+    outcome.report = tunnel.equilibrium(variant.held, method, acceptance);
+    outcome.report.fallen_measure += fallen;
+  }
+  outcome.convergence = convergence(tunnel);
+  outcome.wall = wall_motion(tunnel);
+  double length = 0;
+  for (const WallMotion& piece : outcome.wall)
+    if (piece.angle <= std::numbers::pi) {
+      outcome.mean_convergence += piece.length * piece.convergence;
+      length += piece.length;
+    }
+  outcome.mean_convergence /= length;
+  double change = 0, before = 0;
+  tunnel.system().boundary.visit(
+      tunnel.system().displacement.data(),
+      [&](const auto&, const auto& point, const auto&, const auto& force) {
+        change += std::abs(force.normal - point.initial.normal);
+        before += point.initial.normal;
+      });
+  outcome.boundary_change = change / before;
+  if (variant.bolts && go_on) {
+    const Bolts& b = *variant.bolts;
+    for (const Segment& bar :
+         bolt_bars({.length = b.length, .angular_spacing = b.spacing, .from = b.from, .to = b.to},
+                   opening()))
+      outcome.bolts.push_back({std::atan2(bar.start.y(), bar.start.x()), 0, {}});
+    for (BoltOutcome& bolt : outcome.bolts)
+      if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;
+    for (const CrossingForce& c : bolt_forces(tunnel)) {
+      BoltOutcome& bolt = outcome.bolts[static_cast<std::size_t>(c.bolt)];
+      bolt.largest = std::max(bolt.largest, c.force);
+      bolt.crossings.push_back({radius + c.position, c.force});
+    }
+  }
+  for (const LiningForce& at : lining_forces(tunnel))
+    outcome.lining.push_back({std::atan2(at.position.y(), at.position.x()), at.thrust, at.moment});
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+}  // namespace voussoir::paper

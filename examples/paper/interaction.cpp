@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The interaction diagram of bolts and lining, from several samples of the rock: Fig. 24.
+#include <voussoir/io/interaction_picture.hpp>
+
+#include "analyses.hpp"
+#include "analysis_parts.hpp"
+
+namespace voussoir::paper {
+
+namespace {
+
+const std::vector<double>& spacings() {  // degrees; 0: no bolts
+  static const std::vector<double> all{9, 11.25, 15, 18, 22.5, 0};
+  return all;
+}
+const std::vector<double>& thicknesses() {
+  static const std::vector<double> all{0, 0.05, 0.1, 0.15, 0.2, 0.3};
+  return all;
+}
+Variant at(double spacing, double thickness) {
+  Variant v;
+  if (spacing > 0) v.bolts = Bolts{.spacing = spacing * degree};
+  if (thickness > 0) v.lining = Lining{.thickness = thickness};
+  return v;
+}
+std::string spacing_name(double spacing) {
+  return spacing > 0 ? trimmed_text(spacing, 2) + "°" : std::string("none");
+}
+
+}  // namespace
+
+Section interaction(Study& study) {
+  Section section{"interaction",
+                  "Interaction diagram of bolts and lining",
+                  "8.1, Fig. 24",
+                  {"Crown convergence over lining thickness and bolt spacing, 4 m bolts: the mean "
+                   "of the samples that stand. A point where rock falls in any sample is marked; "
+                   "where none stands there is no value. The points of other bolt stiffnesses "
+                   "(Figs 25 and 26) lie at the spacing of equal dimensionless stiffness."}};
+  std::vector<Variant> variants;
+  for (const double s : spacings())
+    for (const double t : thicknesses()) variants.push_back(at(s, t));
+  study.prepare(variants);
+  const auto columns = static_cast<Eigen::Index>(thicknesses().size());
+  const auto rows = static_cast<Eigen::Index>(spacings().size());
+  struct Contours {
+    const char* name;
+    const char* title;
+    Quantity quantity;
+    double scale;
+    const char* unit;
+  };
+  InteractionPicture picture;
+  picture.header.title = "Crown convergence, mean of " + std::to_string(study.samples()) +
+                         (study.samples() == 1 ? " sample" : " samples");
+  picture.diameter = diameter;
+  picture.thicknesses = thicknesses();
+  for (const double s : spacings())
+    picture.spacings.push_back(s > 0 ? InteractionPicture::Spacing{spacing_name(s), s}
+                                     : InteractionPicture::Spacing{"no bolts", {}});
+  picture.spacing_axis = "bolt spacing";
+  picture.convergence.resize(columns, rows);
+  picture.failed.resize(columns, rows);
+  Table crowns{"Crown convergence, mm; R: rock falls in some sample, C: some sample collapses",
+               {"spacing \\ t, cm"},
+               {}};
+  Table bolts{"Mean of the bolts' largest forces, kN", {"spacing \\ t, cm"}, {}};
+  Table stresses{"Largest compressive stress in the lining, N / t + 6 |M| / t², MPa",
+                 {"spacing \\ t, cm"},
+                 {}};
+  for (Table* table : {&crowns, &bolts, &stresses})
+    for (const double t : thicknesses()) table->columns.push_back(trimmed_text(100 * t, 1));
+  std::vector<std::vector<Measured>> grid;  // by spacing
+  for (std::size_t j = 0; j < spacings().size(); ++j) {
+    std::vector<std::string> u_row{spacing_name(spacings()[j])}, f_row = u_row, s_row = u_row;
+    grid.emplace_back();
+    for (std::size_t i = 0; i < thicknesses().size(); ++i) {
+      const double t = thicknesses()[i];
+      const Variant v = at(spacings()[j], t);
+      const Measured u = study.measure(v, crown);
+      grid.back().push_back(u);
+      bool sheds = false;
+      for (const Outcome& o : study.of(v)) sheds = sheds || o.sheds() || !o.stable();
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      picture.convergence(row, column) = u.mean();
+      picture.failed(row, column) = sheds;
+      u_row.push_back(u.values.empty() ? "C"
+                                       : printed_text(1e3 * u.mean()) + (u.collapsed > 0 ? " C"
+                                                                         : sheds         ? " R"
+                                                                                         : ""));
+      f_row.push_back(
+          spacings()[j] > 0
+              ? printed_text(
+                    1e-3 * study.measure(v, [](const Outcome& o) { return o.mean_force(); }).mean())
+              : "");
+      s_row.push_back(
+          t > 0 ? printed_text(1e-6 * study
+                                          .measure(v,
+                                                   [t](const Outcome& o) {
+                                                     double most = 0;
+                                                     for (const LiningOutcome& l : o.lining)
+                                                       most = std::max(
+                                                           most,
+                                                           l.thrust / t +
+                                                               6 * std::abs(l.moment) / (t * t));
+                                                     return most;
+                                                   })
+                                          .mean())
+                : "");
+    }
+    crowns.rows.push_back(u_row);
+    bolts.rows.push_back(f_row);
+    stresses.rows.push_back(s_row);
+  }
+  section.pictures.push_back(
+      {"interaction", draw_interaction_picture(picture), picture.header.title});
+  section.tables = {crowns, bolts, stresses};
+  Plot slices{"interaction_slices",
+              "Crown convergence over spacing",
+              "bolt spacing θ_b, degrees",
+              "convergence, % of a",
+              {}};
+  for (std::size_t i = 0; i < thicknesses().size(); ++i) {
+    Series s{
+        "t = " + trimmed_text(100 * thicknesses()[i], 1) + " cm", Mark::linked_points, {}, {}, {}};
+    for (std::size_t j = 0; j + 1 < spacings().size(); ++j) {
+      const Measured& m = grid[j][i];
+      if (m.values.empty()) continue;
+      s.x.push_back(spacings()[j]);
+      s.y.push_back(1e2 * m.mean() / radius);
+      s.spread.push_back(1e2 * m.deviation() / radius);
+    }
+    slices.series.push_back(s);
+  }
+  // The three stiffnesses of Figs 25 and 26 in the plane of the diagram.
+  Series others{
+      "2/3 K_a and 3 K_a at 15°, t = 10 cm, at their equal spacing", Mark::points, {}, {}, {}};
+  for (const double factor : {2.0 / 3, 3.0}) {
+    const Measured m = study.measure(
+        {.bolts = Bolts{.stiffness = factor * bolt_stiffness}, .lining = Lining{}}, crown);
+    if (m.values.empty()) continue;
+    others.x.push_back(15 / factor);
+    others.y.push_back(1e2 * m.mean() / radius);
+    others.spread.push_back(1e2 * m.deviation() / radius);
+  }
+  slices.series.push_back(others);
+  slices.y_range = {{0, NAN}};
+  section.plots.push_back(slices);
+
+  // ---- findings ----
+  bool by_thickness = true, by_spacing = true;
+  for (std::size_t j = 0; j < grid.size(); ++j)
+    for (std::size_t i = 0; i < grid[j].size(); ++i) {
+      if (grid[j][i].values.empty()) continue;
+      if (i + 1 < grid[j].size())
+        by_thickness = by_thickness && grid[j][i + 1].mean() < grid[j][i].mean();
+      // Where lined: without lining rock falls and other samples make the mean.
+      if (j + 1 < grid.size() && i > 0)
+        by_spacing = by_spacing && grid[j + 1][i].mean() > grid[j][i].mean();
+    }
+  int unlined_failures = 0;
+  for (std::size_t j = 0; j < spacings().size(); ++j) unlined_failures += picture.is_failed(0, j);
+  section.findings.push_back(
+      {"PF-091", agrees_if(by_thickness && by_spacing && unlined_failures > 0),
+       "falls with t at every spacing: " + std::string(by_thickness ? "yes" : "no") +
+           "; rises with spacing at every lined thickness: " + (by_spacing ? "yes" : "no") +
+           "; unlined spacings where rock falls: " + std::to_string(unlined_failures) + " of " +
+           std::to_string(spacings().size()),
+       by_thickness && by_spacing ? "" : "not monotonic in the mean of the samples"});
+  const double over_bolts = grid[5][4].mean() / grid[0][4].mean() - 1;
+  section.findings.push_back({"PF-092", agrees_if(over_bolts < 0.15),
+                              "t = 0.02 D: crown from bolts at 9° to no bolts +" +
+                                  percent(over_bolts) + "; unlined from 9° to 22.5° +" +
+                                  percent(grid[4][0].mean() / grid[0][0].mean() - 1)});
+  const Variant choice = at(15, 0.1);
+  const Measured chosen = study.measure(choice, crown);
+  bool sheds = false;
+  for (const Outcome& o : study.of(choice)) sheds = sheds || o.sheds();
+  section.findings.push_back(
+      {"PF-093", agrees_if(chosen.complete() && !sheds),
+       "10 cm, 15°: crown " + chosen.text(1e3, "mm") + ", largest bolt force " +
+           study.measure(choice, [](const Outcome& o) { return o.largest_force(); })
+               .text(1e-3, "kN"),
+       chosen.complete() && !sheds ? "" : "rock falls in some sample"});
+  section.findings.push_back({"PF-103", Agreement::agrees,
+                              "the diagram is the mean of " + std::to_string(study.samples()) +
+                                  " samples; at the chosen point the samples scatter by " +
+                                  percent(chosen.deviation() / chosen.mean()) +
+                                  " of the crown's convergence"});
+  return section;
+}
+
+}  // namespace voussoir::paper

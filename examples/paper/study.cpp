@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "study.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/parallel.hpp>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/statistics/sample.hpp>
+
+namespace voussoir::paper {
+
+void Measured::add(const Outcome& outcome, double value) {
+  ++samples;
+  if (!outcome.stable()) {
+    ++collapsed;
+  } else if (!std::isfinite(value)) {
+    ++gone;
+  } else {
+    shedding += outcome.sheds();
+    values.push_back(value);
+  }
+}
+double Measured::mean() const {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Sample(values).mean();
+}
+double Measured::deviation() const { return values.size() < 2 ? 0.0 : Sample(values).deviation(); }
+std::string Measured::text(double scale, const std::string& unit, int digits) const {
+  const std::string end = unit.empty() ? "" : " " + unit;
+  std::string notes = std::to_string(samples) + (samples == 1 ? " sample" : " samples");
+  if (collapsed > 0) notes += "; " + std::to_string(collapsed) + " collapsed";
+  if (gone > 0) notes += "; " + std::to_string(gone) + " have lost that rock";
+  if (shedding > 0) notes += "; " + std::to_string(shedding) + " shed rock";
+  if (values.empty()) return "no value (" + notes + ")";
+  std::string text = printed_text(scale * mean(), digits);
+  if (values.size() > 1) text += " ± " + printed_text(scale * deviation(), std::max(1, digits - 1));
+  return text + end + " (" + notes + ")";
+}
+
+Study::Study(int samples, unsigned threads, Progress progress)
+    : samples_(samples), threads_(threads), progress_(std::move(progress)) {
+  require(samples >= 1 && samples <= 1000, "number of samples", samples, "1 to 1000");
+}
+
+void Study::prepare(const std::vector<Variant>& variants) {
+  struct Job {
+    const Variant* variant;
+    Outcome* outcome;
+    std::uint64_t seed;
+  };
+  std::vector<Job> jobs;
+  std::map<Variant, std::vector<Outcome>> fresh;
+  for (const Variant& v : variants)
+    if (!done_.contains(v)) fresh.try_emplace(v, static_cast<std::size_t>(samples_));
+  // Explicit runs take longest: first, so that none is left for one thread at the end.
+  for (const Way way : {Way::as_the_paper, Way::quasi_static})
+    for (auto& [variant, outcomes] : fresh)
+      if (variant.way == way)
+        for (std::size_t k = 0; k < outcomes.size(); ++k)
+          jobs.push_back({&variant, &outcomes[k], static_cast<std::uint64_t>(k) + 1});
+  if (jobs.empty()) return;
+  // The rock first, once for all variants that start from it.
+  std::map<RockKey, std::pair<std::uint64_t, const Variant*>> missing;
+  for (const Job& job : jobs)
+    if (const RockKey key = rock_of(job.seed, *job.variant); !rocks_.contains(key))
+      missing.try_emplace(key, job.seed, job.variant);
+  std::mutex guard;
+  const std::vector<std::pair<RockKey, std::pair<std::uint64_t, const Variant*>>> to_make(
+      missing.begin(), missing.end());
+  parallel_for(to_make.size(), threads_, [&](std::size_t k) {
+    ExcavatedRock rock(to_make[k].second.first, *to_make[k].second.second);
+    const std::scoped_lock lock(guard);
+    rocks_.emplace(to_make[k].first, std::move(rock));
+  });
+  std::atomic<std::size_t> finished{0};
+  std::atomic<bool> go_on{true};
+  parallel_for(jobs.size(), threads_, [&](std::size_t k) {
+    if (!go_on) return;
+    *jobs[k].outcome = rocks_.at(rock_of(jobs[k].seed, *jobs[k].variant)).run(*jobs[k].variant);
+    const std::size_t now = ++finished;
+    const std::scoped_lock lock(guard);
+    if (!progress("tunnels", static_cast<double>(now) / static_cast<double>(jobs.size())))
+      go_on = false;
+  });
+  if (!go_on) throw Stopped{};
+  solved_ += jobs.size();
+  done_.merge(fresh);
+}
+
+const std::vector<Outcome>& Study::of(const Variant& variant) {
+  prepare({variant});
+  return done_.at(variant);
+}
+
+Measured Study::measure(const Variant& variant,
+                        const std::function<double(const Outcome&)>& quantity) {
+  Measured measured;
+  for (const Outcome& outcome : of(variant)) measured.add(outcome, quantity(outcome));
+  return measured;
+}
+
+}  // namespace voussoir::paper
