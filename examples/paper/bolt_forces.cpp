@@ -45,6 +45,20 @@ Binned binned(const std::vector<Outcome>& outcomes) {
   }
   return b;
 }
+/// Root mean square of ln(F / F_elastic) with G3, over the classes.
+double misfit_of(const Binned& b, const Bolts& bolts) {
+  const SmearedBolts theory(smeared(bolts), elastic_grounds()[2].ground, ground_pressure);
+  double squares = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < b.r.size(); ++k) {
+    const double r = b.r[k] * radius;
+    if (r > radius + bolts.length || !(b.force[k] > 0)) continue;
+    const double l = std::log(b.force[k] * force_unit / theory.bolt_force(r));
+    squares += l * l;
+    ++count;
+  }
+  return std::sqrt(squares / std::max(count, 1));
+}
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v / static_cast<double>(values.size());
@@ -70,7 +84,7 @@ Section bolt_forces(Study& study) {
   Table table{"Dimensionless bolt stiffness and elastic force at the wall",
               {"pattern", "modulus", "beta", "wall moves, mm", "F / (p0 D) at the wall"},
               {}};
-  std::vector<double> misfit;  // root mean square of ln(F / F_elastic), G3
+  std::vector<double> misfit, misfit_sudden;
   for (const Pattern& p : patterns()) {
     const Variant variant{.bolts = p.bolts};
     const Binned quasi = binned(study.of(variant));
@@ -97,17 +111,8 @@ Section bolt_forces(Study& study) {
                    " samples in each class. The elastic force is largest at the wall; that of the "
                    "blocks rises first, for a joint near the wall has little rock before it to "
                    "hold.";
-    const SmearedBolts theory(smeared(p.bolts), elastic_grounds()[2].ground, ground_pressure);
-    double squares = 0;
-    int count = 0;
-    for (std::size_t k = 0; k < quasi.r.size(); ++k) {
-      const double r = quasi.r[k] * radius;
-      if (r > radius + p.bolts.length || !(quasi.force[k] > 0)) continue;
-      const double l = std::log(quasi.force[k] * force_unit / theory.bolt_force(r));
-      squares += l * l;
-      ++count;
-    }
-    misfit.push_back(std::sqrt(squares / std::max(count, 1)));
+    misfit.push_back(misfit_of(quasi, p.bolts));
+    misfit_sudden.push_back(misfit_of(sudden, p.bolts));
     section.plots.push_back(std::move(plot));
   }
   section.tables.push_back(std::move(table));
@@ -141,20 +146,25 @@ Section bolt_forces(Study& study) {
   };
   const double band_low = elastic_mean(1), band_high = elastic_mean(0);
   const auto in_band = [&](double f) { return f > 0.5 * band_low && f < 2 * band_high; };
-  section.findings.push_back({"PF-050", agrees_if(in_band(within_bolt(quasi))),
-                              "mean over 1 < r/a < 2.4: " + printed_text(within_bolt(quasi)) +
-                                  " p0 D; elastic G2 to G1: " + printed_text(band_low) + " to " +
-                                  printed_text(band_high),
-                              in_band(within_bolt(quasi)) ? "" : "outside twice the elastic band",
-                              printed_text(within_bolt(sudden)) + " p0 D"});
   section.findings.push_back(
-      {"PF-051", agrees_if(misfit[0] < misfit[1] && misfit[1] < misfit[2]),
-       "root mean square of ln(F / F_elastic(G3)): " + printed_text(misfit[0]) + ", " +
-           printed_text(misfit[1]) + ", " + printed_text(misfit[2]) + " for 11.25°, 15°, 22.5°",
-       misfit[0] < misfit[1] && misfit[1] < misfit[2]
+      {"PF-050", agrees_if(in_band(within_bolt(quasi))),
+       "mean over 1 < r/a < 2.4: " + printed_text(within_bolt(quasi)) +
+           " p0 D; elastic G2 to G1: " + printed_text(band_low) + " to " + printed_text(band_high),
+       in_band(within_bolt(quasi)) ? "" : "outside twice the elastic band",
+       printed_text(within_bolt(sudden)) + " p0 D", agrees_if(in_band(within_bolt(sudden)))});
+  const auto grows = [](const std::vector<double>& m) { return m[0] < m[1] && m[1] < m[2]; };
+  const auto listed = [](const std::vector<double>& m) {
+    return printed_text(m[0], 2) + ", " + printed_text(m[1], 2) + ", " + printed_text(m[2], 2);
+  };
+  section.findings.push_back(
+      {"PF-051", agrees_if(grows(misfit)),
+       "root mean square of ln(F / F_elastic(G3)): " + listed(misfit) + " for 11.25°, 15°, 22.5°",
+       grows(misfit)
            ? ""
-           : "The 7 m bolts have many small forces far from the wall, where the logarithm weighs "
-             "most; the paper compares by eye, near the wall."});
+           : "Quasi-statically bolts of every spacing follow elastic ground within some "
+             "15 %: what they carry besides is loosened ground, which a sudden excavation "
+             "makes more of the wider they are apart.",
+       listed(misfit_sudden), agrees_if(grows(misfit_sudden))});
   const auto peak = [](const Binned& b) {
     return b.r[static_cast<std::size_t>(std::max_element(b.force.begin(), b.force.end()) -
                                         b.force.begin())];

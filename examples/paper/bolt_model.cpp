@@ -40,11 +40,11 @@ Section bolt_model(Study& study) {
             "shear displacement, mm",
             "force, kN",
             {}};
-  for (const auto& [name, initial] : {std::pair("anchors 1.2 d from the joint (67 mm)", 0.0672),
-                                      {"midway in blocks of 0.77 m", 0.77},
+  for (const auto& [name, initial] : {std::pair("1.2 d from the joint", 0.0672),
+                                      {"midway in 0.77 m blocks", 0.77},
                                       {"on the joint", 0.0}}) {
-    Series along{std::string(name) + ", along the joint", Mark::line, {}, {}};
-    Series clamp{std::string(name) + ", clamping", Mark::dashed_line, {}, {}};
+    Series along{std::string(name) + ": along it", Mark::line, {}, {}};
+    Series clamp{std::string(name) + ": clamping", Mark::dashed_line, {}, {}};
     for (double s = 0; s <= 0.0201; s += 0.0005) {
       const JointForce f = force_across(initial, s, 0);
       along.x.push_back(1e3 * s);

@@ -122,7 +122,7 @@ Section delayed_support(Study& study) {
        std::abs(part - 0.4) < 0.1 ? "" : "the ground is not elastic"});
   section.findings.push_back(
       {"PF-104", Agreement::not_testable, "no joint of any run creeps",
-       "There is nothing to measure; joints that creep are `BurgersJoint` (docs/theory.md)."});
+       "There is nothing to measure; joints that creep are BurgersJoint (docs/theory.md)."});
   return section;
 }
 

@@ -37,6 +37,18 @@ ChosenAnchors anchors_at(AnchorPlace place) {
   return ChosenAnchors(LorigAnchors{1.2 * bolt_diameter});
 }
 
+ChosenMethod method_of(Way way) {
+  switch (way) {
+    case Way::as_the_paper:
+      return ChosenMethod(Explicit({.damping = 0.1, .ramp_steps = 0}));
+    case Way::slow_explicit:
+      return ChosenMethod(Explicit{});
+    case Way::quasi_static:
+      break;
+  }
+  return ChosenMethod(TwoLevel{});
+}
+
 void support(Tunnel& tunnel, const Variant& variant) {
   if (variant.bolts) {
     const Bolts& b = *variant.bolts;
@@ -196,15 +208,13 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
   Tunnel tunnel = parts_->tunnel;
   Outcome outcome;
   outcome.seed = parts_->seed;
-  const bool explicit_way = variant.way == Way::as_the_paper;
-  const ChosenMethod method = explicit_way
-                                  ? ChosenMethod(Explicit({.damping = 0.1, .ramp_steps = 0}))
-                                  : ChosenMethod(TwoLevel{});
+  const ChosenMethod method = method_of(variant.way);
   Acceptance acceptance;
   acceptance.collapse_measure = 0.25 * opening().area();
   acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
   // The overshoot of an explicit run is no fall.
-  if (explicit_way) acceptance.displacement_limit = acceptance.refind_limit = 0.05;
+  if (variant.way == Way::as_the_paper)
+    acceptance.displacement_limit = acceptance.refind_limit = 0.05;
   double fallen = 0;
   bool go_on = true;
   if (variant.held_at_support < 1) {

@@ -158,9 +158,10 @@ Section failure_patterns(Study& study) {
            printed_text(moved_along(1, 2), 2) + " m² (80W is C); no. 6 " +
            printed_text(moved_along(6, 0), 2) + ", " + printed_text(moved_along(6, 1), 2) + ", " +
            printed_text(moved_along(6, 2), 2) + " m² (45W is C, 55E is A)",
-       first && sixth ? ""
-                      : "most of the rock falls straight, and what slides does not prefer the "
-                        "paper's set in every case"});
+       first && sixth
+           ? ""
+           : "Most of the rock falls straight once it is loose; of the little that slides in "
+             "no. 6 more follows 55E than 45W. The paper shows one sample."});
   int all_three = 0, third_runs = 0;
   for (const PatternResult* r : of_case(3)) {
     if (r->roof_area < 0.2) continue;
@@ -224,7 +225,9 @@ Section failure_patterns(Study& study) {
        "mean lost at roof and walls: no. 22 " + printed_text(c22.first, 2) + ", " +
            printed_text(c22.second, 2) + " m²; no. 23 " + printed_text(c23.first, 2) + ", " +
            printed_text(c23.second, 2) + " m²",
-       moves ? "" : "in the mean of the samples the larger part does not change sides"});
+       moves ? ""
+             : "Half a dozen square metres decide it, and samples differ by more; the "
+               "paper compares one sample of each."});
   bool less = true;
   std::string pair_losses;
   for (const auto& [soft, rough] : {std::pair(11, 12), {13, 14}, {15, 16}}) {

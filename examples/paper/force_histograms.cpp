@@ -80,9 +80,9 @@ Section force_histograms(Study& study) {
     section.plots.push_back(plot);
   }
   if (sudden.size() >= 1) {
-    Series line{"mean of the mean, 95 %", Mark::linked_points, {}, {}, {}};
+    Series line{"mean, 95 % interval", Mark::linked_points, {}, {}, {}};
     NormalBelief belief{0.03, 1, 2, 1e-4};
-    Series update{"after updating 0.030 (worth one bolt)", Mark::linked_points, {}, {}, {}};
+    Series update{"updated from 0.030", Mark::linked_points, {}, {}, {}};
     std::vector<const Outcome*> first;
     for (const Outcome* o : quasi) {
       first.push_back(o);
@@ -144,10 +144,13 @@ Section force_histograms(Study& study) {
     section.findings.push_back(
         {ids[k], agrees_if(in_range(s)),
          "sample " + std::to_string(quasi[k]->seed) + ": " + summary(s), in_range(s) ? "" : gap,
-         k < sudden.size() ? summary(normalised({sudden[k]})) : "did not stand"});
+         k < sudden.size() ? summary(normalised({sudden[k]})) : "did not stand",
+         k < sudden.size() ? std::optional(agrees_if(in_range(normalised({sudden[k]}))))
+                           : std::nullopt});
   }
   section.findings.push_back({"PF-072", agrees_if(in_range(all)), "all samples: " + summary(all),
-                              in_range(all) ? "" : gap, summary(all_sudden)});
+                              in_range(all) ? "" : gap, summary(all_sudden),
+                              agrees_if(in_range(all_sudden))});
   const double d = distance_to_normal(all), limit = lilliefors_limit(all.size());
   const double d_sudden = distance_to_normal(all_sudden);
   int fitting = 0;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The interaction diagram of bolts and lining, from several samples of the rock: Fig. 24.
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <voussoir/io/interaction_picture.hpp>
 
 #include "analyses.hpp"
@@ -27,6 +30,14 @@ std::string spacing_name(double spacing) {
   return spacing > 0 ? trimmed_text(spacing, 2) + "°" : std::string("none");
 }
 
+/// Of the ring's fibres, thrust and moment together [Pa].
+double largest_stress(const Outcome& outcome, double thickness) {
+  double most = 0;
+  for (const LiningOutcome& l : outcome.lining)
+    most = std::max(most, l.thrust / thickness + 6 * std::abs(l.moment) / (thickness * thickness));
+  return most;
+}
+
 }  // namespace
 
 Section interaction(Study& study) {
@@ -41,26 +52,38 @@ Section interaction(Study& study) {
   for (const double s : spacings())
     for (const double t : thicknesses()) variants.push_back(at(s, t));
   study.prepare(variants);
-  const auto columns = static_cast<Eigen::Index>(thicknesses().size());
-  const auto rows = static_cast<Eigen::Index>(spacings().size());
-  struct Contours {
-    const char* name;
-    const char* title;
-    Quantity quantity;
-    double scale;
-    const char* unit;
+  // Three tables and three diagrams from the same tunnels.
+  const std::string of_samples = ", mean of " + std::to_string(study.samples()) +
+                                 (study.samples() == 1 ? " sample" : " samples");
+  const auto picture_of = [&](const std::string& title) {
+    InteractionPicture picture;
+    picture.header.title = title + of_samples;
+    picture.diameter = diameter;
+    picture.spacing_axis = "bolt spacing";
+    return picture;
   };
-  InteractionPicture picture;
-  picture.header.title = "Crown convergence, mean of " + std::to_string(study.samples()) +
-                         (study.samples() == 1 ? " sample" : " samples");
-  picture.diameter = diameter;
-  picture.thicknesses = thicknesses();
-  for (const double s : spacings())
-    picture.spacings.push_back(s > 0 ? InteractionPicture::Spacing{spacing_name(s), s}
-                                     : InteractionPicture::Spacing{"no bolts", {}});
-  picture.spacing_axis = "bolt spacing";
-  picture.convergence.resize(columns, rows);
-  picture.failed.resize(columns, rows);
+  const auto spacing_row = [](double s) {
+    return s > 0 ? InteractionPicture::Spacing{spacing_name(s), s}
+                 : InteractionPicture::Spacing{"no bolts", {}};
+  };
+  InteractionPicture picture = picture_of("Crown convergence");
+  InteractionPicture force_picture = picture_of("Mean of the bolts' largest forces");
+  InteractionPicture stress_picture = picture_of("Largest compressive stress in the lining");
+  force_picture.quantity = InteractionQuantity::in("bolt force", 1e-3, "kN");
+  stress_picture.quantity = InteractionQuantity::in("stress", 1e-6, "MPa");
+  picture.thicknesses = force_picture.thicknesses = thicknesses();
+  stress_picture.thicknesses.assign(thicknesses().begin() + 1, thicknesses().end());
+  for (const double s : spacings()) {
+    picture.spacings.push_back(spacing_row(s));
+    stress_picture.spacings.push_back(spacing_row(s));
+    if (s > 0) force_picture.spacings.push_back(spacing_row(s));
+  }
+  for (InteractionPicture* p : {&picture, &force_picture, &stress_picture}) {
+    const auto wide = static_cast<Eigen::Index>(p->thicknesses.size());
+    const auto high = static_cast<Eigen::Index>(p->spacings.size());
+    p->values.resize(wide, high);
+    p->failed.resize(wide, high);
+  }
   Table crowns{"Crown convergence, mm; R: rock falls in some sample, C: some sample collapses",
                {"spacing \\ t, cm"},
                {}};
@@ -82,38 +105,37 @@ Section interaction(Study& study) {
       bool sheds = false;
       for (const Outcome& o : study.of(v)) sheds = sheds || o.sheds() || !o.stable();
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      picture.convergence(row, column) = u.mean();
+      picture.values(row, column) = u.mean();
       picture.failed(row, column) = sheds;
-      u_row.push_back(u.values.empty() ? "C"
-                                       : printed_text(1e3 * u.mean()) + (u.collapsed > 0 ? " C"
-                                                                         : sheds         ? " R"
-                                                                                         : ""));
-      f_row.push_back(
-          spacings()[j] > 0
-              ? printed_text(
-                    1e-3 * study.measure(v, [](const Outcome& o) { return o.mean_force(); }).mean())
-              : "");
-      s_row.push_back(
-          t > 0 ? printed_text(1e-6 * study
-                                          .measure(v,
-                                                   [t](const Outcome& o) {
-                                                     double most = 0;
-                                                     for (const LiningOutcome& l : o.lining)
-                                                       most = std::max(
-                                                           most,
-                                                           l.thrust / t +
-                                                               6 * std::abs(l.moment) / (t * t));
-                                                     return most;
-                                                   })
-                                          .mean())
-                : "");
+      const char* mark = u.collapsed > 0 ? " C" : sheds ? " R" : "";
+      u_row.push_back(u.values.empty() ? "C" : printed_text(1e3 * u.mean()) + mark);
+      if (v.bolts) {
+        const double force =
+            study.measure(v, [](const Outcome& o) { return o.mean_force(); }).mean();
+        force_picture.values(row, column) = force;
+        force_picture.failed(row, column) = sheds;
+        f_row.push_back(printed_text(1e-3 * force));
+      } else {
+        f_row.emplace_back();
+      }
+      if (v.lining) {
+        const double stress =
+            study.measure(v, [t](const Outcome& o) { return largest_stress(o, t); }).mean();
+        stress_picture.values(row - 1, column) = stress;
+        stress_picture.failed(row - 1, column) = sheds;
+        s_row.push_back(printed_text(1e-6 * stress));
+      } else {
+        s_row.emplace_back();
+      }
     }
     crowns.rows.push_back(u_row);
     bolts.rows.push_back(f_row);
     stresses.rows.push_back(s_row);
   }
-  section.pictures.push_back(
-      {"interaction", draw_interaction_picture(picture), picture.header.title});
+  for (const auto& [name, p] :
+       {std::pair("interaction", &picture), std::pair("interaction_bolts", &force_picture),
+        std::pair("interaction_stress", &stress_picture)})
+    section.pictures.push_back({name, draw_interaction_picture(*p), p->header.title});
   section.tables = {crowns, bolts, stresses};
   Plot slices{"interaction_slices",
               "Crown convergence over spacing",
@@ -133,8 +155,7 @@ Section interaction(Study& study) {
     slices.series.push_back(s);
   }
   // The three stiffnesses of Figs 25 and 26 in the plane of the diagram.
-  Series others{
-      "2/3 K_a and 3 K_a at 15°, t = 10 cm, at their equal spacing", Mark::points, {}, {}, {}};
+  Series others{"10 cm, 2/3 and 3 K_a (equal β)", Mark::points, {}, {}, {}};
   for (const double factor : {2.0 / 3, 3.0}) {
     const Measured m = study.measure(
         {.bolts = Bolts{.stiffness = factor * bolt_stiffness}, .lining = Lining{}}, crown);

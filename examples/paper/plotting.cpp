@@ -93,7 +93,7 @@ std::string drawn_as(const Series& s, std::size_t k) {
                                : "with yerrorlines lw 1.6 ps 0.9 pt 7") +
              paint;
     case Mark::bars:
-      return "with boxes fs solid 0.35 border" + paint;
+      return "with boxes" + paint + " fs solid 0.35 border" + paint;
     case Mark::failed:
       return "with points pt 2 ps 1.4 lw 2.5 lc rgb '#c00000'";
   }
@@ -123,7 +123,7 @@ std::string plot_script(const Plot& plot) {
   std::string script =
       "reset\n# Draws " + plot.name + ".svg from " + plot.name + ".csv: gnuplot " + plot.name +
       ".gp\n" +
-      "set terminal svg size 760,480 enhanced font 'Helvetica,14' background '#ffffff'\n"
+      "set terminal svg size 840,480 enhanced font 'Helvetica,14' background '#ffffff'\n"
       "set output '" +
       plot.name +
       ".svg'\n"
@@ -134,8 +134,8 @@ std::string plot_script(const Plot& plot) {
       script_text(plot.title) + " font ',15'\n" + "set xlabel " + script_text(plot.x_label) +
       "\nset ylabel " + script_text(plot.y_label) +
       "\nset grid lc rgb '#d8d8d8'\nset border lw 1.2\nset tics nomirror\nset border 3\n"
-      "set lmargin at screen 0.10\nset rmargin at screen 0.68\n"
-      "set key at screen 0.70, screen 0.90 left top Left reverse spacing 1.25 samplen 2\n";
+      "set lmargin at screen 0.125\nset rmargin at screen 0.62\n"
+      "set key at screen 0.64, screen 0.90 left top Left reverse spacing 1.25 samplen 2\n";
   const auto range = [](const char* axis, const std::pair<double, double>& r) {
     const auto end = [](double x) { return std::isnan(x) ? "*" : shortest_text(x); };
     return std::string("set ") + axis + "range [" + end(r.first) + ":" + end(r.second) + "]\n";

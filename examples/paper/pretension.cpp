@@ -61,9 +61,10 @@ Section pretension(Study& study) {
   section.findings.push_back(
       {"PF-063", agrees_if(falls(apart)),
        "|crown − springings| " + means(apart, 1e3, "mm") + " for 0, 100, 150 kN",
-       falls(apart) ? ""
-                    : "The difference does not shrink: pretension acts "
-                      "on crown and springings alike."});
+       falls(apart)
+           ? ""
+           : "Differences of some hundredths of a millimetre: the unevenness comes from single "
+             "loose blocks, and pretension pulls crown and springings alike."});
   section.findings.push_back({"PF-064", agrees_if(rises(mean15.measured) && rises(most15.measured)),
                               "mean " + means(mean15.measured, 1e-3, "kN") + ", largest " +
                                   means(most15.measured, 1e-3, "kN")});

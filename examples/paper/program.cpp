@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program of one analysis, VOUSSOIR_ANALYSIS: computes it, prints what it found beside what the
-// paper says, and writes its plots.  paper_<name> [--samples N] [--threads N] [--out FOLDER]
+#include "program.hpp"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -8,16 +8,17 @@
 #include <iostream>
 #include <string>
 #include <thread>
+#include <vector>
 #include <voussoir/io/atomic_file.hpp>
 
-#include "analyses.hpp"
 #include "claims.hpp"
 #include "plotting.hpp"
+#include "report.hpp"
 
-using namespace voussoir;
+namespace voussoir::paper {
 
-int main(int argc, char** argv) {
-  CLI::App app("One analysis of Boon, Houlsby & Utili (2015): " VOUSSOIR_ANALYSIS_NAME);
+int run_program(int argc, char** argv, const char* name, Analysis analysis) {
+  CLI::App app(std::string("One analysis of Boon, Houlsby & Utili (2015): ") + name);
   int samples = 5;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::string out = ".";
@@ -29,11 +30,14 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1U, 1024U));
   app.add_option("-o,--out", out, "folder for plots and data, made if missing")
       ->capture_default_str();
+  bool page = false;
+  app.add_flag("--page", page,
+               "write a page of documentation beside the plots instead of their data");
   CLI11_PARSE(app, argc, argv);
   try {
-    paper::check_gnuplot();
-    paper::Study study(samples, threads);
-    const paper::Section section = paper::VOUSSOIR_ANALYSIS(study);
+    check_gnuplot();
+    Study study(samples, threads);
+    const Section section = analysis(study);
     std::cout << section.title << " (Boon et al. 2015: " << section.paper << ")\n\n";
     for (const std::string& paragraph : section.text) std::cout << paragraph << "\n\n";
     for (const auto& table : section.tables) {
@@ -52,25 +56,30 @@ int main(int argc, char** argv) {
       for (const auto& row : table.rows) print(row);
       std::cout << "\n";
     }
-    for (const paper::Finding& f : section.findings) {
+    for (const Finding& f : section.findings) {
       std::cout << f.claim << "  " << to_string(f.agreement) << "\n";
-      for (const paper::Claim& c : paper::claims())
+      for (const Claim& c : claims())
         if (f.claim == c.id) std::cout << "  paper:    " << c.statement << "\n";
       std::cout << "  measured: " << f.measured << "\n";
       if (!f.as_the_paper.empty()) std::cout << "  explicit: " << f.as_the_paper << "\n";
       if (!f.why.empty()) std::cout << "  why:      " << f.why << "\n";
     }
-    const std::vector<std::string> drawings = paper::drawn(section.plots);
+    const std::vector<std::string> drawings = drawn(section.plots);
     std::filesystem::create_directories(out);
     OutputSet outputs;
     for (std::size_t k = 0; k < drawings.size(); ++k) {
       const std::filesystem::path base = std::filesystem::path(out) / section.plots[k].name;
       outputs.add(base.string() + ".svg", drawings[k]);
-      outputs.add(base.string() + ".csv", paper::plot_csv(section.plots[k]));
-      outputs.add(base.string() + ".gp", paper::plot_script(section.plots[k]));
+      if (page) continue;
+      outputs.add(base.string() + ".csv", plot_csv(section.plots[k]));
+      outputs.add(base.string() + ".gp", plot_script(section.plots[k]));
     }
-    for (const paper::Picture& picture : section.pictures)
+    for (const Picture& picture : section.pictures)
       outputs.add(std::filesystem::path(out) / (picture.name + ".svg"), picture.svg);
+    if (page)
+      outputs.add(std::filesystem::path(out) / (section.name + ".md"),
+                  page_markdown(section, "paper_" + section.name + " --page --samples " +
+                                             std::to_string(samples)));
     outputs.publish();
     return 0;
   } catch (const std::exception& error) {
@@ -78,3 +87,5 @@ int main(int argc, char** argv) {
     return 1;
   }
 }
+
+}  // namespace voussoir::paper

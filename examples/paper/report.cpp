@@ -46,6 +46,12 @@ std::string css_class(Agreement agreement) {
   return "";
 }
 
+/// What the second column says: "agrees: 0.0222".
+std::string second_column(const Finding& f) {
+  if (!f.agreement_as_the_paper) return f.as_the_paper;
+  return std::string(to_string(*f.agreement_as_the_paper)) + ": " + f.as_the_paper;
+}
+
 std::string element(const std::string& tag, const std::string& text) {
   return "<" + tag + ">" + xml_escaped(text) + "</" + tag + ">";
 }
@@ -77,6 +83,31 @@ std::string html_table(const Table& table) {
   return html + "</table>\n";
 }
 
+/// A row of a table in Markdown.
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) {
+    row += ' ';
+    for (const char c : cell) {
+      if (c == '|' || c == '*' || c == '_') row += '\\';
+      row += c;
+    }
+    row += " |";
+  }
+  return row + "\n";
+}
+std::string markdown_table(const std::vector<std::string>& columns,
+                           const std::vector<std::vector<std::string>>& rows) {
+  std::string table = markdown_row(columns) + "|";
+  for (std::size_t k = 0; k < columns.size(); ++k) table += " --- |";
+  table += "\n";
+  for (const auto& row : rows) table += markdown_row(row);
+  return table + "\n";
+}
+const Claim& claim_of(const Finding& finding) {
+  return claims()[static_cast<std::size_t>(std::stoi(finding.claim.substr(3)) - 1)];
+}
+
 constexpr const char* style = R"(<style>
 body { font: 15px/1.45 Helvetica, Arial, sans-serif; color: #1a1a1a; max-width: 1080px; margin: 2em auto; padding: 0 1.2em; }
 h1 { font-size: 1.7em; } h2 { font-size: 1.3em; margin-top: 2.2em; border-top: 2px solid #1d3b53; padding-top: .6em; }
@@ -105,7 +136,7 @@ const std::vector<std::string>& assumptions() {
       "In-situ stress prescribed at the contacts: no generation stage, no friction angle for it.",
       "Two points a contact, at the Gauss points of the face; blocks are rigid, joints linear with "
       "Coulomb friction and no dilation.",
-      "Equilibrium by a search without dynamics (`TwoLevel`), accepted with an estimated error below "
+      "Equilibrium by a search without dynamics (TwoLevel), accepted with an estimated error below "
       "0.1 % of the largest displacement and every block out of balance by less than 1 % of its "
       "weight. Support is wished in place before the rock moves.",
       "A block that has moved by 20 mm has fallen and is taken out, with its area counted; where a "
@@ -117,7 +148,7 @@ const std::vector<std::string>& assumptions() {
       "0.1 (the paper prints none), one point a contact; blocks fall at 50 mm. The second column, "
       "where the answer depends on it.",
       "The 24 unsupported tunnels move with their true masses and contacts that are found again "
-      "(`Dynamics`), normal dashpots of 0.3 of critical.",
+      "(Dynamics), normal dashpots of 0.3 of critical.",
       "Nothing was tuned to agree. Tolerances were proposed before the toolkit was written and are "
       "not the paper's."};
   return all;
@@ -163,7 +194,7 @@ std::string scoreboard_csv(const std::vector<Section>& sections) {
     table.add_row(std::string(claim.id), std::string(claim.where),
                   std::string(to_string(claim.kind)), std::string(claim.statement),
                   std::string(claim.test), std::string(to_string(f.agreement)), f.measured,
-                  f.as_the_paper, f.why);
+                  second_column(f), f.why);
   }
   return table.text();
 }
@@ -205,7 +236,7 @@ std::string report_html(const std::vector<Section>& sections,
     const Finding& f = *found.at(claim.id);
     if (f.agreement != Agreement::differs) continue;
     html += "<tr>" + element("td", claim.id) + element("td", claim.statement) +
-            element("td", f.measured) + element("td", f.as_the_paper) + element("td", f.why) +
+            element("td", f.measured) + element("td", second_column(f)) + element("td", f.why) +
             "</tr>\n";
   }
   html += "</table>\n";
@@ -226,9 +257,8 @@ std::string report_html(const std::vector<Section>& sections,
         "<table><tr><th>claim</th><th>the paper</th><th>measured</th><th>as the paper ran it"
         "</th><th></th></tr>\n";
     for (const Finding& f : section.findings) {
-      const Claim& claim = claims()[static_cast<std::size_t>(std::stoi(f.claim.substr(3)) - 1)];
-      html += "<tr>" + element("td", f.claim) + element("td", claim.statement) +
-              element("td", f.measured) + element("td", f.as_the_paper) +
+      html += "<tr>" + element("td", f.claim) + element("td", claim_of(f).statement) +
+              element("td", f.measured) + element("td", second_column(f)) +
               verdict_cell(f.agreement) + "</tr>\n";
     }
     html += "</table>\n";
@@ -241,10 +271,31 @@ std::string report_html(const std::vector<Section>& sections,
     const Finding& f = *found.at(claim.id);
     html += "<tr>" + element("td", claim.id) + element("td", claim.where) +
             element("td", claim.statement) + element("td", claim.test) + element("td", f.measured) +
-            element("td", f.as_the_paper) + verdict_cell(f.agreement) + element("td", f.why) +
+            element("td", second_column(f)) + verdict_cell(f.agreement) + element("td", f.why) +
             "</tr>\n";
   }
   return html + "</table>\n</body></html>\n";
+}
+
+std::string page_markdown(const Section& section, const std::string& command) {
+  std::string page = "# " + section.title + "\n\nBoon, Houlsby and Utili (2015), " + section.paper +
+                     ". Made by `" + command + "`; what is assumed: [index](README.md).\n\n";
+  for (const std::string& paragraph : section.text) page += paragraph + "\n\n";
+  for (const Plot& plot : section.plots) {
+    page += "![" + plot.title + "](" + plot.name + ".svg)\n\n";
+    if (!plot.caption.empty()) page += "*" + plot.caption + "*\n\n";
+  }
+  for (const Picture& picture : section.pictures)
+    page += "![" + picture.caption + "](" + picture.name + ".svg)\n\n";
+  for (const Table& table : section.tables)
+    page += "**" + table.title + "**\n\n" + markdown_table(table.columns, table.rows);
+  std::vector<std::vector<std::string>> rows;
+  for (const Finding& f : section.findings)
+    rows.push_back({f.claim, claim_of(f).statement, f.measured, second_column(f),
+                    to_string(f.agreement), f.why});
+  return page + "## Against the paper\n\n" +
+         markdown_table({"claim", "the paper", "measured", "as the paper ran it", "", "cause"},
+                        rows);
 }
 
 }  // namespace voussoir::paper

@@ -32,4 +32,8 @@ struct Score {
                                       const std::vector<std::string>& drawings, const Study& study,
                                       double seconds);
 
+/// One analysis as a page of documentation, beside the pictures of its plots (NAME.svg).
+/// @param command  that made it
+[[nodiscard]] std::string page_markdown(const Section& section, const std::string& command);
+
 }  // namespace voussoir::paper

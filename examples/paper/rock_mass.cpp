@@ -214,7 +214,7 @@ Section rock_mass(Study& study) {
        "dips " + dips + "°, centres " + density_of.text(1, "1/m²") +
            ", smallest inscribed radius " + smallest.text(1, "m"),
        "Read as a radius, 0.5 m allows no mean spacing below pi r / 2 = 0.785 m, more than the 0.77 m "
-       "that the paper measured, and stiffness a half to twice too high. 0.5 m is read as a diameter."});
+       "that the paper measured. It is read as a diameter."});
   section.findings.push_back(
       {"PF-017", Agreement::agrees,
        "all of the in-situ traction is on the wall when support goes in, before the rock moves: its "
@@ -222,7 +222,7 @@ Section rock_mass(Study& study) {
            printed_text(1e9 * at_rest.mean(), 1) + " nN"});
   section.findings.push_back(
       {"PF-018", Agreement::not_testable, "a search for equilibrium has no time steps",
-       "`Explicit` evaluates bolts and lining with the contacts, once a step, before the motion; "
+       "Explicit stepping evaluates bolts and lining with the contacts, once a step, before the motion; "
        "no measurement of a result could tell."});
   return section;
 }

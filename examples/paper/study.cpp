@@ -45,47 +45,56 @@ Study::Study(int samples, unsigned threads, Progress progress)
 }
 
 void Study::prepare(const std::vector<Variant>& variants) {
-  struct Job {
-    const Variant* variant;
-    Outcome* outcome;
-    std::uint64_t seed;
-  };
-  std::vector<Job> jobs;
   std::map<Variant, std::vector<Outcome>> fresh;
   for (const Variant& v : variants)
     if (!done_.contains(v)) fresh.try_emplace(v, static_cast<std::size_t>(samples_));
-  // Explicit runs take longest: first, so that none is left for one thread at the end.
-  for (const Way way : {Way::as_the_paper, Way::quasi_static})
-    for (auto& [variant, outcomes] : fresh)
-      if (variant.way == way)
-        for (std::size_t k = 0; k < outcomes.size(); ++k)
-          jobs.push_back({&variant, &outcomes[k], static_cast<std::uint64_t>(k) + 1});
-  if (jobs.empty()) return;
-  // The rock first, once for all variants that start from it.
-  std::map<RockKey, std::pair<std::uint64_t, const Variant*>> missing;
-  for (const Job& job : jobs)
-    if (const RockKey key = rock_of(job.seed, *job.variant); !rocks_.contains(key))
-      missing.try_emplace(key, job.seed, job.variant);
-  std::mutex guard;
-  const std::vector<std::pair<RockKey, std::pair<std::uint64_t, const Variant*>>> to_make(
-      missing.begin(), missing.end());
-  parallel_for(to_make.size(), threads_, [&](std::size_t k) {
-    ExcavatedRock rock(to_make[k].second.first, *to_make[k].second.second);
-    const std::scoped_lock lock(guard);
-    rocks_.emplace(to_make[k].first, std::move(rock));
-  });
+  if (fresh.empty()) return;
+  const std::size_t count = fresh.size() * static_cast<std::size_t>(samples_);
   std::atomic<std::size_t> finished{0};
   std::atomic<bool> go_on{true};
-  parallel_for(jobs.size(), threads_, [&](std::size_t k) {
-    if (!go_on) return;
-    *jobs[k].outcome = rocks_.at(rock_of(jobs[k].seed, *jobs[k].variant)).run(*jobs[k].variant);
+  std::mutex guard;
+  const auto report = [&] {
     const std::size_t now = ++finished;
     const std::scoped_lock lock(guard);
-    if (!progress("tunnels", static_cast<double>(now) / static_cast<double>(jobs.size())))
-      go_on = false;
-  });
+    if (!progress("tunnels", static_cast<double>(now) / static_cast<double>(count))) go_on = false;
+  };
+  // Some samples at a time: a rock takes ten or twenty megabytes.
+  constexpr int at_a_time = 8;
+  constexpr std::size_t most_rocks = 64;
+  for (int first = 0; first < samples_ && go_on; first += at_a_time) {
+    struct Job {
+      const Variant* variant;
+      Outcome* outcome;
+      std::uint64_t seed;
+    };
+    std::vector<Job> jobs;
+    // Explicit runs take longest: first, so that none is left for one thread at the end.
+    for (const Way way : {Way::as_the_paper, Way::slow_explicit, Way::quasi_static})
+      for (auto& [variant, outcomes] : fresh)
+        if (variant.way == way)
+          for (int k = first; k < std::min(first + at_a_time, samples_); ++k)
+            jobs.push_back({&variant, &outcomes[static_cast<std::size_t>(k)],
+                            static_cast<std::uint64_t>(k) + 1});
+    // The rock first, once for all variants that start from it.
+    std::map<RockKey, Job> missing;
+    for (const Job& job : jobs)
+      if (const RockKey key = rock_of(job.seed, *job.variant); !rocks_.contains(key))
+        missing.try_emplace(key, job);
+    const std::vector<std::pair<RockKey, Job>> to_make(missing.begin(), missing.end());
+    parallel_for(to_make.size(), threads_, [&](std::size_t k) {
+      ExcavatedRock rock(to_make[k].second.seed, *to_make[k].second.variant);
+      const std::scoped_lock lock(guard);
+      rocks_.emplace(to_make[k].first, std::move(rock));
+    });
+    parallel_for(jobs.size(), threads_, [&](std::size_t k) {
+      if (!go_on) return;
+      *jobs[k].outcome = rocks_.at(rock_of(jobs[k].seed, *jobs[k].variant)).run(*jobs[k].variant);
+      report();
+    });
+    if (rocks_.size() > most_rocks) rocks_.clear();
+  }
   if (!go_on) throw Stopped{};
-  solved_ += jobs.size();
+  solved_ += count;
   done_.merge(fresh);
 }
 

@@ -24,6 +24,7 @@
 #include "patterns.hpp"
 #include "plotting.hpp"
 #include "report.hpp"
+#include "verification.hpp"
 
 namespace {
 
@@ -35,6 +36,7 @@ enum ExitStatus {
   bad_input = 2,
   not_decided = 3,
   numerical_fault = 4,
+  not_verified = 5,
   interrupted = 130
 };
 
@@ -259,6 +261,26 @@ int paper_verb(const Options& options, int samples) {
   return finished;
 }
 
+int verify_verb(const Options& options) {
+  ProgressLine line(options.quiet);
+  voussoir::paper::Study study(3, options.threads, [&](const std::string& what, double fraction) {
+    return line.show(what, fraction);
+  });
+  std::vector<voussoir::paper::Check> checks;
+  try {
+    line.show("closed forms", -1);
+    checks = voussoir::paper::verification(study);
+  } catch (const voussoir::paper::Study::Stopped&) {
+    line.clear();
+    return say_interrupted();
+  }
+  line.clear();
+  if (!options.quiet) std::cout << voussoir::paper::verification_text(checks);
+  for (const auto& check : checks)
+    if (!check.passes()) return not_verified;
+  return finished;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -267,7 +289,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 finished (stable or collapsing: see run.json), 1 results cannot be written,\n"
-      "2 error in the input, 3 undecided, 4 numerical fault, 130 interrupted (nothing written).");
+      "2 error in the input, 3 undecided, 4 numerical fault, 5 a check of verify fails,\n"
+      "130 interrupted (nothing written).");
   Options options;
   const auto add_common = [&options](CLI::App* verb) {
     verb->add_option("FILE", options.file, "input file (TOML)")->required();
@@ -321,6 +344,12 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(1U, 1024U));
   paper->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  CLI::App* verify = app.add_subcommand(
+      "verify", "closed forms and solvers against values from elsewhere: PASS or FAIL");
+  verify->add_option("-j,--threads", options.threads, "tunnels computed at a time")
+      ->capture_default_str()
+      ->check(CLI::Range(1U, 1024U));
+  verify->add_flag("-q,--quiet", options.quiet, "print nothing; the exit status says it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -331,6 +360,7 @@ int main(int argc, char** argv) {
   try {
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples);
+    if (*verify) return verify_verb(options);
     return *run ? run_verb(options) : diagram_verb(options);
   } catch (const InputErrors& errors) {
     std::cerr << errors.what() << "\n";

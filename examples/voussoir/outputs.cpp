@@ -313,14 +313,14 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   std::size_t failed = 0;
   const auto columns = static_cast<Eigen::Index>(axes.thickness.size());
   const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
-  picture.convergence.resize(columns, rows);
+  picture.values.resize(columns, rows);
   picture.failed.resize(columns, rows);
   for (const DiagramPoint& p : diagram.points) {
     const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
     // Where rock fell but a crown remains, its convergence still belongs to the surface; a
     // collapse has none.
     const bool standing = p.report.verdict == Verdict::stable;
-    picture.convergence(i, j) =
+    picture.values(i, j) =
         standing ? p.crown_convergence : std::numeric_limits<double>::quiet_NaN();
     picture.failed(i, j) = p.failed();
     failed += p.failed();

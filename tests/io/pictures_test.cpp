@@ -62,8 +62,8 @@ InteractionPicture small_diagram() {
   picture.diameter = 10;
   picture.thicknesses = {0, 0.02, 0.1};
   picture.spacings = {{"7.5°", 7.5}, {"15°", 15.0}, {"no bolts", {}}};
-  picture.convergence.resize(3, 3);
-  picture.convergence << 0.0204, 0.03, not_a_number, 0.01, 0.012, 0.013, 0.004, 0.0041, 0.0042;
+  picture.values.resize(3, 3);
+  picture.values << 0.0204, 0.03, not_a_number, 0.01, 0.012, 0.013, 0.004, 0.0041, 0.0042;
   picture.failed.setConstant(3, 3, false);
   picture.failed(0, 2) = true;
   return picture;
@@ -160,18 +160,30 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_FALSE(contains(text, "not computed"));  // the only gap is a failure
   }
 
+  TEST_CASE("another quantity has its own name and unit") {
+    InteractionPicture picture = small_diagram();
+    picture.values *= 1e7;  // 40 to 300 kN
+    picture.quantity = InteractionQuantity::in("bolt force", 1e-3, "kN");
+    const std::string text = draw_interaction_picture(picture);
+    CHECK(xml_fault(text) == "");
+    CHECK(text.find("bolt force, kN") != std::string::npos);
+    CHECK(text.find(">204<") != std::string::npos);  // 0.0204 e7 N at its point
+    CHECK(text.find("% of a") == std::string::npos);
+    CHECK(draw_interaction_picture(small_diagram()).find("% of a") != std::string::npos);
+  }
+
   TEST_CASE("grids from two by two, without values, or without contours are drawn") {
     InteractionPicture picture = small_diagram();
     picture.thicknesses = {0, 0.1};
     picture.spacings = {{"15°", 15.0}, {"no bolts", {}}};
     picture.failed.resize(0, 0);
-    picture.convergence = Eigen::Matrix2d::Constant(0.01);
+    picture.values = Eigen::Matrix2d::Constant(0.01);
     CHECK(xml_fault(draw_interaction_picture(picture)) == "");
-    picture.convergence.setConstant(not_a_number);
+    picture.values.setConstant(not_a_number);
     const std::string empty = draw_interaction_picture(picture);
     CHECK(xml_fault(empty) == "");
     CHECK(contains(empty, "not computed"));
-    picture.convergence.setZero();
+    picture.values.setZero();
     CHECK(xml_fault(draw_interaction_picture(picture)) == "");
   }
 
@@ -183,7 +195,7 @@ TEST_SUITE("io/interaction_picture") {
     picture.spacings[1].value = {};
     CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
     picture = small_diagram();
-    picture.convergence.resize(2, 3);
+    picture.values.resize(2, 3);
     CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
     picture = small_diagram();
     picture.diameter = 0;

@@ -18,9 +18,9 @@ namespace voussoir {
 
 namespace detail {
 
-/// One box a band, with its limits in % of the radius and in mm.
+/// One box a band, with its limits as on contours and as at points.
 inline void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar, const ContourBands& bands,
-                          double diameter) {
+                          const InteractionQuantity& shown) {
   const double step = bar.height() / static_cast<double>(bands.count());
   canvas.begin_layer("colour-bar");
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -31,11 +31,12 @@ inline void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar, const ContourB
   for (std::size_t k = 0; k < bands.levels().size(); ++k) {
     const double y = bar.high.y() - step * static_cast<double>(k) + 4.5, level = bands.levels()[k];
     canvas.text({bar.low.x() - 6, y}, trimmed_text(level, 6), {.anchor = TextAnchor::end});
-    canvas.text({bar.high.x() + 6, y}, trimmed_text(level / 100 * diameter / 2 * 1e3, 3));
+    canvas.text({bar.high.x() + 6, y},
+                trimmed_text(level / shown.contour_scale * shown.point_scale, 3));
   }
-  canvas.text({bar.low.x() - 6, bar.low.y() - 14}, "% of a",
+  canvas.text({bar.low.x() - 6, bar.low.y() - 14}, shown.contour_unit,
               {.anchor = TextAnchor::end, .bold = true});
-  canvas.text({bar.high.x() + 6, bar.low.y() - 14}, "mm", {.bold = true});
+  canvas.text({bar.high.x() + 6, bar.low.y() - 14}, shown.point_unit, {.bold = true});
   canvas.end_layer();
 }
 
@@ -70,9 +71,9 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
 }  // namespace detail
 
 /// Bolt spacing against lining thickness with contours of the crown convergence in % of the radius
-/// a = D / 2 (Boon et al. 2015, Fig. 24). The row without bolts lies above a break of the axis.
-/// Contours run through smoothed values (see `refined`); the numbers at the points are the
-/// computed ones in mm. Levels are round numbers.
+/// a = D / 2 (Boon et al. 2015, Fig. 24), or of another quantity. The row without bolts lies above
+/// a break of the axis. Contours run through smoothed values (see `refined`); the numbers at the
+/// points are the computed ones. Levels are round numbers.
 ///
 /// @return  an SVG document, 190 mm wide
 /// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
@@ -80,16 +81,17 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
 [[nodiscard]] inline std::string draw_interaction_picture(const InteractionPicture& picture) {
   using namespace detail;
   check_interaction(picture);
+  const InteractionQuantity shown = picture.shown();
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   bool any_missing = false, any_failed = false;
   for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
     for (std::size_t j = 0; j < picture.spacings.size(); ++j) {
-      const double percent = picture.at(i, j) * 200 / picture.diameter;
+      const double value = picture.at(i, j) * shown.contour_scale;
       any_failed = any_failed || picture.is_failed(i, j);
-      any_missing = any_missing || (!std::isfinite(percent) && !picture.is_failed(i, j));
-      if (!std::isfinite(percent)) continue;
-      lowest = std::min(lowest, percent);
-      highest = std::max(highest, percent);
+      any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j));
+      if (!std::isfinite(value)) continue;
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
     }
   }
   const ContourBands bands(contour_levels(lowest, highest, 12));
@@ -111,11 +113,11 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
                                        {{left, top}, {right, top + strip_height}}));
   }
   std::vector<LegendItem> items = {
-      {"computed, convergence in mm",
+      {"computed, " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
   if (any_failed) items.push_back({"blocks fall", draw_failed_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
-  items.push_back({"crown convergence in % of the radius a", [](SvgCanvas& canvas, const Vec2& c) {
+  items.push_back({shown.name + ", " + shown.contour_unit, [](SvgCanvas& canvas, const Vec2& c) {
                      canvas.line(c - Vec2(12, 0), c + Vec2(12, 0),
                                  {.stroke = "#1d3b53", .stroke_width = 1.1});
                    }});
@@ -133,7 +135,7 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
   }
   canvas.text({30, (main_top + bottom) / 2}, picture.spacing_axis,
               {.size = 14.5, .anchor = TextAnchor::middle, .rotation = -90});
-  draw_band_bar(canvas, {{900, top + 30}, {928, bottom}}, bands, picture.diameter);
+  draw_band_bar(canvas, {{900, top + 30}, {928, bottom}}, bands, shown);
   legend.draw(canvas, {left - 8, bottom + 58});
   return canvas.document();
 }

@@ -5,13 +5,34 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/picture_parts.hpp>
 
 namespace voussoir {
 
-/// What an interaction diagram shows: crown convergence over lining thickness and bolt spacing.
+/// What is drawn over thickness and spacing, and how its numbers read.
+struct InteractionQuantity {
+  std::string name;          ///< "crown convergence"
+  double contour_scale;      ///< value times this is the number on a contour
+  std::string contour_unit;  ///< "% of a"
+  std::string contour_mark;  ///< behind that number: " %"
+  double point_scale;        ///< value times this is the number at a point
+  std::string point_unit;    ///< "mm"
+
+  /// In % of the radius and in mm; values in m.
+  [[nodiscard]] static InteractionQuantity crown_convergence(double diameter) {
+    return {"crown convergence", 200 / diameter, "% of a", " %", 1e3, "mm"};
+  }
+  /// One unit for contours and points.
+  [[nodiscard]] static InteractionQuantity in(std::string name, double scale, std::string unit) {
+    return {std::move(name), scale, unit, "", scale, unit};
+  }
+};
+
+/// What an interaction diagram shows: crown convergence, or another quantity, over lining thickness
+/// and bolt spacing.
 struct InteractionPicture {
   struct Spacing {
     std::string label;                 ///< as written on the axis: "15°", "no bolts"
@@ -22,16 +43,22 @@ struct InteractionPicture {
   std::vector<double> thicknesses;  ///< t of the lining [m], ascending, 2 or more
   std::vector<Spacing> spacings;    ///< ascending, 2 or more; only the last may be without value
   std::string spacing_axis = "bolt spacing";  ///< title of the axis
-  Eigen::MatrixXd convergence;  ///< (thickness, spacing) [m], into the opening positive; NaN: none
+  /// (thickness, spacing), SI: crown convergence, into the opening positive, unless `quantity` says
+  /// what else; NaN: none.
+  Eigen::MatrixXd values;
   /// (thickness, spacing): blocks fall. Empty: nowhere. A failed point counts in the contours only
-  /// if it has a convergence.
+  /// if it has a value.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
+  std::optional<InteractionQuantity> quantity = {};  ///< none: crown convergence
 
+  [[nodiscard]] InteractionQuantity shown() const {
+    return quantity.value_or(InteractionQuantity::crown_convergence(diameter));
+  }
   [[nodiscard]] bool is_failed(std::size_t i, std::size_t j) const {
     return failed.size() > 0 && failed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
-    return convergence(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    return values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 };
 
@@ -43,7 +70,7 @@ inline void check_interaction(const InteractionPicture& picture) {
   if (columns < 2 || rows < 2) {
     throw InvalidInput("interaction picture: needs 2 or more thicknesses and spacings");
   }
-  if (picture.convergence.rows() != columns || picture.convergence.cols() != rows ||
+  if (picture.values.rows() != columns || picture.values.cols() != rows ||
       (picture.failed.size() > 0 &&
        (picture.failed.rows() != columns || picture.failed.cols() != rows))) {
     throw InvalidInput("interaction picture: tables must be thicknesses x spacings");

@@ -85,9 +85,10 @@ inline void label_contour(SvgCanvas& canvas, const std::vector<Vec2>& line, cons
   taken.take(text_room(*best + to_base_line, text, style));
 }
 
-/// Filled bands and lines of the levels over a smoothed grid; NaN are left white.
+/// Filled bands and lines of the levels over a smoothed grid; NaN are left white. `mark` stands
+/// behind the numbers on the lines.
 inline void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const PageMap& map,
-                          const ContourBands& bands, TakenPlaces& taken) {
+                          const ContourBands& bands, TakenPlaces& taken, const std::string& mark) {
   const ContourGrid fine = refined(grid, 12);
   std::vector<std::pair<double, std::vector<Vec2>>> lines;
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -114,7 +115,7 @@ inline void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const Page
   });
   for (const auto& [level, line] : lines) {
     if (length(line) > 40) {
-      label_contour(canvas, line, trimmed_text(level, 6) + " %", map.page(), taken);
+      label_contour(canvas, line, trimmed_text(level, 6) + mark, map.page(), taken);
     }
   }
 }

@@ -17,7 +17,7 @@ namespace voussoir::detail {
 /// A part of the diagram: the spacings with a value, or one row alone as a strip.
 struct InteractionPanel {
   std::vector<std::size_t> rows;  ///< indices of spacings
-  ContourGrid grid;               ///< thickness [m], spacing, convergence [% of the radius]
+  ContourGrid grid;               ///< thickness [m], spacing, the quantity, as on contours
   ViewRect page;
 
   [[nodiscard]] bool is_strip() const { return rows.size() == 1; }
@@ -36,12 +36,13 @@ inline InteractionPanel interaction_panel(const InteractionPicture& picture,
                                           std::vector<std::size_t> rows, const ViewRect& page) {
   InteractionPanel panel{std::move(rows), {picture.thicknesses, {}, {}}, page};
   const std::size_t count = panel.is_strip() ? 2 : panel.rows.size();
-  panel.grid.value.resize(picture.convergence.rows(), static_cast<Eigen::Index>(count));
+  const double scale = picture.shown().contour_scale;
+  panel.grid.value.resize(picture.values.rows(), static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t j = panel.is_strip() ? panel.rows[0] : panel.rows[k];
     panel.grid.y.push_back(panel.is_strip() ? (k == 0 ? -1.0 : 1.0) : *picture.spacings[j].value);
     panel.grid.value.col(static_cast<Eigen::Index>(k)) =
-        picture.convergence.col(static_cast<Eigen::Index>(j)) * (200 / picture.diameter);
+        picture.values.col(static_cast<Eigen::Index>(j)) * scale;
   }
   return panel;
 }
@@ -58,6 +59,7 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
                                    const InteractionPanel& panel, const ContourBands& bands) {
   const PageMap map = panel.map();
   const TextStyle small{.size = 11.5, .anchor = TextAnchor::middle, .fill = "#222", .halo = true};
+  const InteractionQuantity shown = picture.shown();
   TakenPlaces taken;
   struct Label {
     Vec2 at;
@@ -77,7 +79,7 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
     for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
       const double value = picture.at(i, panel.rows[k]);
       if (!std::isfinite(value)) continue;
-      const std::string text = printed_text(value * 1e3);
+      const std::string text = printed_text(value * shown.point_scale);
       const double up = picture.is_failed(i, panel.rows[k]) ? 12 : 11;
       for (const double shift : {-up, up + 9}) {  // above the point, else below, else nowhere
         const Vec2 at = place(i, k) + Vec2(0, shift);
@@ -90,7 +92,7 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
     }
   }
   canvas.begin_layer(panel.is_strip() ? "row-" + std::to_string(panel.rows[0]) : "contours");
-  draw_contours(canvas, panel.grid, map, bands, taken);
+  draw_contours(canvas, panel.grid, map, bands, taken, shown.contour_mark);
   for (std::size_t k = 0; k < panel.rows.size(); ++k) {
     for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
       if (picture.is_failed(i, panel.rows[k])) {

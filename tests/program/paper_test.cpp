@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// The analyses of the paper: claims, study, plots, verification.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+
+#include "analyses.hpp"
+#include "claims.hpp"
+#include "io/xml_check.hpp"
+#include "plotting.hpp"
+#include "program/harness.hpp"
+#include "report.hpp"
+#include "study.hpp"
+#include "verification.hpp"
+
+using namespace voussoir::paper;
+using voussoir::InvalidInput;
+using voussoir_test::Folder;
+
+namespace {
+
+/// A tunnel that stands in every sample and is quick.
+const Variant quick{.bolts = Bolts{}, .lining = Lining{}};
+
+Section all_decided() {
+  Section section{"all", "All", "", {}};
+  for (const Claim& claim : claims())
+    section.findings.push_back({claim.id, Agreement::agrees, "seen"});
+  return section;
+}
+
+}  // namespace
+
+TEST_SUITE("program/paper") {
+  TEST_CASE("104 claims in order, every one in a chapter") {
+    REQUIRE(claims().size() == 104);
+    for (std::size_t k = 0; k < claims().size(); ++k) {
+      char id[16];
+      std::snprintf(id, sizeof id, "PF-%03d", static_cast<int>(k + 1));
+      CHECK(claims()[k].id == std::string(id));
+      CHECK(std::string(claims()[k].statement).size() > 10);
+    }
+    int next = 1;
+    for (const ClaimChapter& chapter : claim_chapters()) {
+      CHECK(chapter.first == next);
+      next = chapter.last + 1;
+    }
+    CHECK(next == 105);
+    // PF-069 and PF-042 as the print has them.
+    CHECK(std::string(claims()[68].statement).find("mean 0.030, sd 0.008") != std::string::npos);
+    CHECK(claims()[41].kind == ClaimKind::quantitative);
+  }
+
+  TEST_CASE("a claim that nobody decides, or two, is an error of ours") {
+    std::vector<Section> sections{all_decided()};
+    const auto score = scores(sections);
+    CHECK(score.back().agrees == 104);
+    CHECK(score.size() == claim_chapters().size() + 1);
+    sections[0].findings[7].agreement = Agreement::differs;
+    sections[0].findings[8].agreement = Agreement::not_testable;
+    const auto other = scores(sections);
+    CHECK(other.back().agrees == 102);
+    CHECK(other.front().differs == 1);
+    CHECK(other.front().not_testable == 1);
+    CHECK(score_text(other).find("102") != std::string::npos);
+    sections[0].findings.push_back({"PF-042", Agreement::agrees, ""});
+    CHECK_THROWS_AS((void)scores(sections), std::logic_error);
+    sections[0].findings.resize(103);
+    CHECK_THROWS_WITH_AS((void)scores(sections), doctest::Contains("PF-104"), std::logic_error);
+  }
+
+  TEST_CASE("measured over samples: what collapsed or fell is counted and said") {
+    Measured m;
+    Outcome stands, collapses;
+    stands.report.verdict = voussoir::Verdict::stable;
+    m.add(stands, 1);
+    m.add(stands, 3);
+    m.add(stands, std::numeric_limits<double>::quiet_NaN());
+    m.add(collapses, 100);
+    stands.report.fallen_measure = 0.5;
+    m.add(stands, 5);
+    CHECK(m.samples == 5);
+    CHECK(m.mean() == 3);
+    CHECK(m.deviation() == 2);
+    CHECK_FALSE(m.complete());
+    CHECK(m.text(10, "mm", 3) ==
+          "30.0 ± 20 mm (5 samples; 1 collapsed; 1 have lost that rock; 1 shed rock)");
+    Measured none;
+    none.add(collapses, 1);
+    CHECK(std::isnan(none.mean()));
+    CHECK(none.text(1, "mm") == "no value (1 sample; 1 collapsed)");
+  }
+
+  TEST_CASE("the same outcomes on one thread and two; every tunnel computed once") {
+    Study one(2, 1), two(2, 2);
+    const Variant held{.held = 0.5};
+    two.prepare({quick, held, quick});
+    CHECK(two.tunnels_solved() == 4);
+    two.prepare({held, quick});
+    CHECK(two.tunnels_solved() == 4);
+    for (const Variant& v : {quick, held})
+      for (std::size_t k = 0; k < 2; ++k) {
+        CHECK(one.of(v)[k].convergence.crown == two.of(v)[k].convergence.crown);
+        CHECK(one.of(v)[k].mean_thrust() == two.of(v)[k].mean_thrust());
+        CHECK(one.of(v)[k].seed == k + 1);
+      }
+    CHECK(one.of(quick)[0].bolts.size() == 13);
+    CHECK(one.of(quick)[0].lining.size() == 72);
+    CHECK(one.of(held)[0].convergence.crown < 0.6 * 3.5e-3);
+    CHECK_THROWS_AS(Study(0, 1), InvalidInput);
+    Study stopped(1, 1, [](const std::string&, double) { return false; });
+    CHECK_THROWS_AS(stopped.prepare({quick}), Study::Stopped);
+  }
+
+  TEST_CASE("a plot keeps its data, its script and its picture together") {
+    Plot plot{"one",
+              "Title with a \"word\"",
+              "x, m",
+              "F / (p_0 D)",
+              {{"theory, G_1", Mark::line, {0, 1, 2}, {0, 1, 4}},
+               {"blocks", Mark::linked_points, {0.5, 1.5}, {0.3, 2.2}, {0.1, 0.2}},
+               {"nothing failed", Mark::failed, {}, {}},
+               {"failed", Mark::failed, {1}, {1}}}};
+    plot.y_range = {{0, std::numeric_limits<double>::quiet_NaN()}};
+    CHECK(plot_csv(plot) ==
+          "series,x,y,spread\r\n\"theory, G_1\",0,0,0\r\n\"theory, G_1\",1,1,0\r\n"
+          "\"theory, G_1\",2,4,0\r\nblocks,0.5,0.3,0.1\r\nblocks,1.5,2.2,0.2\r\nfailed,1,1,0\r\n");
+    const std::string script = plot_script(plot);
+    CHECK(script.find("set yrange [0:*]") != std::string::npos);
+    CHECK(script.find("every ::0::2 using 2:3") != std::string::npos);
+    CHECK(script.find("every ::3::4 using 2:3:4") != std::string::npos);
+    CHECK(script.find("every ::5::5") != std::string::npos);
+    CHECK(script.find("nothing failed") == std::string::npos);
+    const auto pictures = drawn({plot, plot});
+    REQUIRE(pictures.size() == 2);
+    CHECK(voussoir_test::xml_fault(pictures[0]) == "");
+    CHECK(pictures[0].find("blocks") != std::string::npos);
+    CHECK(drawn({}).empty());
+    plot.series[0].y.pop_back();
+    CHECK_THROWS_WITH_AS((void)plot_csv(plot), doctest::Contains("theory"), InvalidInput);
+    plot.series.clear();
+    CHECK_THROWS_WITH_AS((void)drawn({plot}), doctest::Contains("one"), std::runtime_error);
+  }
+
+  TEST_CASE("the report holds every section, plot and claim, and no other file") {
+    Section section = all_decided();
+    section.plots = {{"p", "P", "x", "y", {{"s", Mark::line, {0, 1}, {0, 1}}}}};
+    section.tables = {{"T <1>", {"a", "b"}, {{"1", "<2>"}}}};
+    Study study(1, 1);
+    const std::string page = report_html({section}, drawn(section.plots), study, 1);
+    CHECK(page.find("&lt;2&gt;") != std::string::npos);
+    CHECK(page.find("<svg") != std::string::npos);
+    CHECK(page.find("PF-104") != std::string::npos);
+    CHECK(page.find("href=\"http") == std::string::npos);
+    CHECK(page.find("src=") == std::string::npos);
+    std::set<std::string> ids;  // no id twice
+    for (auto at = page.find("id=\""); at != std::string::npos; at = page.find("id=\"", at + 4))
+      CHECK(ids.insert(page.substr(at + 4, page.find('"', at + 4) - at - 4)).second);
+    CHECK(scoreboard_csv({section}).find("PF-001") != std::string::npos);
+  }
+
+  TEST_CASE("verify: all pass, a value that is off does not") {
+    Study study(1, 2);
+    const auto checks = verification(study);
+    CHECK(checks.size() > 40);
+    for (const Check& check : checks) {
+      CAPTURE(check.what);
+      CHECK(check.passes());
+      // Another computation, not the same number twice; counts of blocks in balance are exact.
+      if (check.kind == Check::Kind::solution) CHECK(check.deviation() > 0);
+    }
+    Check off{Check::Kind::solver, "off", 1.02, 1, 0.01, "none"};
+    CHECK_FALSE(off.passes());
+    off.value = std::numeric_limits<double>::quiet_NaN();
+    CHECK_FALSE(off.passes());
+    CHECK(verification_text({off}).find("FAIL") != std::string::npos);
+    CHECK(verification_text({off}).find("0 of 1 pass") != std::string::npos);
+  }
+
+#ifdef VOUSSOIR_TEST_PROGRAM
+  TEST_CASE("voussoir paper: bad options write nothing") {
+    Folder folder;
+    for (const std::string& samples : {"0", "-3", "many"}) {
+      const auto run =
+          voussoir_test::run_program({"paper", "--samples", samples, "--out", folder / "out"});
+      CHECK(run.status == 2);
+      CHECK(run.err.find("--samples") != std::string::npos);
+      CHECK(voussoir_test::contents(folder / "out").empty());
+    }
+    const std::string file = voussoir_test::write_file(folder / "file", "");
+    const auto run = voussoir_test::run_program({"paper", "--out", file});
+    CHECK(run.status == 1);
+    CHECK(run.err.find("is not a folder") != std::string::npos);
+  }
+
+  TEST_CASE("voussoir paper without gnuplot says what to install, before it computes") {
+    const char* path = std::getenv("PATH");
+    const std::string before = path ? path : "";
+    setenv("PATH", "/nowhere", 1);
+    Folder folder;
+    const auto run = voussoir_test::run_program({"paper", "--out", folder / "out"});
+    setenv("PATH", before.c_str(), 1);
+    CHECK(run.status == 1);
+    CHECK(run.err.find("gnuplot-nox") != std::string::npos);
+    CHECK(voussoir_test::contents(folder / "out").empty());
+  }
+
+  TEST_CASE("voussoir verify prints its table and ends with 0") {
+    const auto run = voussoir_test::run_program({"verify"});
+    CHECK(run.status == 0);
+    CHECK(run.out.find("PASS") != std::string::npos);
+    CHECK(run.out.find("FAIL") == std::string::npos);
+    CHECK(voussoir_test::run_program({"verify", "--quiet"}).out.empty());
+  }
+#endif
+}
