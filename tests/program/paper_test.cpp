@@ -139,7 +139,7 @@ TEST_SUITE("program/paper") {
     CHECK(script.find("nothing failed") == std::string::npos);
     const auto pictures = drawn({plot, plot});
     REQUIRE(pictures.size() == 2);
-    CHECK(voussoir_test::xml_fault(pictures[0]) == "");
+    CHECK(xml_fault(pictures[0]) == "");
     CHECK(pictures[0].find("blocks") != std::string::npos);
     CHECK(drawn({}).empty());
     plot.series[0].y.pop_back();
@@ -186,7 +186,7 @@ TEST_SUITE("program/paper") {
 #ifdef VOUSSOIR_TEST_PROGRAM
   TEST_CASE("voussoir paper: bad options write nothing") {
     Folder folder;
-    for (const std::string& samples : {"0", "-3", "many"}) {
+    for (const std::string samples : {"0", "-3", "many"}) {
       const auto run =
           voussoir_test::run_program({"paper", "--samples", samples, "--out", folder / "out"});
       CHECK(run.status == 2);
@@ -216,7 +216,6 @@ TEST_SUITE("program/paper") {
     CHECK(run.status == 0);
     CHECK(run.out.find("PASS") != std::string::npos);
     CHECK(run.out.find("FAIL") == std::string::npos);
-    CHECK(voussoir_test::run_program({"verify", "--quiet"}).out.empty());
   }
 #endif
 }

@@ -164,11 +164,12 @@ TEST_SUITE("solver/oedometer") {
                smooth = path(20, there_and_back);
     // Joints that would pull in the linear answer open: G gives way by less than 2 % (0.7 % in the
     // whole section of the paper), and stays the same on the way, for nothing slips.
-    for (const auto& state : rough) {
-      CHECK(state.shear_modulus < elastic.shear_modulus);
-      CHECK(std::abs(state.shear_modulus / elastic.shear_modulus - 1) < 0.02);
-      // The search is accepted at 1e-3.
-      CHECK(std::abs(state.shear_modulus / rough.front().shear_modulus - 1) < 2e-3);
+    for (std::size_t k = 0; k < rough.size(); ++k) {
+      CHECK(rough[k].shear_modulus < elastic.shear_modulus);
+      CHECK(std::abs(rough[k].shear_modulus / elastic.shear_modulus - 1) < 0.02);
+      // The search is accepted at 1e-3 of the largest motion, whatever part of it is left.
+      CHECK(std::abs(rough[k].shear_modulus / rough.front().shear_modulus - 1) <
+            2e-3 * 2e-4 / there_and_back[k]);
     }
     CHECK(usual[1].shear_modulus < rough[1].shear_modulus);
     CHECK(smooth[1].shear_modulus < usual[1].shear_modulus);
