@@ -169,10 +169,12 @@ Section force_histograms(Study& study) {
                  printed_text(all.skewness(), 2) + "), which a single sample of 21 does not show.",
        printed_text(d_sudden, 3) + ", limit " +
            printed_text(lilliefors_limit(all_sudden.size()), 3)});
-  section.findings.push_back({"PF-074", Agreement::agrees,
-                              "mean and deviation of the " + std::to_string(all.size()) +
-                                  " raw values: " + summary(all) +
-                                  "; the histogram is for the eye"});
+  section.findings.push_back(
+      {"PF-074",
+       agrees_if(fit_normal(all).distribution().mean() == all.mean() &&
+                 fit_normal(all).distribution().standard_deviation() == all.deviation()),
+       "mean and deviation of the " + std::to_string(all.size()) + " raw values: " + summary(all) +
+           "; the histogram is for the eye"});
   NormalBelief belief{0.03, 1, 2, 1e-4};
   for (const Outcome* o : quasi) belief = belief.after(normalised({o}));
   const NormalBelief at_once = NormalBelief{0.03, 1, 2, 1e-4}.after(all);

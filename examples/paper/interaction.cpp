@@ -203,7 +203,7 @@ Section interaction(Study& study) {
            study.measure(choice, [](const Outcome& o) { return o.largest_force(); })
                .text(1e-3, "kN"),
        chosen.complete() && !sheds ? "" : "rock falls in some sample"});
-  section.findings.push_back({"PF-103", Agreement::agrees,
+  section.findings.push_back({"PF-103", agrees_if(chosen.values.size() > 1),
                               "the diagram is the mean of " + std::to_string(study.samples()) +
                                   " samples; at the chosen point the samples scatter by " +
                                   percent(chosen.deviation() / chosen.mean()) +

@@ -91,7 +91,9 @@ Section lining_thrust(Study& study) {
        "three flexibilities in series give " + printed_text(1e-3 * in_series, 6) +
            " kN/m, eq. (13) as printed " + printed_text(1e-3 * by_eq13, 6) + " kN/m (G3, 10 cm)"});
   section.findings.push_back(
-      {"PF-080", Agreement::agrees,
+      {"PF-080",
+       agrees_if(mean.measured[0].complete() && mean.measured[2].complete() &&
+                 mean.measured[3].complete()),
        "run at 1 MPa/m, 0.1 GPa/m and 1 GPa/m with t = 10 cm: mean "
        "thrust " +
            means({mean.measured[0], mean.measured[2], mean.measured[3]}, 1e-3, "kN/m")});
