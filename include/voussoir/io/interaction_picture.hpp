@@ -117,6 +117,7 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
   if (any_failed) items.push_back({"blocks fall", draw_failed_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
+  if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});
   items.push_back({shown.name + ", " + shown.contour_unit, [](SvgCanvas& canvas, const Vec2& c) {
                      canvas.line(c - Vec2(12, 0), c + Vec2(12, 0),
                                  {.stroke = "#1d3b53", .stroke_width = 1.1});

@@ -50,6 +50,14 @@ struct InteractionPicture {
   /// if it has a value.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
   std::optional<InteractionQuantity> quantity = {};  ///< none: crown convergence
+  /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
+  struct Other {
+    double thickness, spacing;  ///< as on the axes; drawn if within them
+    double value;               ///< SI; written beside the label
+    std::string label;
+  };
+  std::vector<Other> others = {};
+  std::string others_name = "other";  ///< in the legend
 
   [[nodiscard]] InteractionQuantity shown() const {
     return quantity.value_or(InteractionQuantity::crown_convergence(diameter));

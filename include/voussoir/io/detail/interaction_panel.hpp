@@ -55,6 +55,12 @@ inline void draw_missing_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 3.2, {.fill = "white", .stroke = "#666", .stroke_width = 1.2});
 }
 
+inline void draw_other_mark(SvgCanvas& canvas, const Vec2& at) {
+  const SvgStyle style{.stroke = "#b45309", .stroke_width = 2};
+  const Vec2 corners[4] = {at + Vec2(9, 0), at + Vec2(0, 9), at - Vec2(9, 0), at - Vec2(0, 9)};
+  for (int k = 0; k < 4; ++k) canvas.line(corners[k], corners[(k + 1) % 4], style);
+}
+
 inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& picture,
                                    const InteractionPanel& panel, const ContourBands& bands) {
   const PageMap map = panel.map();
@@ -75,6 +81,18 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
       taken.take({at - Vec2(9, 9), at + Vec2(9, 9)});
     }
   }
+  const TextStyle beside{.size = 11.5, .bold = true, .fill = "#8a3f06", .halo = true};
+  std::vector<std::pair<Vec2, std::string>> others;  // place of the mark, text beside it
+  const auto within = [](double x, const std::vector<double>& axis) {
+    return x >= axis.front() && x <= axis.back();
+  };
+  if (!panel.is_strip())
+    for (const InteractionPicture::Other& other : picture.others) {
+      if (!within(other.thickness, panel.grid.x) || !within(other.spacing, panel.grid.y)) continue;
+      const Vec2 at = map({other.thickness, other.spacing});
+      others.emplace_back(at, other.label + ": " + printed_text(other.value * shown.point_scale));
+      taken.take(text_room(at + Vec2(13, 4), others.back().second, beside).grown(2));
+    }
   for (std::size_t k = 0; k < panel.rows.size(); ++k) {
     for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
       const double value = picture.at(i, panel.rows[k]);
@@ -105,6 +123,10 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
     }
   }
   for (const Label& label : labels) canvas.text(label.at, label.text, small);
+  for (const auto& [at, text] : others) {
+    draw_other_mark(canvas, at);
+    canvas.text(at + Vec2(13, 4), text, beside);
+  }
   canvas.rectangle(panel.page, {.stroke = "#111"});
   double last_y = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < panel.rows.size(); ++k) {  // upwards
