@@ -59,6 +59,19 @@ struct LiningResponse {
   }
 };
 
+namespace detail {
+
+inline void check_lined_ground(const RingLining& lining, const FarStress& far,
+                               const ElasticGround& ground) {
+  lining.check();
+  far.check();
+  ground.check();
+  require(std::isfinite(ground.shear_modulus), "shear modulus G", ground.shear_modulus,
+          "finite [Pa]");
+}
+
+}  // namespace detail
+
 /// Lining in elastic ground under unequal stresses, plane strain.
 ///
 ///   C* = E R (1 - nu_s^2) / (E_s A_s (1 - nu^2)),   F* = E R^3 (1 - nu_s^2) / (E_s I_s (1 - nu^2))
@@ -79,11 +92,7 @@ struct LiningResponse {
                                                       const FarStress& far,
                                                       const ElasticGround& ground,
                                                       LiningInterface interface) {
-  lining.check();
-  far.check();
-  ground.check();
-  require(std::isfinite(ground.shear_modulus), "shear modulus G", ground.shear_modulus,
-          "finite [Pa]");
+  detail::check_lined_ground(lining, far, ground);
   const double nu = ground.poisson_ratio, R = lining.radius, K = far.k0;
   const double ratio = ground.youngs_modulus() * R *
                        (1 - lining.poisson_ratio * lining.poisson_ratio) /
@@ -146,11 +155,7 @@ struct InextensibleLining {
 [[nodiscard]] inline InextensibleLining curtis(const RingLining& lining, const FarStress& far,
                                                const ElasticGround& ground,
                                                LiningInterface interface) {
-  lining.check();
-  far.check();
-  ground.check();
-  require(std::isfinite(ground.shear_modulus), "shear modulus G", ground.shear_modulus,
-          "finite [Pa]");
+  detail::check_lined_ground(lining, far, ground);
   const double nu = ground.poisson_ratio, R = lining.radius;
   const double q = ground.youngs_modulus() * R * R * R /
                    (12 * lining.elastic_modulus * lining.inertia * (1 + nu));
