@@ -9,34 +9,23 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 #include <voussoir/voussoir.hpp>
+
+#include "design_rock.hpp"
 using namespace voussoir;
 
 namespace {
 
-constexpr double deg = std::numbers::pi / 180, diameter = 10;
-const InSitu in_situ{.density = 2700, .k0 = 1};
-const double p0 = in_situ.vertical(20 + 0.5 * diameter);
-const CoulombJoint joint({.joint_normal_stiffness = 5e9,
-                          .joint_shear_stiffness = 5e8,
-                          .friction_angle = 35 * deg});
+using paper::degree;
+const InSitu in_situ{.density = paper::density, .k0 = 1};
+const CoulombJoint joint({paper::normal_stiffness, paper::shear_stiffness, paper::friction});
 const AxialBolt bolt({.axial_stiffness = 2e8, .rupture_force = 5e5});
-const SimplePolygon opening = circular_opening(diameter);
+const SimplePolygon opening = circular_opening(paper::diameter);
 /// 21 bolts of 7 m, from below one springing over the crown to below the other.
 const BoltPattern pattern{
-    .length = 7, .angular_spacing = 11.25 * deg, .from = -22.5 * deg, .to = 202.5 * deg};
-
-RockMass<Planar> sliced(std::uint64_t seed) {
-  const Domain<2> ground = domain_around(opening, 70, 20, 30);
-  const std::vector<JointSet> sets{{"J1", 75 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                                   {"J2", 25 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                                   {"J3", 25 * deg, DipDirection::west, 1 * deg, 1, 0, 1}};
-  return slice(ground, joint_network(sets, ground, seed),
-               {.min_inscribed_radius = 0.25, .max_elongation = 5});
-}
+    .length = 7, .angular_spacing = 11.25 * degree, .from = -22.5 * degree, .to = 202.5 * degree};
 
 /// Mean and standard deviation over bolts of each bolt's largest force, over p0 D.
 struct Force {
@@ -49,7 +38,7 @@ Force statistics(const std::vector<double>& largest) {
     squares += force * force;
   }
   const double n = static_cast<double>(largest.size()), mean = sum / n;
-  const double scale = p0 * diameter;
+  const double scale = paper::ground_pressure * paper::diameter;
   return {mean / scale, std::sqrt(std::max(0.0, squares / n - mean * mean)) / scale};
 }
 void print(const std::string& what, const Force& f, double crown, double unbalance,
@@ -79,7 +68,7 @@ int crown_block(const RockMass<Planar>& mass) {
   int best = 0;
   double least = 1e9;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
-    const double away = (mass.bodies[b].properties.centroid - Vec2(0, 0.5 * diameter + 0.3)).norm();
+    const double away = (mass.bodies[b].properties.centroid - Vec2(0, paper::radius + 0.3)).norm();
     if (away < least) {
       least = away;
       best = static_cast<int>(b);
@@ -117,7 +106,7 @@ void in_motion(const std::string& what, const RockMass<Planar>& rock, double dam
 void generated(const std::string& what, const RockMass<Planar>& rock, double damping) {
   const auto start = std::chrono::steady_clock::now();
   const CoulombJoint smooth(
-      {.joint_normal_stiffness = 5e9, .joint_shear_stiffness = 5e8, .friction_angle = 1 * deg});
+      {.joint_normal_stiffness = 5e9, .joint_shear_stiffness = 5e8, .friction_angle = 1 * degree});
   auto made =
       generation_stage(rock, opening, smooth, in_situ, {.overlap_limit = 0.2}, {.unbalance = 0.05});
   made.fix_sides();
@@ -146,9 +135,9 @@ int main(int argc, char** argv) {
   if (seeds.empty()) seeds.push_back(1);
   try {
     for (const std::uint64_t seed : seeds) {
-      const auto rock = sliced(seed);
+      const auto rock = paper::sliced_rock(paper::mass_a, seed);
       std::printf("seed %d, %zu blocks, p0 = %.3f MPa\n", static_cast<int>(seed),
-                  rock.bodies.size(), 1e-6 * p0);
+                  rock.bodies.size(), 1e-6 * paper::ground_pressure);
       std::printf("| %-56s | %-16s | crown | unbal.  | wall  |\n", "way to equilibrium",
                   "F / (p0 D)");
       std::printf("|%s|%s|-------|---------|-------|\n", std::string(58, '-').c_str(),
@@ -166,7 +155,7 @@ int main(int argc, char** argv) {
       }
       const CoulombJoint soft({.joint_normal_stiffness = 2.5e9,
                                .joint_shear_stiffness = 2.5e8,
-                               .friction_angle = 35 * deg});
+                               .friction_angle = 35 * degree});
       search("quasi-static, joints half as stiff", rock, TwoLevel{}, ContactPoints::gauss, soft);
       search("sudden, alpha 0.1, one point, joints half as stiff", rock,
              Explicit({.damping = 0.1, .ramp_steps = 0}), ContactPoints::centre, soft);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "design_case.hpp"
 
-#include <string>
-#include <utility>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
@@ -14,29 +12,19 @@ using namespace voussoir;
 
 namespace {
 
-SimplePolygon opening() { return circular_opening(10); }
-
-RockMass<Planar> rock_in(const Domain<2>& ground, const Rock& rock, std::uint64_t seed) {
-  const auto set = [&](const char* name, double dip, DipDirection direction) {
-    return JointSet{name, dip * degree, direction, 1 * degree, 1, 0, rock.extent};
-  };
-  return slice(ground,
-               joint_network({set("J1", 75, DipDirection::east), set("J2", 25, DipDirection::east),
-                              set("J3", 25, DipDirection::west)},
-                             ground, seed),
-               rock.limits);
-}
+SimplePolygon opening() { return circular_opening(paper::diameter); }
 
 }  // namespace
 
-RockMass<Planar> generate(const Rock& rock, double scale, std::uint64_t seed) {
-  return rock_in({Vec2(-35, -35) * scale, Vec2(35, 25) * scale}, rock, seed);
+RockMass<Planar> generate(const paper::RockReading& rock, double scale) {
+  return paper::sliced_rock(rock, 1, {Vec2(-35, -35) * scale, Vec2(35, 25) * scale});
 }
 
-Tunnel excavated(double scale, std::uint64_t seed) {
-  const Domain<2> ground = domain_around(opening(), 70 * scale, 20, 30);
-  Tunnel tunnel(rock_in(ground, mass_a, seed), CoulombJoint({5e9, 5e8, 35 * degree}),
-                {.density = 2700, .k0 = 1});
+Tunnel excavated(double scale) {
+  Tunnel tunnel(
+      paper::sliced_rock(paper::mass_a, 1, paper::domain({.width = paper::width * scale})),
+      CoulombJoint({paper::normal_stiffness, paper::shear_stiffness, paper::friction}),
+      {.density = paper::density, .k0 = 1});
   tunnel.excavate(opening());
   return tunnel;
 }

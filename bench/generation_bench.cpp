@@ -16,7 +16,7 @@ namespace {
 using namespace voussoir_bench;
 
 /// Range: the area over 70 m x 60 m. Joints are drawn and blocks sliced in every iteration.
-void slicing(benchmark::State& state, const Rock& rock) {
+void slicing(benchmark::State& state, const voussoir::paper::RockReading& rock) {
   const double scale = std::sqrt(static_cast<double>(state.range(0)));
   std::size_t blocks = 0;
   for (auto _ : state) {
@@ -30,13 +30,13 @@ void slicing(benchmark::State& state, const Rock& rock) {
       benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
   state.SetComplexityN(static_cast<benchmark::IterationCount>(blocks));
 }
-BENCHMARK_CAPTURE(slicing, mass_a, mass_a)
+BENCHMARK_CAPTURE(slicing, mass_a, voussoir::paper::mass_a)
     ->Arg(1)
     ->Arg(4)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
-BENCHMARK_CAPTURE(slicing, mass_b, mass_b)
+BENCHMARK_CAPTURE(slicing, mass_b, voussoir::paper::mass_b)
     ->Arg(1)
     ->Arg(4)
     ->Arg(10)

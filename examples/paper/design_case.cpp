@@ -65,7 +65,7 @@ void support(Tunnel& tunnel, const Variant& variant) {
     LiningSection section = LiningSection::rectangular(variant.lining->thickness, lining_modulus);
     section.bending_stiffness *= variant.lining->bending_factor;
     section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
-    tunnel.install_lining(lining_frame(tunnel.mass(), {}), section,
+    tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = variant.lining->nodes}), section,
                           CoulombJoint({variant.lining->interface_stiffness,
                                         variant.lining->interface_stiffness, interface_friction}));
   }
@@ -87,27 +87,10 @@ double mean_near(const Entries& entries, double angle, const Value& value) {
 
 }  // namespace
 
-std::vector<JointSet> joint_sets(const RockReading& reading) {
-  const auto set = [&](const char* name, double dip, DipDirection direction) {
-    return JointSet{name, dip * degree, direction, 1 * degree, 1, 0, reading.joint_extent};
-  };
-  return {set("J1", 75, DipDirection::east), set("J2", 25, DipDirection::east),
-          set("J3", 25, DipDirection::west)};
-}
-
-Domain<2> domain() { return domain_around(opening(), width, cover, below); }
-
-RockMass<Planar> sliced_rock(const RockReading& reading, std::uint64_t seed,
-                             const Domain<2>& ground) {
-  return slice(
-      ground, joint_network(joint_sets(reading), ground, seed),
-      {.min_inscribed_radius = reading.min_radius, .max_elongation = reading.max_elongation});
-}
-
-InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle) {
+InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle, double surcharge) {
   const auto mass = sliced_rock(mass_a, seed);
   Tunnel tunnel(mass, CoulombJoint({normal_stiffness, shear_stiffness, friction_angle}),
-                {.density = density, .k0 = k0, .gravity = gravity});
+                {.density = density, .k0 = k0, .surcharge = surcharge, .gravity = gravity});
   auto& system = tunnel.system();
   // The stress in a block is the sum of (place of a contact force) x (force) over its area.
   std::vector<Stress<2>> stress(mass.bodies.size(), Stress<2>::Zero());
@@ -192,7 +175,7 @@ struct ExcavatedRock::Parts {
 };
 
 ExcavatedRock::ExcavatedRock(std::uint64_t seed, const Variant& variant) {
-  Tunnel tunnel(sliced_rock(mass_a, seed),
+  Tunnel tunnel(sliced_rock(mass_a, seed, domain(variant.extent)),
                 CoulombJoint({normal_stiffness, shear_stiffness, variant.friction}),
                 {.density = density, .k0 = variant.k0, .gravity = gravity},
                 variant.way == Way::as_the_paper ? ContactPoints::centre : ContactPoints::gauss);
@@ -209,7 +192,8 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
   Outcome outcome;
   outcome.seed = parts_->seed;
   const ChosenMethod method = method_of(variant.way);
-  Acceptance acceptance;
+  Acceptance acceptance{.error_estimate = variant.tolerance,
+                        .unbalance_over_weight = 10 * variant.tolerance};
   acceptance.collapse_measure = 0.25 * opening().area();
   acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
   // The overshoot of an explicit run is no fall.

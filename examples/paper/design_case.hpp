@@ -4,55 +4,26 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <vector>
-#include <voussoir/core/vec.hpp>
-#include <voussoir/rockmass/joint_set.hpp>
-#include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/tunnel/measurements.hpp>
+
+#include "design_rock.hpp"
 
 /// The tunnel that Boon, Houlsby & Utili (2015) design, and what they change about it: Table 2 and
 /// sections 5 to 8. One place for all analyses, so that they share every assumption.
 namespace voussoir::paper {
 
-inline constexpr double degree = std::numbers::pi / 180;
-inline constexpr double diameter = 10, radius = 5;       ///< of the opening [m]
-inline constexpr double cover = 20, below = 30;          ///< rock above crown, below invert [m]
-inline constexpr double width = 70;                      ///< of the domain [m]
-inline constexpr double density = 2700, gravity = 9.81;  ///< [kg/m^3], [m/s^2]
-inline constexpr double ground_pressure = density * gravity * (cover + radius);  ///< p0 [Pa]
-inline constexpr double normal_stiffness = 5e9, shear_stiffness = 5e8;  ///< of joints [Pa/m]
-inline constexpr double friction = 35 * degree;                         ///< of joints
 inline constexpr double bolt_stiffness = 2e8;       ///< K_a, across a joint [N/m]
 inline constexpr double bolt_strength = 5e5;        ///< [N]
 inline constexpr double bolt_diameter = 0.028;      ///< [m]
-inline constexpr double joint_spacing = 0.77;       ///< s_mean, as the paper measured it [m]
 inline constexpr double lining_modulus = 25e9;      ///< E_L [Pa]
 inline constexpr double interface_stiffness = 1e9;  ///< K_L [Pa/m]
 inline constexpr double interface_friction = 30 * degree;
 /// A block that has moved so far has fallen [m]. Where a lining may catch it, it is followed
 /// further, contacts found again every 20 mm: a soft ring holds rock that has come down on it.
 inline constexpr double fall_limit = 0.02, lined_fall_limit = 0.1;
-
-/// How the paper's rock is read: it does not print the length of its joints, and 0.5 m of "minimum
-/// block size" may be a radius or a diameter.
-struct RockReading {
-  const char* name;
-  double joint_extent;  ///< length of a joint [m]
-  double min_radius;    ///< least inscribed radius of a block [m]
-  double max_elongation;
-};
-inline constexpr RockReading mass_a{"A", 1, 0.25, 5};  ///< the paper's moduli: used throughout
-inline constexpr RockReading mass_b{"B", 2, 0.36, 5};  ///< the paper's spacing, 0.77 m
-/// 75E, 25E and 25W, one centre per square metre each, a standard deviation of 1 degree.
-[[nodiscard]] std::vector<JointSet> joint_sets(const RockReading& reading);
-/// 70 m x 60 m around the opening; its centre is the origin.
-[[nodiscard]] Domain<2> domain();
-/// One random sample, without the opening.
-[[nodiscard]] RockMass<Planar> sliced_rock(const RockReading& reading, std::uint64_t seed,
-                                           const Domain<2>& ground = domain());
 
 /// A sample under its in-situ stress, before anything is excavated.
 struct InSituState {
@@ -63,7 +34,9 @@ struct InSituState {
   double unbalance;  ///< of the worst block over its weight [-]
   double drift;      ///< largest displacement on the way to equilibrium [m]
 };
-[[nodiscard]] InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle);
+/// @param surcharge  on the ground surface [Pa]
+[[nodiscard]] InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle,
+                                        double surcharge = 0);
 
 enum class AnchorPlace { near_joint, mid_block, on_joint };
 
@@ -83,6 +56,7 @@ inline constexpr Bolts reference_bolts{
 
 struct Lining {
   double thickness = 0.1;  ///< t [m]
+  int nodes = 72;          ///< around the circle
   double interface_stiffness = paper::interface_stiffness;
   double bending_factor = 1;  ///< of E I of that thickness
   auto operator<=>(const Lining&) const = default;
@@ -109,6 +83,8 @@ struct Variant {
   /// Part left when support goes in; 1: wished in place before the rock moves [-].
   double held_at_support = 1;
   Way way = Way::quasi_static;
+  Extent extent = {};
+  double tolerance = 1e-3;  ///< of the error estimate; of the unbalance ten times as much
   auto operator<=>(const Variant&) const = default;
 
   [[nodiscard]] Variant as_the_paper() const {
@@ -162,7 +138,8 @@ struct Outcome {
 };
 
 /// A sample of the rock in its in-situ stress, excavated, nothing moved: the start of every variant
-/// with the same stress, friction and points per contact. Making it costs as much as solving.
+/// with the same stress, friction, extent and points per contact. Making it costs as much as
+/// solving.
 class ExcavatedRock {
  public:
   ExcavatedRock(std::uint64_t seed, const Variant& variant);

@@ -61,9 +61,9 @@ class Study {
 
  private:
   /// What the rock before support depends on.
-  using RockKey = std::tuple<std::uint64_t, double, double, Way>;
+  using RockKey = std::tuple<std::uint64_t, double, double, Way, Extent>;
   [[nodiscard]] static RockKey rock_of(std::uint64_t seed, const Variant& variant) {
-    return {seed, variant.k0, variant.friction, variant.way};
+    return {seed, variant.k0, variant.friction, variant.way, variant.extent};
   }
 
   int samples_;
