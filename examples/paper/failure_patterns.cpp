@@ -31,12 +31,11 @@ Section failure_patterns(Study& study) {
   Section section{"failure_patterns",
                   "How unsupported tunnels fail",
                   "2, Table 1, Fig. 2",
-                  {"24 sets of joints under 50 m of rock, let go at once and followed for six "
-                   "tenths of a second, contacts found again as blocks move: a free fall of 1.8 m. "
-                   "Rock that has moved by 0.3 m is lost. Names follow from measurements by rules "
-                   "that were fixed beforehand (docs/failure-patterns.md); \"agrees\" is the same "
-                   "name."}};
-  const program::PatternOptions options{.duration = 0.6};
+                  {"24 sets of joints under 50 m of rock, let go at once and followed for one "
+                   "second, contacts found again as blocks move: a free fall of 4.9 m. Rock that "
+                   "has moved by 0.3 m is lost. Names follow from measurements by rules that were "
+                   "fixed beforehand (docs/failure-patterns.md); \"agrees\" is the same name."}};
+  const program::PatternOptions options;
   std::vector<PatternResult> results;
   for (const PatternCase& c : program::pattern_cases())
     for (int seed = 1; seed <= study.samples(); ++seed) {
@@ -97,11 +96,6 @@ Section failure_patterns(Study& study) {
   const auto of_all = [&](int count) {
     return std::to_string(count) + " of " + std::to_string(runs) + " runs";
   };
-  const double depth_stress = density * gravity * (options.cover + radius);
-  section.findings.push_back({"PF-002", agrees_if(std::abs(depth_stress - 1456785) < 1),
-                              "vertical stress at the centre " +
-                                  printed_text(1e-6 * depth_stress, 7) +
-                                  " MPa: 20 m of rock above the crown and the rest as a load"});
   section.findings.push_back(
       {"PF-019", agrees_if(roofs > runs / 2),
        "roof named as in the paper in " + of_all(roofs) + ", walls in " + of_all(walls),
@@ -208,8 +202,7 @@ Section failure_patterns(Study& study) {
       {"PF-027", agrees_if(toppled > 0.1 * at_walls),
        "no. 10: " + printed_text(toppled, 2) + " of " + printed_text(at_walls, 2) +
            " m² lost at the walls turned more than it moved",
-       toppled > 0.1 * at_walls ? ""
-                                : "it slides; six tenths of a second may be too short to topple"});
+       toppled > 0.1 * at_walls ? "" : "it slides; a second may be too short to topple"});
   const auto areas = [&](int number) {
     std::pair<double, double> sum{0, 0};
     for (const PatternResult* r : of_case(number)) {

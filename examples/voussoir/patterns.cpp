@@ -393,15 +393,15 @@ void draw_stage(SvgCanvas& canvas, const PatternResult::Stage& stage, const View
   const PageMap map = PageMap::equal_scales(world, frame);
   canvas.clip_rectangle(id, frame);
   canvas.begin_layer("stage-" + id, id);
+  SvgPath held(1), released(1);
   for (std::size_t k = 0; k < stage.outlines.size(); ++k) {
     if (!std::any_of(stage.outlines[k].begin(), stage.outlines[k].end(),
                      [&](const Vec2& p) { return world.contains(p); }))
       continue;
-    canvas.polygon(on_page(stage.outlines[k], map),
-                   {.fill = stage.released[k] ? "#d9805f" : "#e3e0d8",
-                    .stroke = "#555",
-                    .stroke_width = 0.35});
+    (stage.released[k] ? released : held).add_polygon(on_page(stage.outlines[k], map));
   }
+  canvas.path(held, {.fill = "#e3e0d8", .stroke = "#555", .stroke_width = 0.35});
+  canvas.path(released, {.fill = "#d9805f", .stroke = "#555", .stroke_width = 0.35});
   canvas.end_layer();
   canvas.rectangle(frame, {.stroke = "#333", .stroke_width = 0.8});
 }
@@ -450,30 +450,39 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
   const double width = (picture_width - 2 * picture_margin) / columns, side = width - 12;
   const double row = side + 84;
   const auto rows = static_cast<double>((by_case.size() + columns - 1) / columns);
+  header.lines = {
+      "The first sample of each case. Below it what the paper sees at the roof and at the walls, and "
+      "what samples 1 to 3 do, with m\u00b2 lost."};
+  std::map<int, std::vector<std::string>> captions;
+  double size = 10.5;  // one for all captions
+  for (const auto& [number, runs] : by_case) {
+    const PatternCase& c = pattern_cases()[static_cast<std::size_t>(number - 1)];
+    std::vector<std::string>& lines = captions[number];
+    lines = {case_title(c), std::string("paper: ") + to_string(c.roof) + "; " + to_string(c.wall)};
+    for (std::size_t k = 0; k < runs.size() && k < 3; ++k)
+      lines.push_back(std::to_string(runs[k]->seed) + ": " + to_string(runs[k]->roof) + " " +
+                      fixed_text(runs[k]->roof_area, 0) + "; " + to_string(runs[k]->wall) + " " +
+                      fixed_text(runs[k]->wall_area, 0));
+    for (const std::string& text : lines)
+      size = std::min(
+          size,
+          10.5 * side /
+              std::max(1.0, text_width(text, {.size = 10.5, .bold = &text == &lines.front()})));
+  }
   const double top = header.height() + 6;
   SvgCanvas canvas(picture_width, top + rows * row + 10, picture_printed_width, header.title);
   header.draw(canvas);
   std::size_t place = 0;
   for (const auto& [number, runs] : by_case) {
-    const PatternCase& c = pattern_cases()[static_cast<std::size_t>(number - 1)];
     const Vec2 low(picture_margin + static_cast<double>(place % columns) * width,
                    top + static_cast<double>(place / columns) * row);
     if (!runs.front()->stages.empty())
       draw_stage(canvas, runs.front()->stages.back(), {low, low + Vec2::Constant(side)},
                  "c" + std::to_string(number));
-    std::vector<std::string> lines = {case_title(c), std::string("paper: ") + to_string(c.roof) +
-                                                         "; walls: " + to_string(c.wall)};
-    for (std::size_t k = 0; k < runs.size() && k < 3; ++k)
-      lines.push_back("seed " + std::to_string(runs[k]->seed) + ": " + to_string(runs[k]->roof) +
-                      " " + fixed_text(runs[k]->roof_area, 0) +
-                      " m\u00b2; walls: " + to_string(runs[k]->wall) + " " +
-                      fixed_text(runs[k]->wall_area, 0) + " m\u00b2");
-    double size = 10.5;  // one for all lines of a case
-    for (const std::string& text : lines)
-      size = std::min(size, 10.5 * side / std::max(1.0, text_width(text, {.size = 10.5})));
-    for (std::size_t k = 0; k < lines.size(); ++k)
-      canvas.text(low + Vec2(0, side + 13.0 + 13.0 * static_cast<double>(k)), lines[k],
-                  {.size = size, .bold = k == 0});
+    double y = side;
+    for (const std::string& text : captions[number])
+      canvas.text(low + Vec2(0, y += 13.0), text,
+                  {.size = size, .bold = &text == &captions[number].front()});
     ++place;
   }
   return canvas.document();
