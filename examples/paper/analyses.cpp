@@ -34,6 +34,7 @@ const std::vector<NamedAnalysis>& analyses() {
       {"softer_bolts", softer_bolts},
       {"stress_ratio", stress_ratio},
       {"delayed_support", delayed_support},
+      {"solution_checks", solution_checks},
   };
   return all;
 }

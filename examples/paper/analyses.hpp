@@ -6,8 +6,9 @@
 #include "section.hpp"
 #include "study.hpp"
 
-/// Every analysis of the paper, in its order. Each is one function in a file of its own name, one
-/// program `paper_<name>`, and one section of the report of `voussoir paper`.
+/// Every analysis of the paper, in its order, and what its answers depend on. Each is one function
+/// in a file of its own name, one program `paper_<name>`, and one section of the report of
+/// `voussoir paper`.
 namespace voussoir::paper {
 
 Section rock_mass(Study& study);
@@ -27,6 +28,7 @@ Section interaction(Study& study);
 Section softer_bolts(Study& study);
 Section stress_ratio(Study& study);
 Section delayed_support(Study& study);
+Section solution_checks(Study& study);
 
 using Analysis = Section (*)(Study&);
 struct NamedAnalysis {

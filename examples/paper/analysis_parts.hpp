@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
@@ -126,6 +127,12 @@ struct Swept {
         (text.empty() ? "" : ", ") +
         (m.values.empty() ? std::string("none stands") : printed_text(scale * m.mean(), digits));
   return text + (unit.empty() ? "" : " " + unit);
+}
+/// "3.7e-05"
+[[nodiscard]] inline std::string power_text(double value, int decimals = 1) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*e", decimals, value);
+  return text;
 }
 [[nodiscard]] inline std::string percent(double part, int digits = 2) {
   return printed_text(100 * part, digits) + " %";

@@ -109,6 +109,7 @@ Section delayed_support(Study& study) {
     }
     profile.series.push_back(s);
   }
+  profile.x_range = {{-4, 8}};
   section.plots = {reaction, forces, crowns, profile};
 
   const Measured& half = thrust.measured[2];  // 0.4 held

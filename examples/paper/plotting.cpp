@@ -142,6 +142,8 @@ std::string plot_script(const Plot& plot) {
   };
   if (plot.x_range) script += range("x", *plot.x_range);
   if (plot.y_range) script += range("y", *plot.y_range);
+  // Error bars of the last point keep off the edge.
+  if (!plot.x_range && !plot.logarithmic_x) script += "set offsets 0, graph 0.02, 0, 0\n";
   if (plot.logarithmic_x) script += "set logscale x\nset format x '10^{%T}'\n";
   bool bars = false;
   for (const Series& s : plot.series) bars = bars || s.mark == Mark::bars;
@@ -164,24 +166,41 @@ std::string plot_script(const Plot& plot) {
   return script + "\n";
 }
 
-std::vector<std::string> drawn(const std::vector<Plot>& plots) {
+Drawings drawn(const std::vector<Section>& sections) {
   const WorkFolder folder;
   std::string command = "cd " + quoted(folder.path().string()) + " && gnuplot";
-  for (const Plot& plot : plots) {
-    write(folder.path() / (plot.name + ".csv"), plot_csv(plot));
-    write(folder.path() / (plot.name + ".gp"), plot_script(plot));
-    command.append(" ").append(quoted(plot.name + ".gp"));
-  }
-  if (plots.empty()) return {};
+  Drawings drawings;
+  for (const Section& section : sections)
+    for (const Plot& plot : section.plots) {
+      if (!drawings.emplace(plot.name, "").second)
+        throw std::logic_error("two plots are called " + plot.name);
+      write(folder.path() / (plot.name + ".csv"), plot_csv(plot));
+      write(folder.path() / (plot.name + ".gp"), plot_script(plot));
+      command.append(" ").append(quoted(plot.name + ".gp"));
+    }
+  if (drawings.empty()) return {};
   const int status = std::system((command + " 2> errors").c_str());
-  std::vector<std::string> pictures;
-  for (const Plot& plot : plots) {
-    pictures.push_back(content_of(folder.path() / (plot.name + ".svg")));
-    if (status != 0 || pictures.back().find("</svg>") == std::string::npos)
-      throw std::runtime_error("gnuplot could not draw " + plot.name + ": " +
+  for (auto& [name, drawing] : drawings) {
+    drawing = content_of(folder.path() / (name + ".svg"));
+    if (status != 0 || drawing.find("</svg>") == std::string::npos)
+      throw std::runtime_error("gnuplot could not draw " + name + ": " +
                                content_of(folder.path() / "errors"));
   }
-  return pictures;
+  return drawings;
+}
+
+std::map<std::string, std::string> plot_files(const std::vector<Section>& sections,
+                                              const Drawings& drawings) {
+  std::map<std::string, std::string> files;
+  for (const Section& section : sections) {
+    for (const Plot& plot : section.plots) {
+      files[plot.name + ".svg"] = drawings.at(plot.name);
+      files[plot.name + ".csv"] = plot_csv(plot);
+      files[plot.name + ".gp"] = plot_script(plot);
+    }
+    for (const Picture& picture : section.pictures) files[picture.name + ".svg"] = picture.svg;
+  }
+  return files;
 }
 
 }  // namespace voussoir::paper

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,16 @@ void check_gnuplot();
 [[nodiscard]] std::string plot_csv(const Plot& plot);
 /// A script that draws NAME.svg from NAME.csv, both in the folder it is run in.
 [[nodiscard]] std::string plot_script(const Plot& plot);
-/// Draws plots, in the order given.
+
+/// SVG documents by the name of their plot.
+using Drawings = std::map<std::string, std::string>;
+/// Draws all plots of sections.
+/// @throws std::logic_error    two plots of one name
 /// @throws std::runtime_error  gnuplot failed: its own words
-[[nodiscard]] std::vector<std::string> drawn(const std::vector<Plot>& plots);
+[[nodiscard]] Drawings drawn(const std::vector<Section>& sections);
+
+/// Every plot with its data and script, every picture: contents by file name.
+[[nodiscard]] std::map<std::string, std::string> plot_files(const std::vector<Section>& sections,
+                                                            const Drawings& drawings);
 
 }  // namespace voussoir::paper

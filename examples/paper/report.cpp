@@ -1,38 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
 
-#include <cstdio>
-#include <map>
-#include <stdexcept>
 #include <voussoir/core/version.hpp>
-#include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/number_text.hpp>
 #include <voussoir/io/xml_text.hpp>
 
 #include "claims.hpp"
+#include "scoreboard.hpp"
 
 namespace voussoir::paper {
 
 namespace {
-
-/// Every claim's finding.
-std::map<std::string, const Finding*> by_claim(const std::vector<Section>& sections) {
-  std::map<std::string, const Finding*> found;
-  for (const Section& section : sections)
-    for (const Finding& finding : section.findings)
-      if (!found.emplace(finding.claim, &finding).second)
-        throw std::logic_error("claim " + finding.claim + " is decided twice");
-  for (const Claim& claim : claims())
-    if (!found.contains(claim.id))
-      throw std::logic_error(std::string("claim ") + claim.id + " is not decided");
-  return found;
-}
-
-void count(Score& score, Agreement agreement) {
-  score.agrees += agreement == Agreement::agrees;
-  score.differs += agreement == Agreement::differs;
-  score.not_testable += agreement == Agreement::not_testable;
-}
 
 std::string css_class(Agreement agreement) {
   switch (agreement) {
@@ -44,12 +22,6 @@ std::string css_class(Agreement agreement) {
       return "open";
   }
   return "";
-}
-
-/// What the second column says: "agrees: 0.0222".
-std::string second_column(const Finding& f) {
-  if (!f.agreement_as_the_paper) return f.as_the_paper;
-  return std::string(to_string(*f.agreement_as_the_paper)) + ": " + f.as_the_paper;
 }
 
 std::string element(const std::string& tag, const std::string& text) {
@@ -83,31 +55,6 @@ std::string html_table(const Table& table) {
   return html + "</table>\n";
 }
 
-/// A row of a table in Markdown.
-std::string markdown_row(const std::vector<std::string>& cells) {
-  std::string row = "|";
-  for (const std::string& cell : cells) {
-    row += ' ';
-    for (const char c : cell) {
-      if (c == '|' || c == '*' || c == '_') row += '\\';
-      row += c;
-    }
-    row += " |";
-  }
-  return row + "\n";
-}
-std::string markdown_table(const std::vector<std::string>& columns,
-                           const std::vector<std::vector<std::string>>& rows) {
-  std::string table = markdown_row(columns) + "|";
-  for (std::size_t k = 0; k < columns.size(); ++k) table += " --- |";
-  table += "\n";
-  for (const auto& row : rows) table += markdown_row(row);
-  return table + "\n";
-}
-const Claim& claim_of(const Finding& finding) {
-  return claims()[static_cast<std::size_t>(std::stoi(finding.claim.substr(3)) - 1)];
-}
-
 constexpr const char* style = R"(<style>
 body { font: 15px/1.45 Helvetica, Arial, sans-serif; color: #1a1a1a; max-width: 1080px; margin: 2em auto; padding: 0 1.2em; }
 h1 { font-size: 1.7em; } h2 { font-size: 1.3em; margin-top: 2.2em; border-top: 2px solid #1d3b53; padding-top: .6em; }
@@ -115,6 +62,7 @@ h3 { font-size: 1.1em; } h4 { margin: 1.2em 0 .3em; }
 table { border-collapse: collapse; margin: .4em 0 1em; font-size: 13px; }
 th, td { border: 1px solid #c8c8c8; padding: .28em .55em; text-align: left; vertical-align: top; }
 th { background: #eef2f5; }
+.claims td:first-child { white-space: nowrap; }
 td.agrees { background: #dff2e1; } td.differs { background: #fbe0d8; } td.open { background: #ececec; }
 figure { margin: 1em 0; } figcaption { font-size: 13px; color: #444; max-width: 760px; }
 figure svg { max-width: 100%; height: auto; }
@@ -154,55 +102,9 @@ const std::vector<std::string>& assumptions() {
   return all;
 }
 
-std::vector<Score> scores(const std::vector<Section>& sections) {
-  const auto found = by_claim(sections);
-  std::vector<Score> result;
-  Score all{"all"};
-  for (const ClaimChapter& chapter : claim_chapters()) {
-    Score score{chapter.title};
-    for (int k = chapter.first; k <= chapter.last; ++k) {
-      const Agreement a = found.at(claims()[static_cast<std::size_t>(k - 1)].id)->agreement;
-      count(score, a);
-      count(all, a);
-    }
-    result.push_back(score);
-  }
-  result.push_back(all);
-  return result;
-}
-
-std::string score_text(const std::vector<Score>& scores) {
-  std::string text;
-  char line[160];
-  std::snprintf(line, sizeof line, "%-36s %7s %8s %13s\n", "claims", "agrees", "differs",
-                "not testable");
-  text += line;
-  for (const Score& s : scores) {
-    std::snprintf(line, sizeof line, "%-36s %7d %8d %13d\n", s.chapter.c_str(), s.agrees, s.differs,
-                  s.not_testable);
-    text += line;
-  }
-  return text;
-}
-
-std::string scoreboard_csv(const std::vector<Section>& sections) {
-  const auto found = by_claim(sections);
-  CsvTable table({"claim", "where", "kind", "statement", "test", "verdict", "measured",
-                  "as_the_paper_ran_it", "why"});
-  for (const Claim& claim : claims()) {
-    const Finding& f = *found.at(claim.id);
-    table.add_row(std::string(claim.id), std::string(claim.where),
-                  std::string(to_string(claim.kind)), std::string(claim.statement),
-                  std::string(claim.test), std::string(to_string(f.agreement)), f.measured,
-                  second_column(f), f.why);
-  }
-  return table.text();
-}
-
-std::string report_html(const std::vector<Section>& sections,
-                        const std::vector<std::string>& drawings, const Study& study,
-                        double seconds) {
-  const auto found = by_claim(sections);
+std::string report_html(const std::vector<Section>& sections, const Drawings& drawings,
+                        const Study& study, double seconds) {
+  const auto found = findings_by_claim(sections);
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<title>Boon, Houlsby &amp; Utili (2015), reproduced</title>\n" +
@@ -225,36 +127,36 @@ std::string report_html(const std::vector<Section>& sections,
     html += "<tr>" + element("td", s.chapter) + "<td class=\"agrees\">" + std::to_string(s.agrees) +
             "</td><td class=\"differs\">" + std::to_string(s.differs) + "</td><td class=\"open\">" +
             std::to_string(s.not_testable) + "</td></tr>\n";
-  html += "</table>\n<h3>Analyses</h3>\n<ol>\n";
+  html += "</table>\n" + element("p", second_column_text(sections)) + "\n<h3>Analyses</h3>\n<ol>\n";
   for (const Section& section : sections)
     html += "<li><a href=\"#" + section.name + "\">" + xml_escaped(section.title) +
             "</a> <span class=\"where\">" + xml_escaped(section.paper) + "</span></li>\n";
   html +=
-      "</ol>\n<h3>Where it differs</h3>\n<table><tr><th>claim</th><th>the paper</th>"
+      "</ol>\n<h3>Where it differs</h3>\n<table class=\"claims\"><tr><th>claim</th><th>the paper</th>"
       "<th>measured</th><th>as the paper ran it</th><th>cause</th></tr>\n";
   for (const Claim& claim : claims()) {
     const Finding& f = *found.at(claim.id);
     if (f.agreement != Agreement::differs) continue;
     html += "<tr>" + element("td", claim.id) + element("td", claim.statement) +
-            element("td", f.measured) + element("td", second_column(f)) + element("td", f.why) +
+            element("td", f.measured) + element("td", second_column(f)) + element("td", cause(f)) +
             "</tr>\n";
   }
   html += "</table>\n";
 
-  std::size_t drawing = 0;
   for (const Section& section : sections) {
     html += "<h2 id=\"" + section.name + "\">" + xml_escaped(section.title) + "</h2>\n";
-    html += "<p class=\"where\">Boon et al. (2015), " + xml_escaped(section.paper) + "</p>\n";
+    html += "<p class=\"where\">" + xml_escaped(section.source()) + "</p>\n";
     for (const std::string& paragraph : section.text) html += element("p", paragraph) + "\n";
     for (const Plot& plot : section.plots)
-      html += "<figure>" + inlined(drawings.at(drawing++), plot.name) +
+      html += "<figure>" + inlined(drawings.at(plot.name), plot.name) +
               element("figcaption", plot.caption) + "</figure>\n";
     for (const Picture& picture : section.pictures)
       html += "<figure>" + inlined(picture.svg, picture.name) +
               element("figcaption", picture.caption) + "</figure>\n";
     for (const Table& table : section.tables) html += html_table(table);
+    if (section.findings.empty()) continue;
     html +=
-        "<table><tr><th>claim</th><th>the paper</th><th>measured</th><th>as the paper ran it"
+        "<table class=\"claims\"><tr><th>claim</th><th>the paper</th><th>measured</th><th>as the paper ran it"
         "</th><th></th></tr>\n";
     for (const Finding& f : section.findings) {
       html += "<tr>" + element("td", f.claim) + element("td", claim_of(f).statement) +
@@ -264,38 +166,17 @@ std::string report_html(const std::vector<Section>& sections,
     html += "</table>\n";
   }
   html +=
-      "<h2>All claims</h2>\n<table><tr><th>claim</th><th>where</th><th>the paper</th>"
+      "<h2>All claims</h2>\n<table class=\"claims\"><tr><th>claim</th><th>where</th><th>the paper</th>"
       "<th>how it is tested</th><th>measured</th><th>as the paper ran it</th><th></th>"
       "<th>cause</th></tr>\n";
   for (const Claim& claim : claims()) {
     const Finding& f = *found.at(claim.id);
     html += "<tr>" + element("td", claim.id) + element("td", claim.where) +
             element("td", claim.statement) + element("td", claim.test) + element("td", f.measured) +
-            element("td", second_column(f)) + verdict_cell(f.agreement) + element("td", f.why) +
+            element("td", second_column(f)) + verdict_cell(f.agreement) + element("td", cause(f)) +
             "</tr>\n";
   }
   return html + "</table>\n</body></html>\n";
-}
-
-std::string page_markdown(const Section& section, const std::string& command) {
-  std::string page = "# " + section.title + "\n\nBoon, Houlsby and Utili (2015), " + section.paper +
-                     ". Made by `" + command + "`; what is assumed: [index](README.md).\n\n";
-  for (const std::string& paragraph : section.text) page += paragraph + "\n\n";
-  for (const Plot& plot : section.plots) {
-    page += "![" + plot.title + "](" + plot.name + ".svg)\n\n";
-    if (!plot.caption.empty()) page += "*" + plot.caption + "*\n\n";
-  }
-  for (const Picture& picture : section.pictures)
-    page += "![" + picture.caption + "](" + picture.name + ".svg)\n\n";
-  for (const Table& table : section.tables)
-    page += "**" + table.title + "**\n\n" + markdown_table(table.columns, table.rows);
-  std::vector<std::vector<std::string>> rows;
-  for (const Finding& f : section.findings)
-    rows.push_back({f.claim, claim_of(f).statement, f.measured, second_column(f),
-                    to_string(f.agreement), f.why});
-  return page + "## Against the paper\n\n" +
-         markdown_table({"claim", "the paper", "measured", "as the paper ran it", "", "cause"},
-                        rows);
 }
 
 }  // namespace voussoir::paper

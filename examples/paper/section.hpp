@@ -70,12 +70,16 @@ struct Finding {
 struct Section {
   std::string name;  ///< of the program and the files
   std::string title;
-  std::string paper;  ///< where in the paper: "5.1, Table 3"
+  std::string paper;  ///< where in the paper: "5.1, Table 3"; empty: not there
   std::vector<std::string> text;
   std::vector<Plot> plots = {};
   std::vector<Picture> pictures = {};
   std::vector<Table> tables = {};
   std::vector<Finding> findings = {};
+
+  [[nodiscard]] std::string source() const {
+    return paper.empty() ? "Not in the paper" : "Boon et al. (2015), " + paper;
+  }
 };
 
 }  // namespace voussoir::paper

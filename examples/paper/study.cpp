@@ -35,7 +35,8 @@ std::string Measured::text(double scale, const std::string& unit, int digits) co
   if (shedding > 0) notes += "; " + std::to_string(shedding) + " shed rock";
   if (values.empty()) return "no value (" + notes + ")";
   std::string text = printed_text(scale * mean(), digits);
-  if (values.size() > 1) text += " ± " + printed_text(scale * deviation(), std::max(1, digits - 1));
+  if (values.size() > 1)
+    text += " ± " + printed_text(scale * deviation(), std::clamp(digits - 1, 1, 2));
   return text + end + " (" + notes + ")";
 }
 

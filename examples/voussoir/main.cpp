@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -21,9 +22,11 @@
 
 #include "analyses.hpp"
 #include "outputs.hpp"
+#include "pages.hpp"
 #include "patterns.hpp"
 #include "plotting.hpp"
 #include "report.hpp"
+#include "scoreboard.hpp"
 #include "verification.hpp"
 
 namespace {
@@ -77,21 +80,19 @@ class ProgressLine {
 };
 
 /// Refuses a folder in which nothing can be written, before anything is computed.
-void check_folder(const Options& options) {
-  std::filesystem::path there = std::filesystem::absolute(options.folder);
+void check_folder(const std::string& folder, const std::string& option = "--out") {
+  std::filesystem::path there = std::filesystem::absolute(folder);
   std::error_code error;
   while (!std::filesystem::exists(there, error) && there.has_relative_path())
     there = there.parent_path();
   if (!std::filesystem::is_directory(there, error))
-    throw std::runtime_error("--out " + options.folder + ": '" + there.string() +
-                             "' is not a folder");
+    throw std::runtime_error(option + " " + folder + ": '" + there.string() + "' is not a folder");
   if (access(there.c_str(), W_OK | X_OK) != 0)
-    throw std::runtime_error("--out " + options.folder + ": no permission to write in '" +
+    throw std::runtime_error(option + " " + folder + ": no permission to write in '" +
                              there.string() + "'");
 }
 
-std::filesystem::path prepared_folder(const Options& options) {
-  const std::filesystem::path folder = options.folder;
+std::filesystem::path prepared_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -112,13 +113,13 @@ int say_interrupted() {
 
 int run_verb(const Options& options) {
   const Input input = read_input(options.file, options.overrides);
-  check_folder(options);
+  check_folder(options.folder);
   ProgressLine line(options.quiet);
   const RunResult run = run_tunnel(
       input, [&](const std::string& what, double fraction) { return line.show(what, fraction); });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options);
+  const std::filesystem::path folder = prepared_folder(options.folder);
   voussoir::OutputSet outputs;
   outputs.add(folder / "run.json", run_json(input, run));
   outputs.add(folder / "bolts.csv", bolts_csv(run));
@@ -135,14 +136,14 @@ int diagram_verb(const Options& options) {
     throw voussoir::InvalidInput(
         "no [diagram] in " + options.file +
         "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
-  check_folder(options);
+  check_folder(options.folder);
   ProgressLine line(options.quiet);
   const DiagramResult diagram = run_diagram(
       input, options.threads,
       [&](const std::string& what, double fraction) { return line.show(what, fraction); });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options);
+  const std::filesystem::path folder = prepared_folder(options.folder);
   voussoir::OutputSet outputs;
   outputs.add(folder / "interaction.csv", interaction_csv(input, diagram));
   outputs.add(folder / "interaction.svg", interaction_svg(input, diagram));
@@ -161,7 +162,7 @@ struct PatternChoice {
 
 int patterns_verb(const Options& options, const PatternChoice& choice,
                   const PatternOptions& settings) {
-  check_folder(options);
+  check_folder(options.folder);
   std::vector<PatternResult> results;
   for (const PatternCase& c : pattern_cases())
     if (choice.cases.empty() ||
@@ -183,7 +184,7 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options);
+  const std::filesystem::path folder = prepared_folder(options.folder);
   voussoir::OutputSet outputs;
   outputs.add(folder / "patterns.csv", patterns_csv(results));
   outputs.add(folder / "patterns.svg", patterns_sheet(results));
@@ -209,8 +210,9 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   return finished;
 }
 
-int paper_verb(const Options& options, int samples) {
-  check_folder(options);
+int paper_verb(const Options& options, int samples, const std::string& pages) {
+  check_folder(options.folder);
+  if (!pages.empty()) check_folder(pages, "--pages");
   voussoir::paper::check_gnuplot();
   const auto start = std::chrono::steady_clock::now();
   ProgressLine line(options.quiet);
@@ -232,32 +234,30 @@ int paper_verb(const Options& options, int samples) {
     return say_interrupted();
   }
   line.show("plots", -1);
-  std::vector<voussoir::paper::Plot> plots;
-  for (const auto& section : sections)
-    plots.insert(plots.end(), section.plots.begin(), section.plots.end());
-  const std::vector<std::string> drawings = voussoir::paper::drawn(plots);
+  const voussoir::paper::Drawings drawings = voussoir::paper::drawn(sections);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string page = voussoir::paper::report_html(sections, drawings, study, seconds);
+  std::map<std::string, std::string> results = voussoir::paper::plot_files(sections, drawings);
+  results["paper.html"] = voussoir::paper::report_html(sections, drawings, study, seconds);
+  results["scoreboard.csv"] = voussoir::paper::scoreboard_csv(sections);
   line.clear();
-  const std::filesystem::path folder = prepared_folder(options);
   voussoir::OutputSet outputs;
-  outputs.add(folder / "paper.html", page);
-  outputs.add(folder / "scoreboard.csv", voussoir::paper::scoreboard_csv(sections));
-  for (std::size_t k = 0; k < plots.size(); ++k) {
-    outputs.add(folder / (plots[k].name + ".svg"), drawings[k]);
-    outputs.add(folder / (plots[k].name + ".csv"), voussoir::paper::plot_csv(plots[k]));
-    outputs.add(folder / (plots[k].name + ".gp"), voussoir::paper::plot_script(plots[k]));
+  const std::filesystem::path folder = prepared_folder(options.folder);
+  for (const auto& [name, text] : results) outputs.add(folder / name, text);
+  if (!pages.empty()) {
+    const std::filesystem::path there = prepared_folder(pages);
+    for (const auto& [name, text] :
+         voussoir::paper::documentation_pages(sections, drawings, study, seconds))
+      outputs.add(there / name, text);
   }
-  for (const auto& section : sections)
-    for (const auto& picture : section.pictures)
-      outputs.add(folder / (picture.name + ".svg"), picture.svg);
   if (!options.quiet)
     std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
               << (samples == 1 ? " sample" : " samples") << " of the rock, "
               << study.tunnels_solved() << " supported tunnels, " << static_cast<int>(seconds)
               << " s\n";
   publish(outputs, options, "paper.html, scoreboard.csv, plots (.svg, .csv, .gp)");
+  if (!options.quiet && !pages.empty())
+    std::cout << "written  README.md, pages in " << pages << "\n";
   return finished;
 }
 
@@ -292,29 +292,37 @@ int main(int argc, char** argv) {
       "2 error in the input, 3 undecided, 4 numerical fault, 5 a check of verify fails,\n"
       "130 interrupted (nothing written).");
   Options options;
-  const auto add_common = [&options](CLI::App* verb) {
-    verb->add_option("FILE", options.file, "input file (TOML)")->required();
+  const auto add_out = [&options](CLI::App* verb) {
     verb->add_option("-o,--out", options.folder, "folder for the results, made if missing")
         ->capture_default_str();
+  };
+  const auto add_quiet = [&options](CLI::App* verb) {
+    verb->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  };
+  const auto add_threads = [&options](CLI::App* verb) {
+    verb->add_option("-j,--threads", options.threads, "tunnels computed at a time")
+        ->capture_default_str()
+        ->check(CLI::Range(1U, 1024U));
+  };
+  const auto add_input = [&](CLI::App* verb) {
+    verb->add_option("FILE", options.file, "input file (TOML)")->required();
+    add_out(verb);
     verb->add_option("--set", options.overrides,
                      "KEY=VALUE in place of the file's, for example joint.kn=\"10 GPa/m\"")
         ->allow_extra_args(false);
-    verb->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+    add_quiet(verb);
   };
   CLI::App* run = app.add_subcommand("run", "one tunnel: verdict, forces, picture");
+  add_input(run);
   CLI::App* diagram = app.add_subcommand(
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
-  add_common(run);
-  add_common(diagram);
-  diagram->add_option("-j,--threads", options.threads, "tunnels computed at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 1024U));
+  add_input(diagram);
+  add_threads(diagram);
   CLI::App* patterns =
       app.add_subcommand("patterns", "how unsupported tunnels fail: 24 cases, every block moving");
   PatternChoice choice;
   PatternOptions settings;
-  patterns->add_option("-o,--out", options.folder, "folder for the results, made if missing")
-      ->capture_default_str();
+  add_out(patterns);
   patterns->add_option("--cases", choice.cases, "numbers of cases, 1 to 24; all if none is given")
       ->check(CLI::Range(1, 24));
   patterns->add_option("--seeds", choice.seeds, "rock masses of each case")
@@ -328,28 +336,24 @@ int main(int argc, char** argv) {
                    "time over which the wall traction goes [s], 0: sudden")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 60.0));
-  patterns->add_option("-j,--threads", options.threads, "tunnels computed at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 1024U));
-  patterns->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  add_threads(patterns);
+  add_quiet(patterns);
   CLI::App* paper = app.add_subcommand(
       "paper", "every analysis of Boon, Houlsby and Utili (2015) and what became of its claims");
   int samples = 5;
-  paper->add_option("-o,--out", options.folder, "folder for the report, made if missing")
-      ->capture_default_str();
+  std::string pages;
+  add_out(paper);
   paper->add_option("--samples", samples, "random samples of the rock mass")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  paper->add_option("-j,--threads", options.threads, "tunnels computed at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 1024U));
-  paper->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  paper->add_option("--pages", pages,
+                    "folder for a page of documentation on each analysis; none if not given");
+  add_threads(paper);
+  add_quiet(paper);
   CLI::App* verify = app.add_subcommand(
       "verify", "closed forms and solvers against values from elsewhere: PASS or FAIL");
-  verify->add_option("-j,--threads", options.threads, "tunnels computed at a time")
-      ->capture_default_str()
-      ->check(CLI::Range(1U, 1024U));
-  verify->add_flag("-q,--quiet", options.quiet, "print nothing; the exit status says it");
+  add_threads(verify);
+  add_quiet(verify);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -359,7 +363,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, ask_to_stop);
   try {
     if (*patterns) return patterns_verb(options, choice, settings);
-    if (*paper) return paper_verb(options, samples);
+    if (*paper) return paper_verb(options, samples, pages);
     if (*verify) return verify_verb(options);
     return *run ? run_verb(options) : diagram_verb(options);
   } catch (const InputErrors& errors) {

@@ -12,9 +12,11 @@
 
 #include "analyses.hpp"
 #include "claims.hpp"
+#include "pages.hpp"
 #include "plotting.hpp"
 #include "program/harness.hpp"
 #include "report.hpp"
+#include "scoreboard.hpp"
 #include "study.hpp"
 #include "verification.hpp"
 
@@ -68,6 +70,14 @@ TEST_SUITE("program/paper") {
     CHECK(other.front().differs == 1);
     CHECK(other.front().not_testable == 1);
     CHECK(score_text(other).find("102") != std::string::npos);
+    sections[0].findings[7].agreement_as_the_paper = Agreement::agrees;
+    sections[0].findings[9].agreement_as_the_paper = Agreement::not_testable;
+    CHECK(second_column_text(sections).find("2 of the claims depend") == 0);
+    CHECK(second_column_text(sections).find("1 of these agree and 1 differ; as the paper ran it 1 "
+                                            "agree, 0 differ, and 1 have") != std::string::npos);
+    CHECK(second_column(sections[0].findings[7]) == "agrees: ");
+    CHECK(cause(sections[0].findings[0]).empty());
+    CHECK_FALSE(cause(sections[0].findings[7]).empty());  // differs, and no reason was given
     sections[0].findings.push_back({"PF-042", Agreement::agrees, ""});
     CHECK_THROWS_AS((void)scores(sections), std::logic_error);
     sections[0].findings.resize(103);
@@ -136,15 +146,27 @@ TEST_SUITE("program/paper") {
     CHECK(script.find("every ::3::4 using 2:3:4") != std::string::npos);
     CHECK(script.find("every ::5::5") != std::string::npos);
     CHECK(script.find("nothing failed") == std::string::npos);
-    const auto pictures = drawn({plot, plot});
-    REQUIRE(pictures.size() == 2);
-    CHECK(pictures[0].find("</svg>") != std::string::npos);
-    CHECK(pictures[0].find("blocks") != std::string::npos);
+    const auto section_of = [](std::vector<Plot> plots) {
+      Section section{"s", "S", "", {}};
+      section.plots = std::move(plots);
+      return std::vector<Section>{section};
+    };
+    Plot other = plot;
+    other.name = "two";
+    const auto sections = section_of({plot, other});
+    const Drawings drawings = drawn(sections);
+    REQUIRE(drawings.size() == 2);
+    CHECK(drawings.at("two").find("</svg>") != std::string::npos);
+    CHECK(drawings.at("one").find("blocks") != std::string::npos);
+    CHECK(plot_files(sections, drawings).size() == 6);
     CHECK(drawn({}).empty());
+    CHECK_THROWS_WITH_AS((void)drawn(section_of({plot, plot})), doctest::Contains("one"),
+                         std::logic_error);
     plot.series[0].y.pop_back();
     CHECK_THROWS_WITH_AS((void)plot_csv(plot), doctest::Contains("theory"), InvalidInput);
     plot.series.clear();
-    CHECK_THROWS_WITH_AS((void)drawn({plot}), doctest::Contains("one"), std::runtime_error);
+    CHECK_THROWS_WITH_AS((void)drawn(section_of({plot})), doctest::Contains("one"),
+                         std::runtime_error);
   }
 
   TEST_CASE("the report holds every section, plot and claim, and no other file") {
@@ -152,7 +174,7 @@ TEST_SUITE("program/paper") {
     section.plots = {{"p", "P", "x", "y", {{"s", Mark::line, {0, 1}, {0, 1}}}}};
     section.tables = {{"T <1>", {"a", "b"}, {{"1", "<2>"}}}};
     Study study(1, 1);
-    const std::string page = report_html({section}, drawn(section.plots), study, 1);
+    const std::string page = report_html({section}, drawn({section}), study, 1);
     CHECK(page.find("&lt;2&gt;") != std::string::npos);
     CHECK(page.find("<svg") != std::string::npos);
     CHECK(page.find("PF-104") != std::string::npos);
@@ -162,6 +184,34 @@ TEST_SUITE("program/paper") {
     for (auto at = page.find("id=\""); at != std::string::npos; at = page.find("id=\"", at + 4))
       CHECK(ids.insert(page.substr(at + 4, page.find('"', at + 4) - at - 4)).second);
     CHECK(scoreboard_csv({section}).find("PF-001") != std::string::npos);
+  }
+
+  TEST_CASE("pages of documentation: every link and picture is among them") {
+    Section section = all_decided();
+    section.text = {"What is shown."};
+    section.name = "all_of_it";
+    section.plots = {{"p", "P", "x", "y", {{"s", Mark::line, {0, 1}, {0, 1}}}}};
+    section.pictures = {{"q", "<svg></svg>", "caption | of q"}};
+    section.tables = {{"T", {"a_1", "b"}, {{"1", "a | b*"}}}};
+    section.findings[15].agreement = Agreement::differs;
+    section.findings[15].why = "for a reason";
+    section.findings[16].agreement = Agreement::not_testable;
+    Study study(2, 1);
+    const auto pages = documentation_pages({section}, drawn({section}), study, 1);
+    CHECK(pages.size() == 4);
+    for (const auto& [name, text] : pages) {
+      if (!name.ends_with(".md")) continue;
+      for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+        const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+        CAPTURE(target);
+        CHECK(pages.contains(target));
+      }
+    }
+    const std::string& index = pages.at("README.md");
+    CHECK(index.find("102 agree, 1 differ, 1 cannot be tested") != std::string::npos);
+    CHECK(index.find("for a reason") != std::string::npos);
+    CHECK(index.find("48 collapses") != std::string::npos);
+    CHECK(pages.at("all_of_it.md").find("| 1 | a \\| b\\* |") != std::string::npos);
   }
 
   TEST_CASE("verify: all pass, a value that is off does not") {
@@ -196,6 +246,11 @@ TEST_SUITE("program/paper") {
     const auto run = voussoir_test::run_program({"paper", "--out", file});
     CHECK(run.status == 1);
     CHECK(run.err.find("is not a folder") != std::string::npos);
+    const auto paged =
+        voussoir_test::run_program({"paper", "--out", folder / "out", "--pages", file});
+    CHECK(paged.status == 1);
+    CHECK(paged.err.find("--pages " + file) != std::string::npos);
+    CHECK(voussoir_test::contents(folder / "out").empty());
   }
 
   TEST_CASE("voussoir paper without gnuplot says what to install, before it computes") {
