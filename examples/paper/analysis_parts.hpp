@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/io/number_text.hpp>
 #include <voussoir/theory/bolts_and_lining.hpp>
@@ -52,7 +53,7 @@ inline constexpr double force_unit = ground_pressure * diameter;
 /// A series over variants along an axis: mean and deviation over the samples that stand.
 struct Swept {
   Series series;
-  Series failed;  ///< where a sample has no value, at that of the others or at 0
+  Series failed;  ///< where a sample has no value: at the mean of the others, NaN if there are none
   std::vector<Measured> measured;
 };
 /// @param scale  of the values for the plot
@@ -77,10 +78,46 @@ struct Swept {
     }
     if (!m.complete()) {
       result.failed.x.push_back(axis[k]);
-      result.failed.y.push_back(m.values.empty() ? 0.0 : scale * m.mean());
+      result.failed.y.push_back(scale * m.mean());
     }
   }
   return result;
+}
+
+/// Draws a series into a plot; where a sample has no value a red cross joins the others of the
+/// plot.
+/// @param none  where crosses lie that have no value at all: on the axis
+inline void draw(Plot& plot, const Swept& swept, double none = 0) {
+  plot.series.push_back(swept.series);
+  if (swept.failed.x.empty()) return;
+  Series* crosses = nullptr;
+  for (Series& s : plot.series)
+    if (s.mark == Mark::failed) crosses = &s;
+  if (!crosses)
+    crosses = &plot.series.emplace_back(Series{swept.failed.name, Mark::failed, {}, {}, {}});
+  const auto placed = [none](double value) { return std::isfinite(value) ? value : none; };
+  for (const double x : swept.failed.x) crosses->x.push_back(placed(x));
+  for (const double y : swept.failed.y) crosses->y.push_back(placed(y));
+}
+
+/// What a plot of curves without crosses must say: "Collapsed: bare 3 of 5 samples." Empty if none.
+[[nodiscard]] inline std::string collapsed_text(
+    Study& study, const std::vector<std::pair<std::string, Variant>>& variants) {
+  std::string text;
+  for (const auto& [name, variant] : variants) {
+    const Measured m = study.measure(variant, [](const Outcome&) { return 0.0; });
+    if (m.collapsed == 0) continue;
+    text += (text.empty() ? "Collapsed: " : "; ") + name + " " + std::to_string(m.collapsed) +
+            " of " + std::to_string(m.samples) + (m.samples == 1 ? " sample" : " samples");
+  }
+  return text.empty() ? text : text + ".";
+}
+
+/// The same at the end of a caption.
+inline void say_collapsed(Plot& plot, Study& study,
+                          const std::vector<std::pair<std::string, Variant>>& variants) {
+  const std::string text = collapsed_text(study, variants);
+  plot.caption += (plot.caption.empty() || text.empty() ? "" : " ") + text;
 }
 
 /// A comparison of two variants sample by sample, where both stand.

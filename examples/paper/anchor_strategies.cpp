@@ -61,6 +61,9 @@ Section anchor_strategies(Study& study) {
   }
   forces.y_range = wall.y_range = {{0, NAN}};
   forces.caption = wall.caption = "The first two lie on each other.";
+  for (Plot* plot : {&forces, &wall})
+    say_collapsed(*plot, study,
+                  {{"1.2 diameters", lorig}, {"midway", midway}, {"on the joint", on_joint}});
   section.plots = {forces, wall};
 
   // The largest difference over bolts, and over places of the wall, in each sample.

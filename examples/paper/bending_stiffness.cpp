@@ -23,12 +23,10 @@ Section bending_stiffness(Study& study) {
       study, "mean thrust", factors, at, [](const Outcome& o) { return o.mean_thrust(); },
       1 / force_unit);
   const Swept moments = swept(study, "blocks, largest |M|", factors, at, moment, 1e-3);
-  Plot n{"bending_thrust",
-         "Thrust",
-         "E I / E I of 10 cm",
-         "N / (p_0 D)",
-         {thrusts.series, mean.series}};
-  Plot m{"bending_moment", "Moment", "E I / E I of 10 cm", "|M|, kN m/m", {moments.series}};
+  Plot n{"bending_thrust", "Thrust", "E I / E I of 10 cm", "N / (p_0 D)", {}};
+  Plot m{"bending_moment", "Moment", "E I / E I of 10 cm", "|M|, kN m/m", {}};
+  for (const Swept* s : {&thrusts, &mean}) draw(n, *s);
+  draw(m, moments, 1e-3);  // a logarithmic axis has no 0
   Series elastic{"elastic, K_0 = 0.9, G_3, no slip", Mark::line, {}, {}};
   for (double e = -2; e <= 2.01; e += 0.1) {
     RingLining ring = RingLining::rectangular(radius, 0.1, lining_modulus);

@@ -111,6 +111,8 @@ Section bolt_forces(Study& study) {
                    " samples in each class. The elastic force is largest at the wall; that of the "
                    "blocks rises first, for a joint near the wall has little rock before it to "
                    "hold.";
+    say_collapsed(plot, study,
+                  {{"quasi-static", variant}, {"as the paper ran it", variant.as_the_paper()}});
     misfit.push_back(misfit_of(quasi, p.bolts));
     misfit_sudden.push_back(misfit_of(sudden, p.bolts));
     section.plots.push_back(std::move(plot));

@@ -59,10 +59,8 @@ Section bolt_spacing(Study& study) {
     crown_plot.series.push_back(lines[0]);
     force_plot.series.push_back(lines[1]);
   }
-  for (const Swept* s : {&u, &u_sudden}) crown_plot.series.push_back(s->series);
-  crown_plot.series.push_back(u.failed);
-  for (const Swept* s : {&f, &f_top, &f_sudden}) force_plot.series.push_back(s->series);
-  force_plot.series.push_back(f.failed);
+  for (const Swept* s : {&u, &u_sudden}) draw(crown_plot, *s);
+  for (const Swept* s : {&f, &f_top, &f_sudden}) draw(force_plot, *s);
   crown_plot.y_range = force_plot.y_range = {{0, NAN}};
 
   // Rock that falls, sample by sample.

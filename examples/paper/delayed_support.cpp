@@ -35,7 +35,8 @@ Section delayed_support(Study& study) {
                 "Ground reaction curve and a ring of 10 cm",
                 "convergence, mm",
                 "p_i / p_0",
-                {curve.series, curve.failed}};
+                {}};
+  draw(reaction, curve);
   const ElasticGround elastic = elastic_grounds()[2].ground;
   const GroundReactionCurve yielding(radius, ground_pressure, {elastic, 20e3, 35 * degree, 0});
   Series line{"elastic, G_3", Mark::line, {}, {}},
@@ -77,7 +78,8 @@ Section delayed_support(Study& study) {
               "Support installed under a held part of the traction",
               "part of the in-situ traction held",
               "N / (p_0 D), F / (p_0 D)",
-              {thrust.series, force.series, thrust.failed}};
+              {}};
+  for (const Swept* s : {&thrust, &force}) draw(forces, *s);
   Series elastic_n{"elastic thrust, G_3", Mark::line, {}, {}},
       elastic_f{"elastic bolt force, G_3", Mark::line, {}, {}};
   const ElasticSupport placed =
@@ -94,7 +96,8 @@ Section delayed_support(Study& study) {
               "Crown, in all, with support installed on the way",
               "part of the in-situ traction held",
               "convergence, mm",
-              {top.series, top.failed}};
+              {}};
+  draw(crowns, top);
   crowns.y_range = forces.y_range = {{0, NAN}};
   Plot profile{"longitudinal_profile",
                "Longitudinal displacement profile (continuum)",

@@ -44,6 +44,10 @@ Section force_histograms(Study& study) {
     if (o.stable()) quasi.push_back(&o);
   for (const Outcome& o : study.of(reference.as_the_paper()))
     if (o.stable()) sudden.push_back(&o);
+  if (const std::string gone = collapsed_text(
+          study, {{"quasi-static", reference}, {"as the paper ran it", reference.as_the_paper()}});
+      !gone.empty())
+    section.text.push_back(gone);
   if (quasi.empty() || sudden.empty()) {
     section.text.push_back("No sample stands: there is nothing to fit.");
     for (const char* id :

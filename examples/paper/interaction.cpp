@@ -164,11 +164,16 @@ Section interaction(Study& study) {
               "bolt spacing θ_b, degrees",
               "convergence, % of a",
               {}};
+  Series crosses{"not all samples stand", Mark::failed, {}, {}, {}};
   for (std::size_t i = 0; i < thicknesses().size(); ++i) {
     Series s{
         "t = " + trimmed_text(100 * thicknesses()[i], 1) + " cm", Mark::linked_points, {}, {}, {}};
     for (std::size_t j = 0; j + 1 < spacings().size(); ++j) {
       const Measured& m = grid[j][i];
+      if (!m.complete()) {
+        crosses.x.push_back(spacings()[j]);
+        crosses.y.push_back(m.values.empty() ? 0 : 1e2 * m.mean() / radius);
+      }
       if (m.values.empty()) continue;
       s.x.push_back(spacings()[j]);
       s.y.push_back(1e2 * m.mean() / radius);
@@ -185,6 +190,7 @@ Section interaction(Study& study) {
     other_points.spread.push_back(1e2 * m.deviation() / radius);
   }
   slices.series.push_back(other_points);
+  slices.series.push_back(crosses);
   slices.y_range = {{0, NAN}};
   section.plots.push_back(slices);
 

@@ -53,11 +53,9 @@ Section lining_thickness(Study& study) {
              "F / (p_0 D)",
              {}};
   Plot thrust{"lining_thickness_thrust", "Thrust of the lining", "t / D", "N / (p_0 D)", {}};
-  Plot moment{"lining_thickness_moment",
-              "Largest moment of the lining",
-              "t / D",
-              "|M|, kN m/m",
-              {moments.series}};
+  Plot moment{
+      "lining_thickness_moment", "Largest moment of the lining", "t / D", "|M|, kN m/m", {}};
+  draw(moment, moments);
   for (const NamedGround& g : elastic_grounds()) {
     Series u{std::string("elastic, ") + g.name, Mark::line, {}, {}}, f = u, n = u;
     for (double r = 0; r <= 0.0501; r += 0.0025) {
@@ -74,10 +72,9 @@ Section lining_thickness(Study& study) {
     force.series.push_back(f);
     thrust.series.push_back(n);
   }
-  for (const Swept* s : {&crowns, &crowns_sudden}) convergence.series.push_back(s->series);
-  convergence.series.push_back(crowns.failed);
-  for (const Swept* s : {&forces, &forces_sudden}) force.series.push_back(s->series);
-  for (const Swept* s : {&thrusts, &largest}) thrust.series.push_back(s->series);
+  for (const Swept* s : {&crowns, &crowns_sudden}) draw(convergence, *s);
+  for (const Swept* s : {&forces, &forces_sudden}) draw(force, *s);
+  for (const Swept* s : {&thrusts, &largest}) draw(thrust, *s);
   for (Plot* p : {&convergence, &force, &thrust, &moment}) p->y_range = {{0, NAN}};
   section.plots = {convergence, force, thrust, moment};
 

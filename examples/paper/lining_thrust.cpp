@@ -47,8 +47,7 @@ Section lining_thrust(Study& study) {
     }
     by_stiffness.series.push_back(line);
   }
-  for (const Swept* s : {&mean, &sudden}) by_stiffness.series.push_back(s->series);
-  by_stiffness.series.push_back(mean.failed);
+  for (const Swept* s : {&mean, &sudden}) draw(by_stiffness, *s);
 
   Plot around{"lining_thrust_around",
               "Thrust around the ring, mean of the samples that stand",
@@ -67,6 +66,8 @@ Section lining_thrust(Study& study) {
     }
     around.series.push_back(s);
   }
+  say_collapsed(around, study,
+                {{"1 MPa/m", at(1e6)}, {"0.1 GPa/m", at(1e8)}, {"1 GPa/m", at(1e9)}});
   around.x_range = {{0, 360}};
   around.y_range = {{0, NAN}};
   section.plots = {by_stiffness, around};

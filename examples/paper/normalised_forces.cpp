@@ -50,6 +50,7 @@ Section normalised_forces(Study& study) {
   }
   plot.y_range = {{0, NAN}};
   plot.caption = "The first four samples.";
+  for (const double s : spacings) say_collapsed(plot, study, {{printed_text(s, 4) + "°", at(s)}});
   section.plots.push_back(plot);
 
   const auto over = [&](bool sudden) {

@@ -100,6 +100,7 @@ Section rock_mass(Study& study) {
     }
     wall.series.push_back(s);
   }
+  say_collapsed(wall, study, {{"with these bolts", reference}});
   wall.x_range = {{0, 360}};
   wall.y_range = {{0, NAN}};
   section.plots.push_back(wall);

@@ -36,16 +36,14 @@ Section softer_bolts(Study& study) {
          "Mean of the bolts' largest forces",
          "K_a / (0.2 GN/m)",
          "F / (p_0 D)",
-         {force.series, force_bare.series}};
-  Plot c{"softer_bolts_crown",
-         "Crown convergence",
-         "K_a / (0.2 GN/m)",
-         "convergence, % of a",
-         {u.series, u_bare.series}};
-  Plot thrust{
-      "softer_bolts_thrust", "Thrust of the lining", "K_a / (0.2 GN/m)", "N / (p_0 D)", {n.series}};
-  Plot moment{
-      "softer_bolts_moment", "Moment of the lining", "K_a / (0.2 GN/m)", "|M|, kN m/m", {m.series}};
+         {}};
+  Plot c{"softer_bolts_crown", "Crown convergence", "K_a / (0.2 GN/m)", "convergence, % of a", {}};
+  Plot thrust{"softer_bolts_thrust", "Thrust of the lining", "K_a / (0.2 GN/m)", "N / (p_0 D)", {}};
+  Plot moment{"softer_bolts_moment", "Moment of the lining", "K_a / (0.2 GN/m)", "|M|, kN m/m", {}};
+  for (const Swept* s : {&force, &force_bare}) draw(f, *s);
+  for (const Swept* s : {&u, &u_bare}) draw(c, *s);
+  draw(thrust, n);
+  draw(moment, m);
   for (const NamedGround& g : elastic_grounds()) {
     Series lines[3] = {{std::string("elastic, lined, ") + g.name, Mark::line, {}, {}},
                        {std::string("elastic, lined, ") + g.name, Mark::line, {}, {}},

@@ -81,20 +81,18 @@ Section solution_checks(Study& study) {
     return v;
   };
   const std::vector<double> nodes{24, 36, 48, 72, 108, 144}, bases{20, 30, 50, 70};
-  Plot moment{"solution_nodes",
-              "Largest moment of the ring",
-              "nodes around the ring",
-              "|M|, kN m/m",
-              {swept(
+  Plot moment{
+      "solution_nodes", "Largest moment of the ring", "nodes around the ring", "|M|, kN m/m", {}};
+  draw(moment, swept(
                    study, "blocks, largest |M|", nodes, by_nodes,
-                   [](const Outcome& o) { return o.largest_moment(); }, 1e-3)
-                   .series}};
+                   [](const Outcome& o) { return o.largest_moment(); }, 1e-3));
   Plot base{"solution_base",
             "Convergence and the depth of the base",
             "rock below the invert, m",
             "convergence, mm",
-            {swept(study, "crown", bases, by_base, crown, 1e3).series,
-             swept(study, "crown and invert", bases, by_base, closes, 1e3).series}};
+            {}};
+  draw(base, swept(study, "crown", bases, by_base, crown, 1e3));
+  draw(base, swept(study, "crown and invert", bases, by_base, closes, 1e3));
   moment.caption = "Joints are 0.62 m apart, nodes 1.31 m to 0.22 m.";
   base.caption = "The wider domains are other samples of the rock.";
   moment.y_range = base.y_range = {{0, NAN}};

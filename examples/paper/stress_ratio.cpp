@@ -39,19 +39,18 @@ Section stress_ratio(Study& study) {
   const Swept m_top = swept(study, "blocks, crown", ratios, at, moment_crown, 1e-3);
   const Swept m_side = swept(study, "blocks, springings", ratios, at, moment_springing, 1e-3);
 
-  Plot force{"stress_ratio_bolts", "Bolt forces", "K_0", "F / (p_0 D)", {f.series}};
-  Plot wall{
-      "stress_ratio_wall", "Convergence", "K_0", "convergence, mm", {u_top.series, u_side.series}};
-  Plot thrust{"stress_ratio_thrust",
-              "Thrust of the lining",
-              "K_0",
-              "N / (p_0 D)",
-              {n_top.series, n_low.series, n_side.series}};
+  Plot force{"stress_ratio_bolts", "Bolt forces", "K_0", "F / (p_0 D)", {}};
+  Plot wall{"stress_ratio_wall", "Convergence", "K_0", "convergence, mm", {}};
+  Plot thrust{"stress_ratio_thrust", "Thrust of the lining", "K_0", "N / (p_0 D)", {}};
   Plot moment{"stress_ratio_moment",
               "Moment of the lining (tension outside positive)",
               "K_0",
               "M, kN m/m",
-              {m_top.series, m_side.series}};
+              {}};
+  draw(force, f);
+  for (const Swept* s : {&u_top, &u_side}) draw(wall, *s);
+  for (const Swept* s : {&n_top, &n_low, &n_side}) draw(thrust, *s);
+  for (const Swept* s : {&m_top, &m_side}) draw(moment, *s);
   Series lines[6] = {{"elastic ring, G_3, crown", Mark::line, {}, {}},
                      {"elastic ring, G_3, springings", Mark::dashed_line, {}, {}},
                      {"elastic ring, G_3, crown", Mark::line, {}, {}},

@@ -11,6 +11,7 @@
 #include <voussoir/core/errors.hpp>
 
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "claims.hpp"
 #include "pages.hpp"
 #include "plotting.hpp"
@@ -167,6 +168,30 @@ TEST_SUITE("program/paper") {
     plot.series.clear();
     CHECK_THROWS_WITH_AS((void)drawn(section_of({plot})), doctest::Contains("one"),
                          std::runtime_error);
+  }
+
+  TEST_CASE("samples that collapse have their mark in a plot, never a gap") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Plot plot{"p", "P", "x", "y", {}};
+    draw(plot, {{"whole", Mark::points, {1, 2}, {5, 6}, {}}, {"gone", Mark::failed, {}, {}}, {}});
+    CHECK(plot.series.size() == 1);
+    draw(plot, {{"some", Mark::points, {1, 2}, {5, 6}, {}}, {"gone", Mark::failed, {2}, {6}}, {}});
+    draw(plot, {{"none", Mark::points, {1}, {5}, {}}, {"gone", Mark::failed, {2}, {nan}}, {}}, 0.5);
+    REQUIRE(plot.series.size() == 4);
+    CHECK(plot.series[2].mark == Mark::failed);
+    CHECK(plot.series[2].x == std::vector<double>{2, 2});
+    CHECK(plot.series[2].y == std::vector<double>{6, 0.5});
+    CHECK(plot.series[3].name == "none");
+
+    // The tunnel without support: of the first two samples one stands.
+    Study study(2, 2);
+    const Swept bare = swept(
+        study, "bare", {1}, [](double) { return Variant{}; }, crown, 1e3);
+    CHECK(bare.measured[0].collapsed > 0);
+    CHECK(bare.failed.x == std::vector<double>{1});
+    CHECK(collapsed_text(study, {{"held", quick}}).empty());
+    CHECK(collapsed_text(study, {{"held", quick}, {"bare", Variant{}}}) ==
+          "Collapsed: bare " + std::to_string(bare.measured[0].collapsed) + " of 2 samples.");
   }
 
   TEST_CASE("the report holds every section, plot and claim, and no other file") {
