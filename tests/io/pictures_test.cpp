@@ -174,12 +174,16 @@ TEST_SUITE("io/interaction_picture") {
 
   TEST_CASE("results from elsewhere are drawn where they belong, outside the axes not at all") {
     InteractionPicture picture = small_diagram();
-    picture.others = {{0.05, 10, 0.0123, "stiffer <bar>"}, {0.05, 5, 0.02, "beyond the axis"}};
+    picture.others = {{0.05, 10, 0.0123, "stiffer <bar>"},
+                      {0.05, 5, 0.02, "beyond the axis"},
+                      {0.02, 12, not_a_number, "bare"}};
     picture.others_name = "other bars";
     const std::string text = draw_interaction_picture(picture);
     CHECK(xml_fault(text) == "");
     CHECK(contains(text, "stiffer &lt;bar&gt;: 12.3"));
     CHECK_FALSE(contains(text, "beyond the axis"));
+    CHECK(contains(text, "bare: blocks fall"));
+    CHECK_FALSE(contains(text, "nan"));
     CHECK(contains(text, "other bars"));
     CHECK_FALSE(contains(draw_interaction_picture(small_diagram()), "other"));
   }

@@ -53,7 +53,7 @@ struct InteractionPicture {
   /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
   struct Other {
     double thickness, spacing;  ///< as on the axes; drawn if within them
-    double value;               ///< SI; written beside the label
+    double value;               ///< SI, beside the label; NaN: "blocks fall"
     std::string label;
   };
   std::vector<Other> others = {};

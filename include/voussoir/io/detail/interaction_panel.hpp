@@ -90,7 +90,10 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
     for (const InteractionPicture::Other& other : picture.others) {
       if (!within(other.thickness, panel.grid.x) || !within(other.spacing, panel.grid.y)) continue;
       const Vec2 at = map({other.thickness, other.spacing});
-      others.emplace_back(at, other.label + ": " + printed_text(other.value * shown.point_scale));
+      const std::string value = std::isfinite(other.value)
+                                    ? printed_text(other.value * shown.point_scale)
+                                    : "blocks fall";
+      others.emplace_back(at, other.label + ": " + value);
       taken.take(text_room(at + Vec2(13, 4), others.back().second, beside).grown(2));
     }
   for (std::size_t k = 0; k < panel.rows.size(); ++k) {
