@@ -323,9 +323,10 @@ TEST_SUITE("detection/face_contacts") {
       FaceContacts::Pair<3>::Memory memory;
       if (!detector.overlap(0, 1, memory)) return;
       ++overlaps;
-      if (memory.inside.isZero()) return;
+      if (memory.inside == std::array<float, 3>{}) return;
       ++remembered;
-      const Vec3 point = twin.shapes()[0].vertex(0) + memory.inside.cast<double>();
+      const Vec3 point =
+          twin.shapes()[0].vertex(0) + Vec3(memory.inside[0], memory.inside[1], memory.inside[2]);
       for (const LongShape<3>* shape : {&twin.a, &twin.b})
         for (const LongVec<3>& normal : shape->normals) {
           long double reach = -std::numeric_limits<long double>::infinity();
@@ -370,7 +371,9 @@ TEST_SUITE("detection/face_contacts") {
     CHECK(std::abs(detector.separation(0, 1, memory) - 1e-4) < 1e-14);
     for (std::size_t k = 0; k < wedge.size(); ++k) REQUIRE(wedge.distance(k, point) < -1e-4);
     memory.apart = false;
-    memory.inside = (point - shapes[0].vertex(0)).cast<float>();
+    const Vec3 arm = point - shapes[0].vertex(0);
+    for (std::size_t k = 0; k < 3; ++k)
+      memory.inside[k] = static_cast<float>(arm[static_cast<int>(k)]);
     CHECK_FALSE(detector.overlap(0, 1, memory));
   }
 

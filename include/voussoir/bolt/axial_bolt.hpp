@@ -75,11 +75,11 @@ class AxialBolt {
   [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
     // Anchors that coincide resist motion in every direction that stretches the bar.
     const double length = span.initial.norm();
-    if (!(length > 0)) return params_.axial_stiffness * Stress<Dim>::Identity();
+    if (!(length > 0)) return diagonal_of<Dim>(params_.axial_stiffness);
     // A taut bar also resists being moved sideways, by T0 / d.
-    const Stress<Dim> along = span.axis * span.axis.transpose();
+    const Stress<Dim> along = outer(span.axis, span.axis);
     return params_.axial_stiffness * along +
-           params_.pretension / length * (Stress<Dim>::Identity() - along);
+           params_.pretension / length * (diagonal_of<Dim>(1) - along);
   }
 
  private:

@@ -13,7 +13,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 /// @param spin  angle, anticlockwise [rad]; of any size
 [[nodiscard]] inline Rotation<2> rotation_by(const Spin<2>& spin) {
   const double c = std::cos(spin[0]), s = std::sin(spin[0]);
-  return (Rotation<2>() << c, -s, s, c).finished();
+  return by_rows<2, 2>({c, -s, s, c});
 }
 
 /// Rodrigues' formula. @param spin  axis times angle, right-handed [rad]; of any size
@@ -24,16 +24,16 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
   const double half = 0.5 * angle;
   const double ratio = angle > 1e-8 ? std::sin(angle) / angle : 1.0;
   const double half_ratio = half > 1e-8 ? std::sin(half) / half : 1.0;
-  Rotation<3> skew;
-  skew << 0, -spin[2], spin[1], spin[2], 0, -spin[0], -spin[1], spin[0], 0;
-  return Rotation<3>::Identity() + ratio * skew + 0.5 * half_ratio * half_ratio * skew * skew;
+  const Rotation<3> skew =
+      by_rows<3, 3>({0, -spin[2], spin[1], spin[2], 0, -spin[0], -spin[1], spin[0], 0});
+  return diagonal_of<3>(1) + ratio * skew + (0.5 * half_ratio * half_ratio * skew) * skew;
 }
 
 /// Where a rigid body is: a point p of its own frame lies at position + rotation p.
 template <int Dim>
 struct Pose {
   Vec<Dim> position = Vec<Dim>::Zero();  ///< of the origin of the body's frame [m]
-  Rotation<Dim> rotation = Rotation<Dim>::Identity();
+  Rotation<Dim> rotation = diagonal_of<Dim>(1);
 
   [[nodiscard]] Vec<Dim> operator()(const Vec<Dim>& local) const {
     return position + rotation * local;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
 
@@ -32,17 +32,18 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
 
 /// Cross product of two vectors. In 2-D its z component, twice the signed area of the triangle
 /// (0, a, b); in 3-D the area vector of the parallelogram.
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+[[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+          a.x() * b.y() - a.y() * b.x()};
+}
+
 template <class A, class B>
 [[nodiscard]] auto cross(const Eigen::MatrixBase<A>& left, const Eigen::MatrixBase<B>& right) {
   constexpr int dim = A::RowsAtCompileTime;
-  static_assert(dim == 2 || dim == 3);
-  const Vec<dim> a = left, b = right;
-  if constexpr (dim == 2) {
-    return a.x() * b.y() - a.y() * b.x();
-  } else {
-    return Vec3(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-                a.x() * b.y() - a.y() * b.x());
-  }
+  return cross(Vec<dim>(left), Vec<dim>(right));
 }
 
 /// Displacement of a point at `arm` from the centre of a body that turns by the small rotation

@@ -21,11 +21,11 @@ struct Box {
   Vec<Dim> low, high;  ///< corners [m]
 
   [[nodiscard]] bool meets(const Box& other, double margin) const {
-    return (low.array() <= other.high.array() + margin).all() &&
-           (other.low.array() <= high.array() + margin).all();
+    return all_less_equal(low, shifted_by(other.high, margin)) &&
+           all_less_equal(other.low, shifted_by(high, margin));
   }
   [[nodiscard]] bool contains(const Box& other) const {
-    return (low.array() <= other.low.array()).all() && (high.array() >= other.high.array()).all();
+    return all_less_equal(low, other.low) && all_less_equal(other.high, high);
   }
 };
 
@@ -91,26 +91,26 @@ class NeighbourList {
     Vec<Dim> extent = Vec<Dim>::Zero();
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       Box<Dim> box = bounding_box(shapes[k]);
-      if (!(box.low.allFinite() && box.high.allFinite()))
+      if (!(is_finite(box.low) && is_finite(box.high)))
         throw InvalidInput("neighbour list: shape " + std::to_string(k) +
                            " has a coordinate that is not finite");
       extent += box.high - box.low;
-      box.low.array() -= 0.5 * margin_;
-      box.high.array() += 0.5 * margin_;
+      box.low = shifted_by(box.low, -0.5 * margin_);
+      box.high = shifted_by(box.high, 0.5 * margin_);
       boxes_.push_back(box);
     }
     pairs_.clear();
     if (boxes_.empty()) return;
     // Cells as large as the mean box; larger while large boxes fill too many of them.
     origin_ = boxes_.front().low;
-    size_ = extent / static_cast<double>(boxes_.size()) + Vec<Dim>::Constant(margin_ + reach_);
-    size_ = size_.cwiseMax(1e-3 * size_.maxCoeff());
-    if (!(size_.maxCoeff() > 0)) size_.setOnes();
+    size_ = shifted_by(extent / static_cast<double>(boxes_.size()), margin_ + reach_);
+    size_ = larger_of(size_, all_entries<Dim>(1e-3 * largest_entry(size_)));
+    if (!(largest_entry(size_) > 0)) size_ = all_entries<Dim>(1);
     while (entries_needed() > 32.0 * static_cast<double>(boxes_.size())) size_ *= 2;
     std::vector<Entry> entries;
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
-      const Cell low = cell_of(boxes_[k].low.array() - 0.5 * reach_);
-      const Cell high = cell_of(boxes_[k].high.array() + 0.5 * reach_);
+      const Cell low = cell_of(shifted_by(boxes_[k].low, -0.5 * reach_));
+      const Cell high = cell_of(shifted_by(boxes_[k].high, 0.5 * reach_));
       for (Cell cell = low;;) {
         entries.push_back({cell, static_cast<std::uint32_t>(k)});
         int axis = 0;
@@ -135,7 +135,7 @@ class NeighbourList {
   void add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j, const Cell& cell) {
     const Box<Dim>&a = boxes_[i], &b = boxes_[j];
     if (!a.meets(b, reach_)) return;
-    if (cell_of(a.low.cwiseMax(b.low).array() - 0.5 * reach_) != cell) return;
+    if (cell_of(shifted_by(larger_of(a.low, b.low), -0.5 * reach_)) != cell) return;
     const Vec<Dim>&home_i = shapes.home(i), &home_j = shapes.home(j);
     bool swap = j < i;
     for (int axis = Dim; axis-- > 0;)
@@ -146,7 +146,7 @@ class NeighbourList {
   [[nodiscard]] double entries_needed() const {
     double sum = 0;
     for (const Box<Dim>& box : boxes_)
-      sum += ((box.high - box.low).array() / size_.array() + 2.0).prod();
+      sum += product_of_entries(shifted_by(quotients<Dim>(box.high - box.low, size_), 2.0));
     return sum;
   }
   [[nodiscard]] Cell cell_of(const Vec<Dim>& point) const {

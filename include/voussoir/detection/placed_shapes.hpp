@@ -108,7 +108,7 @@ class PlacedShapes {
     const auto refuse = [this](const std::string& what) {
       throw InvalidInput("placed shapes: shape " + std::to_string(size()) + what);
     };
-    if (!origin.allFinite()) refuse(": the origin of its frame must be finite");
+    if (!is_finite(origin)) refuse(": the origin of its frame must be finite");
     if (std::max(vertex_count, face_count) > UINT16_MAX)
       refuse(" has more than 65535 vertices or faces");
     const Record record{placed_.size(), static_cast<std::uint32_t>(vertex_count),

@@ -133,7 +133,7 @@ class ConvexPolygon {
       throw InvalidInput("convex polygon: needs one label per face, has " +
                          std::to_string(cuts_.size()) + " for " + std::to_string(size()));
     for (std::size_t k = 0; k < size(); ++k)
-      if (!vertices_[k].allFinite()) fail(k, "is not finite");
+      if (!is_finite(vertices_[k])) fail(k, "is not finite");
     double turning = 0, doubled_area = 0;
     for (std::size_t k = 0; k < size(); ++k) {
       doubled_area +=

@@ -22,19 +22,17 @@ struct Ball {
 template <class Shape>
 [[nodiscard]] Ball<Shape::dim> inscribed_ball(const Shape& shape) {
   constexpr int dim = Shape::dim;
-  using Unknowns = Eigen::Matrix<double, dim + 1, 1>;
   const Vec<dim> origin =
       shape.vertex(0);  // relative coordinates: far from the origin costs nothing
   std::vector<LinearConstraint<dim + 1>> faces;
   faces.reserve(shape.size());
   for (std::size_t k = 0; k < shape.size(); ++k) {
-    Unknowns row;
-    row << shape.half_space(k).normal, 1.0;
-    faces.push_back({row, -shape.distance(k, origin)});
+    faces.push_back(
+        {stacked(shape.half_space(k).normal, Fixed<1, 1>(1.0)), -shape.distance(k, origin)});
   }
-  const auto best = maximise<dim + 1>(Unknowns::Unit(dim), faces, 2 * shape.diameter());
+  const auto best = maximise<dim + 1>(axis_vector<dim + 1>(dim), faces, 2 * shape.diameter());
   VOUSSOIR_ASSERT(best.has_value(), "a convex shape holds a ball");
-  return {origin + best->template head<dim>(), (*best)[dim]};
+  return {origin + part<dim>(*best, 0), (*best)[dim]};
 }
 
 }  // namespace voussoir

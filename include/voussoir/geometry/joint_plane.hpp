@@ -39,7 +39,7 @@ struct JointPlane {
 /// @throws InvalidInput  not finite, or a normal of no length
 [[nodiscard]] inline JointPlane unbounded_joint(const Vec3& point, const Vec3& normal) {
   const double length = normal.norm();
-  if (!(point.allFinite() && std::isfinite(length) && length > 0))
+  if (!(is_finite(point) && std::isfinite(length) && length > 0))
     throw InvalidInput("joint plane through " + text_of<3>(point) +
                        " m: needs a finite point and a normal of length > 0, not " +
                        text_of<3>(normal));
@@ -83,7 +83,7 @@ inline constexpr int disc_corners = 32;
   for (int k = 0; k < disc_corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / disc_corners;
     joint.corners.push_back(
-        centre + radius * (std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1)));
+        centre + radius * (std::cos(angle) * column(axes, 0) + std::sin(angle) * column(axes, 1)));
   }
   return joint;
 }
@@ -100,7 +100,7 @@ inline constexpr int disc_corners = 32;
   Vec3 area = Vec3::Zero(), centre = Vec3::Zero();
   double size = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    if (!corners[k].allFinite()) fail(k, "is not finite");
+    if (!is_finite(corners[k])) fail(k, "is not finite");
     centre += (corners[k] - corners[0]) / static_cast<double>(corners.size());
     size = std::fmax(size, (corners[k] - corners[0]).norm());
     if (k > 0)
@@ -130,7 +130,7 @@ inline constexpr int disc_corners = 32;
   if (!joint.is_unbounded()) return joint;
   const Vec3 foot = centre - joint.plane.distance(centre) * joint.plane.normal;
   const TangentBasis<3> axes = radius * tangent_basis(joint.plane.normal);
-  const Vec3 u = axes.col(0), v = axes.col(1);
+  const Vec3 u = column(axes, 0), v = column(axes, 1);
   return {joint.plane, {foot - u - v, foot + u - v, foot + u + v, foot - u + v}};
 }
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
+#include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
 
 /// normal . x <= offset, in N unknowns.
 template <int N>
 struct LinearConstraint {
-  Eigen::Matrix<double, N, 1> normal;
+  Fixed<N, 1> normal;
   double offset;
 };
 
@@ -26,10 +26,10 @@ struct LinearConstraint {
 /// Constraints are added one by one; one that the optimum so far violates must be active in the
 /// new optimum, so one unknown is eliminated through it and the smaller problem solved.
 template <int N>
-[[nodiscard]] std::optional<Eigen::Matrix<double, N, 1>> maximise(
-    const Eigen::Matrix<double, N, 1>& objective,
-    const std::vector<LinearConstraint<N>>& constraints, double bound) {
-  using Point = Eigen::Matrix<double, N, 1>;
+[[nodiscard]] std::optional<Fixed<N, 1>> maximise(
+    const Fixed<N, 1>& objective, const std::vector<LinearConstraint<N>>& constraints,
+    double bound) {
+  using Point = Fixed<N, 1>;
   if constexpr (N == 1) {
     double low = -bound, high = bound;
     for (const auto& [normal, offset] : constraints) {
@@ -51,16 +51,17 @@ template <int N>
       const double b = constraints[i].offset;
       if (a.dot(best) <= b + 1e-14 * bound) continue;
       int pivot = 0;
-      a.cwiseAbs().maxCoeff(&pivot);
+      for (int k = 1; k < N; ++k)
+        if (std::abs(a[k]) > std::abs(a[pivot])) pivot = k;
       if (!(std::abs(a[pivot]) > 0)) return std::nullopt;
       // x[pivot] = b / a[pivot] - sum of the others * ratio
       const auto drop = [pivot](const Point& full) {
-        Eigen::Matrix<double, N - 1, 1> rest;
+        Fixed<N - 1, 1> rest;
         for (int k = 0, to = 0; k < N; ++k)
           if (k != pivot) rest[to++] = full[k];
         return rest;
       };
-      const Eigen::Matrix<double, N - 1, 1> ratio = drop(a) / a[pivot];
+      const Fixed<N - 1, 1> ratio = drop(a) / a[pivot];
       const double shift = b / a[pivot];
       std::vector<LinearConstraint<N - 1>> smaller;
       smaller.reserve(i + 2);

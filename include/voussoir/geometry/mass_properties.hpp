@@ -13,7 +13,7 @@ namespace voussoir {
 /// Integrals over a shape of unit density.
 template <int Dim>
 struct MassProperties {
-  using Inertia = Eigen::Matrix<double, spin_count<Dim>, spin_count<Dim>>;
+  using Inertia = Fixed<spin_count<Dim>, spin_count<Dim>>;
   double measure = 0;                    ///< area [m^2] or volume [m^3]
   Vec<Dim> centroid = Vec<Dim>::Zero();  ///< [m]
   /// About the centroid; 2-D: polar moment [m^4]; 3-D: inertia tensor, the integral of
@@ -61,7 +61,7 @@ struct MassProperties {
   const Vec3 origin = polyhedron.vertex(0);
   double volume = 0;
   Vec3 first_moment = Vec3::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // integral of r r^T
+  Fixed<3, 3> second = Fixed<3, 3>::Zero();  // integral of r r^T
   for (std::size_t k = 0; k < polyhedron.size(); ++k) {
     const std::span<const int> loop = polyhedron.loop(k);
     const auto arm = [&](std::size_t i) -> Vec3 {
@@ -75,8 +75,7 @@ struct MassProperties {
       const double tetrahedron = a.dot(cross(b - a, c - b)) / 6.0;
       volume += tetrahedron;
       first_moment += tetrahedron / 4.0 * sum;
-      second += tetrahedron / 20.0 *
-                (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+      second += tetrahedron / 20.0 * (outer(a, a) + outer(b, b) + outer(c, c) + outer(sum, sum));
       b = c;
     }
   }
@@ -84,7 +83,7 @@ struct MassProperties {
   result.measure = volume;
   const Vec3 offset = first_moment / volume;
   result.centroid = origin + offset;
-  second -= volume * offset * offset.transpose();
+  second -= outer(Vec3(volume * offset), offset);
   // Sums of two diagonal entries, not trace minus the third: the small moment of a needle about
   // its own axis keeps its digits.
   result.second_moment = -second;
@@ -115,8 +114,7 @@ template <class Shape>
     if constexpr (dim == 2) {
       whole.second_moment(0, 0) += part.measure * r.squaredNorm();
     } else {
-      whole.second_moment +=
-          part.measure * (r.squaredNorm() * Stress<dim>::Identity() - r * r.transpose());
+      whole.second_moment += part.measure * (diagonal_of<dim>(r.squaredNorm()) - outer(r, r));
     }
   }
   return whole;

@@ -59,11 +59,11 @@ class PrismaticOpening {
     // The rectangle around the section: what it cuts beside the face stays one body.
     Vec2 low = section_.vertices().front(), high = low;
     for (const Vec2& v : section_.vertices()) {
-      low = low.cwiseMin(v);
-      high = high.cwiseMax(v);
+      low = smaller_of(low, v);
+      high = larger_of(high, v);
     }
     const double y = ends()[k - section_.size()];
-    return {{Vec3::UnitY(), y},
+    return {{Vec3(0, 1, 0), y},
             {in_space(low, y), in_space({low.x(), high.y()}, y), in_space(high, y),
              in_space({high.x(), low.y()}, y)}};
   }

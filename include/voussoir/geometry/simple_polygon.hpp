@@ -26,7 +26,7 @@ class SimplePolygon {
   explicit SimplePolygon(std::vector<Vec2> vertices) : vertices_(std::move(vertices)) {
     if (size() < 3) throw InvalidInput("outline: needs at least 3 vertices");
     for (std::size_t k = 0; k < size(); ++k)
-      if (!vertices_[k].allFinite())
+      if (!is_finite(vertices_[k]))
         throw InvalidInput("outline: vertex " + std::to_string(k) + " is not finite");
     for (std::size_t k = 0; k < size(); ++k) {
       if (!(edge(k).length() > 0))

@@ -29,8 +29,18 @@ using TangentBasis = Eigen::Matrix<double, Dim, Dim - 1>;
   Vec3 first = length_squared > 0 ? Vec3(u - (2 * h.dot(u) / length_squared) * h) : u;
   first = (first - normal.dot(first) * normal).normalized();
   TangentBasis<3> basis;
-  basis << first, cross(normal, first);
+  set_column(basis, 0, first);
+  set_column(basis, 1, cross(normal, first));
   return basis;
+}
+
+/// Normal and tangents as the columns of a rotation.
+template <int Dim>
+[[nodiscard]] Fixed<Dim, Dim> frame_of(const Vec<Dim>& normal, const TangentBasis<Dim>& tangents) {
+  Fixed<Dim, Dim> frame;
+  set_column(frame, 0, normal);
+  set_block(frame, 0, 1, tangents);
+  return frame;
 }
 
 }  // namespace voussoir

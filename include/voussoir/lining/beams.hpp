@@ -14,14 +14,12 @@ namespace detail {
   const double b = section.bending_stiffness / (length * length * length * (1 + phi));
   const double v = 12 * b, vt = 6 * length * b, near = (4 + phi) * length * length * b,
                far = (2 - phi) * length * length * b;
-  ElementMatrix<3> k;
-  k << axial, 0, 0, -axial, 0, 0,  //
-      0, v, vt, 0, -v, vt,         //
-      0, vt, near, 0, -vt, far,    //
-      -axial, 0, 0, axial, 0, 0,   //
-      0, -v, -vt, 0, v, -vt,       //
-      0, vt, far, 0, -vt, near;
-  return k;
+  return by_rows<6, 6>({axial,  0,  0,    -axial, 0,   0,    //
+                        0,      v,  vt,   0,      -v,  vt,   //
+                        0,      vt, near, 0,      -vt, far,  //
+                        -axial, 0,  0,    axial,  0,   0,    //
+                        0,      -v, -vt,  0,      v,   -vt,  //
+                        0,      vt, far,  0,      -vt, near});
 }
 
 /// The frame element in space: the plane one about both axes of the section, and torsion. Axes as
@@ -130,21 +128,32 @@ struct BondedChain {
       [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section,
                                                         double length) {
     // Jump of the bond: rows; values of the two nodes: columns.
-    Eigen::Matrix<double, Dof, 2 * Dof> jump = Eigen::Matrix<double, Dof, 2 * Dof>::Zero();
-    jump.template leftCols<Dof>() = -Eigen::Matrix<double, Dof, Dof>::Identity();
-    jump.template rightCols<Dof>().setIdentity();
+    Fixed<Dof, 2 * Dof> jump = Fixed<Dof, 2 * Dof>::Zero();
+    for (int r = 0; r < Dof; ++r) {
+      jump(r, r) = -1;
+      jump(r, Dof + r) = 1;
+    }
     const double half = 0.5 * length;
-    Eigen::Matrix<double, Dof, 1> bond;
+    Fixed<Dof, Dof> bond = Fixed<Dof, Dof>::Zero();
+    const auto holds = [&bond](int direction, double stiffness) {
+      bond(direction, direction) = stiffness;
+    };
     if constexpr (Dof == 3) {
       jump(1, 2) = jump(1, 5) = -half;  // a turn of the node moves its face across
-      bond << section.axial_stiffness, section.shear_stiffness, section.bending_stiffness;
+      holds(0, section.axial_stiffness);
+      holds(1, section.shear_stiffness);
+      holds(2, section.bending_stiffness);
     } else {
       jump(1, 5) = jump(1, 11) = -half;
       jump(2, 4) = jump(2, 10) = half;
-      bond << section.axial_stiffness, section.shear_stiffness, section.shear_stiffness,
-          section.torsional_stiffness, section.lateral_bending_stiffness, section.bending_stiffness;
+      holds(0, section.axial_stiffness);
+      holds(1, section.shear_stiffness);
+      holds(2, section.shear_stiffness);
+      holds(3, section.torsional_stiffness);
+      holds(4, section.lateral_bending_stiffness);
+      holds(5, section.bending_stiffness);
     }
-    return jump.transpose() * (bond / length).asDiagonal() * jump;
+    return transposed(jump) * (bond / length) * jump;
   }
 };
 

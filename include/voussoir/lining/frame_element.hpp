@@ -13,14 +13,16 @@ namespace voussoir {
 template <int Dim>
 [[nodiscard]] Rotation<Dim> frame_axes(const Vec<Dim>& along, const Vec<Dim>& outward) {
   const Vec<Dim> x = along.normalized();
-  Rotation<Dim> axes;
   if constexpr (Dim == 2) {
-    axes << x.x(), x.y(), -x.y(), x.x();
+    return by_rows<2, 2>({x.x(), x.y(), -x.y(), x.x()});
   } else {
     const Vec3 y = (outward - outward.dot(x) * x).normalized();
-    axes << x.transpose(), y.transpose(), cross(x, y).transpose();
+    Rotation<Dim> axes;
+    set_row(axes, 0, x);
+    set_row(axes, 1, y);
+    set_row(axes, 2, cross(x, y));
+    return axes;
   }
-  return axes;
 }
 
 /// World axes to those of an element, for translations and rotations of both ends.
@@ -29,11 +31,11 @@ template <int Dim>
   constexpr int dof = Dim + spin_count<Dim>;
   ElementMatrix<dof> turn = ElementMatrix<dof>::Zero();
   for (int end = 0; end < 2; ++end) {
-    turn.template block<Dim, Dim>(dof * end, dof * end) = axes;
+    set_block(turn, dof * end, dof * end, axes);
     if constexpr (Dim == 2)
       turn(dof * end + 2, dof * end + 2) = 1;
     else
-      turn.template block<3, 3>(dof * end + 3, dof * end + 3) = axes;
+      set_block(turn, dof * end + 3, dof * end + 3, axes);
   }
   return turn;
 }
@@ -44,7 +46,7 @@ struct FrameElement {
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
   using Matrix = ElementMatrix<dof>;
-  using Values = Eigen::Matrix<double, 2 * dof, 1>;
+  using Values = Fixed<2 * dof, 1>;
 
   /// @param axes  of the element, in rows (see `frame_axes`)
   FrameElement(int first, int second, double rest_length, const Rotation<dim>& axes,
@@ -67,9 +69,7 @@ struct FrameElement {
 
   /// Forces on the two ends in element axes at displacement `u`.
   [[nodiscard]] Values end_forces(const double* u) const {
-    Values q;
-    q << Eigen::Map<const Eigen::Matrix<double, dof, 1>>(u + dof * i),
-        Eigen::Map<const Eigen::Matrix<double, dof, 1>>(u + dof * j);
+    const Values q = stacked(vector_at<dof>(u + dof * i), vector_at<dof>(u + dof * j));
     return start + local * (turn * q);
   }
   /// The same with the nodes anywhere: from the length of the chord and the turns of the nodes
@@ -81,7 +81,7 @@ struct FrameElement {
   /// Forces and moments that it puts on its nodes then, world axes.
   [[nodiscard]] Values push(const Pose<dim>& a, const Pose<dim>& b) const {
     const Rotation<dim> now = axes_along(b.position - a.position, a);
-    return -(in_element_axes<dim>(now).transpose() * end_forces(a, b));
+    return -(transposed(in_element_axes<dim>(now)) * end_forces(a, b));
   }
   /// Energy that it holds then [J].
   [[nodiscard]] double energy(const Pose<dim>& a, const Pose<dim>& b) const {
@@ -97,17 +97,15 @@ struct FrameElement {
   }
 
   void add_force(const double* u, double* f) const {
-    const Values back = turn.transpose() * end_forces(u);
-    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* i} -= back.template head<dof>();
-    Eigen::Map<Eigen::Matrix<double, dof, 1>>{f + dof* j} -= back.template tail<dof>();
+    const Values push = -(transposed(turn) * end_forces(u));
+    add_at<dof>(f + dof * i, part<dof>(push, 0));
+    add_at<dof>(f + dof * j, part<dof>(push, dof));
   }
   template <class Sink>
   void add_stiffness(Sink&& sink) const {
-    const Matrix k = turn.transpose() * local * turn;
-    using Block = Eigen::Matrix<double, dof, dof>;
-    sink(i, j, Block(k.template topLeftCorner<dof, dof>()),
-         Block(k.template topRightCorner<dof, dof>()),
-         Block(k.template bottomRightCorner<dof, dof>()));
+    const Matrix k = transposed(turn) * local * turn;
+    sink(i, j, block_at<dof, dof>(k, 0, 0), block_at<dof, dof>(k, 0, dof),
+         block_at<dof, dof>(k, dof, dof));
   }
 
  private:
@@ -118,13 +116,13 @@ struct FrameElement {
     const Rotation<dim> now = axes_along(along, a);
     Values q = Values::Zero();
     q[dof] = along.norm() - length;
-    q.template segment<dof - dim>(dim) = small_turn(now * a.rotation * at_rest.transpose());
-    q.template segment<dof - dim>(dof + dim) = small_turn(now * b.rotation * at_rest.transpose());
+    write_at(q.data() + dim, small_turn(now * a.rotation * transposed(at_rest)));
+    write_at(q.data() + dof + dim, small_turn(now * b.rotation * transposed(at_rest)));
     return q;
   }
   /// Axes of the element along a chord, its second axis turned with node a.
   [[nodiscard]] Rotation<dim> axes_along(const Vec<dim>& along, const Pose<dim>& a) const {
-    return frame_axes<dim>(along, a.rotation * Vec<dim>(at_rest.row(1).transpose()));
+    return frame_axes<dim>(along, a.rotation * row(at_rest, 1));
   }
   /// The vector of a rotation that is small [rad].
   [[nodiscard]] static Spin<dim> small_turn(const Rotation<dim>& r) {

@@ -54,7 +54,7 @@ struct LiningSection {
 /// Stiffness of one straight element in its own axes: first node, then second; translations, then
 /// rotations; x along the element.
 template <int Dof>
-using ElementMatrix = Eigen::Matrix<double, 2 * Dof, 2 * Dof>;
+using ElementMatrix = Fixed<2 * Dof, 2 * Dof>;
 
 template <class Lining, int Dof>
 concept HasElementStiffness = requires(const LiningSection& section, double length) {

@@ -82,9 +82,9 @@ class ContactNetwork {
       const Rotation<Dim> frame = a.rotation * c.frame;
       for (auto i = index(c.first); i < index(c.last); ++i) {
         auto& p = group.points()[i];
-        const Vec<Dim> traction = stress_at(b(p.place)) * frame.col(0);
-        const Vec<Dim> force = p.weight * (frame.transpose() * traction);
-        p.initial = {force[0], force.template tail<Dim - 1>()};
+        const Vec<Dim> traction = stress_at(b(p.place)) * column(frame, 0);
+        const Vec<Dim> force = p.weight * (transposed(frame) * traction);
+        p.initial = {force[0], part<Dim - 1>(force, 1)};
         p.zero[0] += group.motion_of(p, at).opening;
       }
     });
@@ -184,7 +184,7 @@ class ContactNetwork {
   }
 
  private:
-  using Stiffness = Eigen::Matrix<double, dof, dof>;
+  using Stiffness = Fixed<dof, dof>;
   /// One end of a contact, as its body sees it.
   struct End {
     std::uint32_t contact;
@@ -328,7 +328,13 @@ class ContactNetwork {
         before += group.size();
       });
     }
-    return sum.rowwise().template lpNorm<1>().maxCoeff();
+    double largest = 0;
+    for (int r = 0; r < dof; ++r) {
+      double absolute = 0;
+      for (int k = 0; k < dof; ++k) absolute += std::abs(sum(r, k));
+      largest = std::max(largest, absolute);
+    }
+    return largest;
   }
   /// Adds M^-1/2 G^T K G M^-1/2 of one contact to the matrix of body a or b, in the body's frame.
   template <class Group>
@@ -337,24 +343,23 @@ class ContactNetwork {
     const auto& c = group.contacts()[k];
     const Body &a = bodies[index(c.a)], &b = bodies[index(c.b)], &body = on_b ? b : a;
     const Rotation<Dim> frame =
-        on_b ? Rotation<Dim>(b.pose.rotation.transpose() * (a.pose.rotation * c.frame)) : c.frame;
+        on_b ? Rotation<Dim>(transposed(b.pose.rotation) * (a.pose.rotation * c.frame)) : c.frame;
     const double root = 1 / std::sqrt(body.mass);
     for (auto i = index(c.first); i < index(c.last); ++i) {
       const auto& p = group.points()[i];
       const Vec<Dim> place =
           on_b ? p.place
-               : Vec<Dim>(a.pose.rotation.transpose() * (b.pose(p.place) - a.pose.position));
+               : Vec<Dim>(transposed(a.pose.rotation) * (b.pose(p.place) - a.pose.position));
       for (int axis = 0; axis < Dim; ++axis) {
-        const Vec<Dim> along = frame.col(axis);
-        Eigen::Matrix<double, dof, 1> g;
+        const Vec<Dim> along = column(frame, axis);
+        Fixed<dof, 1> g;
         const Spin<Dim> moment = moment_of(place, along);
         for (int row = 0; row < Dim; ++row) g[row] = root * along[row];
         for (int row = 0; row < spin_count<Dim>; ++row)
           g[Dim + row] = moment[row] / std::sqrt(body.inertia[row]);
-        sum += p.weight *
-               (axis == 0 ? group.law_of(c).joint_normal_stiffness()
-                          : group.law_of(c).joint_shear_stiffness()) *
-               g * g.transpose();
+        const double stiffness = p.weight * (axis == 0 ? group.law_of(c).joint_normal_stiffness()
+                                                       : group.law_of(c).joint_shear_stiffness());
+        sum += outer<dof, dof>(stiffness * g, g);
       }
     }
   }

@@ -49,11 +49,11 @@ class ContactRenewal {
     if (old != nullptr) {
       const double sign = old->a == a ? 1.0 : -1.0;
       const Rotation<Dim> was = sign * (pose(old->a).rotation * old->frame);
-      keeps = normal.dot(was.col(0)) > 0.5;
+      keeps = normal.dot(column(was, 0)) > 0.5;
       if (keeps) frame = carried(was, normal);
     }
     if (!keeps) frame << normal, tangent_basis(normal);
-    contact.frame = pose_a.rotation.transpose() * frame;
+    contact.frame = transposed(pose_a.rotation) * frame;
     const auto at = Group::place_of(contact, pose_a, pose_b);
     const double face = normal_reach(owner, normal);
     if (found.touch == Touch::edge_edge)
@@ -64,7 +64,7 @@ class ContactRenewal {
     for (const WeightedPoint<Dim>& it : places_) {
       if (!(it.weight > 0)) continue;
       Point point{};
-      point.place = pose_b.rotation.transpose() * (it.place - pose_b.position);
+      point.place = transposed(pose_b.rotation) * (it.place - pose_b.position);
       point.weight = it.weight;
       point.zero.setZero();
       const PointMotion<Dim> now = Group::motion_of(point, at);
@@ -72,7 +72,7 @@ class ContactRenewal {
       const double opening =
           found.touch == Touch::edge_edge ? found.separation : normal.dot(it.place) - face;
       point.zero[0] = now.opening - opening;
-      point.zero.template tail<Dim - 1>() = now.slip;
+      write_at(point.zero.data() + 1, now.slip);
       if (keeps) inherit(*old, it.place, point);
       points.push_back(point);
     }
@@ -104,11 +104,11 @@ class ContactRenewal {
   /// The old frame turned the shortest way so that its first column is the new normal.
   [[nodiscard]] static Rotation<Dim> carried(const Rotation<Dim>& old, const Vec<Dim>& normal) {
     Rotation<Dim> frame;
-    frame.col(0) = normal;
+    set_column(frame, 0, normal);
     for (int k = 1; k < Dim; ++k) {
-      Vec<Dim> t = old.col(k);
-      for (int l = 0; l < k; ++l) t -= t.dot(frame.col(l)) * frame.col(l);
-      frame.col(k) = t.normalized();
+      Vec<Dim> t = column(old, k);
+      for (int l = 0; l < k; ++l) t -= t.dot(column(frame, l)) * column(frame, l);
+      set_column(frame, k, t.normalized());
     }
     return frame;
   }
@@ -128,7 +128,7 @@ class ContactRenewal {
     const auto at = Group::place_of(old, pose(old.a), pose(old.b));
     // Bodies a and b may have changed places, and with them all axes their sign: slip, opening and
     // the force on b along the axes of the contact are the same either way.
-    point.zero.template tail<Dim - 1>() -= Group::motion_of(*nearest, at).slip;
+    add_at<Dim - 1>(point.zero.data() + 1, -Group::motion_of(*nearest, at).slip);
     const double share = point.weight / nearest->weight;
     point.initial.normal = share * nearest->initial.normal;
     point.initial.tangential = share * nearest->initial.tangential;

@@ -60,7 +60,7 @@ class ContactTracker {
     shapes_.add(shape, centre);
     body_of_.push_back(body);
     family_of_.push_back(family);
-    home_.emplace_back().noalias() = rotation.transpose();
+    home_.push_back(transposed(rotation));
   }
 
   /// Follows the bodies to where they are now. Calls `touches(pair, contact)` for every pair asked

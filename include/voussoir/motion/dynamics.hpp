@@ -275,7 +275,7 @@ class Dynamics : public MovingBodies<Dim> {
       if (law_of_cut_.empty()) return 0;
       const auto& [part, b] = shapes_[shape];
       const Rotation<Dim> turn =
-          home_[index(b)].rotation * bodies_[index(b)].pose.rotation.transpose();
+          home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
       const int cut = cut_facing(part, Vec<Dim>(turn * normal));
       return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
     };

@@ -64,7 +64,7 @@ class HalfStep {
     const Vec<Dim> way = 0.5 * step * body.velocity;
     work.gravity -= body.mass * gravity * way[Dim - 1];
     work.loads += load.force.dot(way);
-    const bool turns = !load.moment.isZero(0) || !damping_torque_.isZero(0);
+    const bool turns = !is_zero(load.moment) || !is_zero(damping_torque_);
     if (turns) {
       const Spin<Dim> turn = 0.5 * step * body.spin();
       work.loads += body.to_body(load.moment).dot(turn);

@@ -34,7 +34,8 @@ struct LiningNode {
   /// @throws InvalidInput  a value out of range
   void check() const {
     require(mass > 0 && std::isfinite(mass), "mass of a node", mass, "> 0 kg");
-    require(inertia.minCoeff() > 0, "inertia of a node", inertia.minCoeff(), "> 0 kg m^2");
+    require(smallest_entry(inertia) > 0, "inertia of a node", smallest_entry(inertia),
+            "> 0 kg m^2");
   }
 };
 
@@ -92,7 +93,7 @@ class MovingBodies {
     Body& body = bodies_[index(b)];
     const double before = body.kinetic_energy();
     body.velocity = velocity;
-    body.momentum = body.inertia.cwiseProduct(body.to_body(spin));
+    body.momentum = scaled_by(body.inertia, body.to_body(spin));
     kinetic_given_ += body.kinetic_energy() - before;
     fresh_ = false;
   }
@@ -115,7 +116,7 @@ class MovingBodies {
   [[nodiscard]] Pose<Dim> motion(int b) const {
     const Pose<Dim>&now = bodies_[index(b)].pose, &then = home_[index(b)];
     Pose<Dim> motion;
-    motion.rotation = now.rotation * then.rotation.transpose();
+    motion.rotation = now.rotation * transposed(then.rotation);
     motion.position = position(b) - motion.rotation * (then.position + origin_);
     return motion;
   }

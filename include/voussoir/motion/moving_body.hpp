@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/mass_properties.hpp>
+#include <voussoir/geometry/principal_axes.hpp>
 
 namespace voussoir {
 
@@ -17,9 +17,9 @@ template <int Dim>
   const double half = 0.5 * angle, scale = 1 / (1 + half * half);
   const double c = (1 - half * half) * scale, s = 2 * half * scale;
   if constexpr (Dim == 2) {
-    return (Rotation<2>() << c, -s, s, c).finished();
+    return by_rows<2, 2>({c, -s, s, c});
   } else {
-    Rotation<3> turn = Rotation<3>::Identity();
+    Rotation<3> turn = diagonal_of<3>(1);
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
     turn(j, j) = turn(k, k) = c;
     turn(k, j) = s;
@@ -45,7 +45,7 @@ struct MovingBody {
 
   [[nodiscard]] bool movable() const { return mass > 0; }
   /// Angular velocity in the body's frame [rad/s].
-  [[nodiscard]] Spin<Dim> spin() const { return momentum.cwiseQuotient(inertia); }
+  [[nodiscard]] Spin<Dim> spin() const { return quotients(momentum, inertia); }
   [[nodiscard]] double kinetic_energy() const {
     return 0.5 * (mass * velocity.squaredNorm() + momentum.dot(spin()));
   }
@@ -54,7 +54,7 @@ struct MovingBody {
     if constexpr (Dim == 2)
       return v;
     else
-      return pose.rotation.transpose() * v;
+      return transposed(pose.rotation) * v;
   }
   [[nodiscard]] Spin<Dim> to_world(const Spin<Dim>& v) const {
     if constexpr (Dim == 2)
@@ -81,7 +81,7 @@ struct MovingBody {
       pose.rotation = pose.rotation * small_rotation<2>(turn);
       angle += turn * (1 - turn * turn / 12);  // 2 atan(turn / 2) but for the fifth order
     } else {
-      if (momentum.isZero(0)) return;
+      if (is_zero(momentum)) return;
       turn_about(2, 0.5 * step);
       turn_about(1, 0.5 * step);
       turn_about(0, step);
@@ -93,14 +93,14 @@ struct MovingBody {
   /// Brings the rotation back from the roundings of many products: one Newton step to orthogonal.
   void straighten() {
     const Rotation<Dim>& r = pose.rotation;
-    pose.rotation = 0.5 * r * (3 * Rotation<Dim>::Identity() - r.transpose() * r);
+    pose.rotation = 0.5 * r * (diagonal_of<Dim>(3) - transposed(r) * r);
   }
 
  private:
   void turn_about(int axis, double step) {
     const Rotation<3> turn = small_rotation<3>(step * momentum[axis] / inertia[axis], axis);
     pose.rotation = pose.rotation * turn;
-    momentum = turn.transpose() * momentum;
+    momentum = transposed(turn) * momentum;
   }
 };
 
@@ -114,10 +114,9 @@ template <int Dim>
   if constexpr (Dim == 2) {
     body.inertia[0] = density * properties.second_moment(0, 0);
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(properties.second_moment);
-    body.inertia = density * axes.eigenvalues();
-    body.pose.rotation = axes.eigenvectors();
-    if (body.pose.rotation.determinant() < 0) body.pose.rotation.col(0) *= -1;
+    const PrincipalAxes axes = principal_axes(properties.second_moment);
+    body.inertia = density * axes.moments;
+    body.pose.rotation = axes.directions;
   }
   return body;
 }

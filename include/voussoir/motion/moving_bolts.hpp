@@ -97,7 +97,7 @@ class MovingBolts : public Support<Dim> {
         const auto& body = bodies[index(b)];
         if (body.movable())
           sums[index(b)] +=
-              stiffness * (1 / body.mass + arm->squaredNorm() / body.inertia.minCoeff());
+              stiffness * (1 / body.mass + arm->squaredNorm() / smallest_entry(body.inertia));
       }
     }
   }

@@ -77,11 +77,11 @@ class MovingContacts {
   };
   [[nodiscard]] static Place place_of(const Contact& c, const Pose<Dim>& a, const Pose<Dim>& b) {
     const Rotation<Dim> frame = a.rotation * c.frame;
-    return {b.rotation.transpose() * frame, frame.transpose() * (b.position - a.position)};
+    return {transposed(b.rotation) * frame, transposed(frame) * (b.position - a.position)};
   }
   [[nodiscard]] static PointMotion<Dim> motion_of(const Point& p, const Place& at) {
-    const Vec<Dim> m = at.base + at.frame_b.transpose() * p.place - p.zero;
-    return {m[0], m.template tail<Dim - 1>()};
+    const Vec<Dim> m = at.base + transposed(at.frame_b) * p.place - p.zero;
+    return {m[0], part<Dim - 1>(m, 1)};
   }
   [[nodiscard]] PointLoad<Dim> load_of(const Point& p, const Place& at) const {
     return {p.weight, p.initial, motion_of(p, at)};
@@ -96,7 +96,7 @@ class MovingContacts {
     if constexpr (Dim == 2) return react_in_plane(c, a, b, lost);
     const Rotation<Dim> frame = a.pose.rotation * c.frame;
     const Vec<Dim> arm = b.pose.position - a.pose.position;
-    const Place at{b.pose.rotation.transpose() * frame, frame.transpose() * arm};
+    const Place at{transposed(b.pose.rotation) * frame, transposed(frame) * arm};
     Vec<Dim> force = Vec<Dim>::Zero();     // frame of b
     Spin<Dim> moment = Spin<Dim>::Zero();  // about the centre of b, frame of b
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
@@ -192,8 +192,8 @@ class MovingContacts {
                                      const Rotation<Dim>& frame, const Vec<Dim>& arm, double normal,
                                      Dissipation& lost) const {
     const Vec<Dim> place = arm + b.pose.rotation * p.place;  // from the centre of a, world axes
-    const double rate = frame.col(0).dot(b.velocity_at(p.place) -
-                                         a.velocity_at(a.pose.rotation.transpose() * place));
+    const double rate = column(frame, 0).dot(b.velocity_at(p.place) -
+                                             a.velocity_at(transposed(a.pose.rotation) * place));
     const double viscous =
         std::max(-c.viscosity * p.weight * law_of(c).joint_normal_stiffness() * rate, -normal);
     lost.viscosity -= viscous * rate;

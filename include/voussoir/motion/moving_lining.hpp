@@ -43,8 +43,8 @@ class MovingLining : public Support<Geometry::dim> {
       const auto push = m.push(pose(bodies, m.i), pose(bodies, m.j));
       for (const int end : {0, 1}) {
         Load<dim>& load = loads[index(end == 0 ? m.i : m.j)];
-        load.force += push.template segment<dim>(dof * end);
-        load.moment += push.template segment<dof - dim>(dof * end + dim);
+        load.force += part<dim>(push, dof * end);
+        load.moment += part<dof - dim>(push, dof * end + dim);
       }
     }
   }
@@ -60,13 +60,17 @@ class MovingLining : public Support<Geometry::dim> {
       for (const int end : {0, 1}) {
         const std::size_t b = index(end == 0 ? m.i : m.j);
         if (!bodies[b].movable()) continue;
-        Eigen::Matrix<double, dof, 1> root;  // of 1 / mass
-        root.template head<dim>().setConstant(1 / std::sqrt(bodies[b].mass));
-        root.template tail<dof - dim>().setConstant(1 / std::sqrt(bodies[b].inertia.minCoeff()));
-        const Eigen::Matrix<double, dof, dof> scaled =
-            root.asDiagonal() * m.local.template block<dof, dof>(dof * end, dof * end) *
-            root.asDiagonal();
-        sums[b] += scaled.rowwise().template lpNorm<1>().maxCoeff();
+        const double by_mass = 1 / std::sqrt(bodies[b].mass);
+        const double by_inertia = 1 / std::sqrt(smallest_entry(bodies[b].inertia));
+        const auto root = [&](int k) { return k < dim ? by_mass : by_inertia; };
+        double largest = 0;
+        for (int r = 0; r < dof; ++r) {
+          double sum = 0;
+          for (int c = 0; c < dof; ++c)
+            sum += std::abs(root(r) * m.local(dof * end + r, dof * end + c) * root(c));
+          largest = std::max(largest, sum);
+        }
+        sums[b] += largest;
       }
   }
 

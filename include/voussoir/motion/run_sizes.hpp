@@ -25,8 +25,8 @@ struct RunSizes {
     int count = 0;
     Vec<Dim> low = Vec<Dim>::Zero(), high = low;
     for (const MovingBody<Dim>& body : bodies) {
-      low = low.cwiseMin(body.pose.position);
-      high = high.cwiseMax(body.pose.position);
+      low = smaller_of(low, body.pose.position);
+      high = larger_of(high, body.pose.position);
       if (!body.movable()) continue;
       thrown = std::max(thrown, body.velocity.norm() + body.spin().norm() * body.radius);
       size += body.radius;

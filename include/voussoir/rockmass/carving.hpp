@@ -28,8 +28,8 @@ namespace detail {
 }
 [[nodiscard]] inline JointPlane outline_piece(const PrismaticOpening& opening, std::size_t k,
                                               const Domain<3>& domain) {
-  return opening.side(
-      k, domain.low.cwiseAbs().cwiseMax(domain.high.cwiseAbs()).maxCoeff() + domain.diameter());
+  return opening.side(k, largest_entry(larger_of(magnitudes(domain.low), magnitudes(domain.high))) +
+                             domain.diameter());
 }
 [[nodiscard]] inline HalfSpace<2> plane_of(const Segment& edge) {
   return left_of(edge.start, edge.end);
@@ -56,8 +56,8 @@ template <int Dim>
 [[nodiscard]] std::pair<Vec<Dim>, Vec<Dim>> bounding_box(const std::vector<Vec<Dim>>& points) {
   Vec<Dim> low = points.front(), high = low;
   for (const Vec<Dim>& p : points) {
-    low = low.cwiseMin(p).eval();
-    high = high.cwiseMax(p).eval();
+    low = smaller_of(low, p);
+    high = larger_of(high, p);
   }
   return {low, high};
 }
@@ -74,13 +74,13 @@ template <int Dim>
 template <class Shape, int Dim = Shape::dim>
 [[nodiscard]] bool apart(const Shape& shape, const Vec<Dim>& low, const Vec<Dim>& high) {
   const auto [a, b] = bounding_box<Dim>(shape.vertices());
-  return (a.array() > high.array()).any() || (b.array() < low.array()).any();
+  return any_less(high, a) || any_less(b, low);
 }
 
 /// Refuses an opening that leaves the domain.
 inline void check_inside(const SimplePolygon& opening, const Domain<2>& domain) {
   for (const Vec2& v : opening.vertices())
-    if (!((v.array() > domain.low.array()).all() && (v.array() < domain.high.array()).all()))
+    if (!(all_less(domain.low, v) && all_less(v, domain.high)))
       throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
                          " m");
 }
@@ -262,8 +262,8 @@ struct WallPiece {
   for (std::size_t e = 0; e < opening.size(); ++e)
     start[e + 1] = start[e] + opening.edge(e).length();
   auto [low, high] = detail::bounding_box(opening.vertices());
-  low.array() -= tolerance;
-  high.array() += tolerance;
+  low = shifted_by(low, -tolerance);
+  high = shifted_by(high, tolerance);
   std::vector<WallPiece<Planar>> pieces;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const ConvexPolygon& part : mass.bodies[b].parts) {
@@ -303,8 +303,8 @@ struct WallPiece {
   for (std::size_t e = 0; e < section.size(); ++e)
     start[e + 1] = start[e] + section.edge(e).length();
   auto [low, high] = detail::box_of(opening);
-  low.array() -= tolerance;
-  high.array() += tolerance;
+  low = shifted_by(low, -tolerance);
+  high = shifted_by(high, tolerance);
   std::vector<JointPlane> sides;
   for (std::size_t e = 0; e < section.size(); ++e)
     sides.push_back(detail::outline_piece(opening, e, mass.domain));

@@ -25,7 +25,7 @@ struct Domain {
   Vec<Dim> site_origin = Vec<Dim>::Zero();  ///< [m]
 
   [[nodiscard]] Vec<Dim> size() const { return high - low; }
-  [[nodiscard]] double measure() const { return size().prod(); }
+  [[nodiscard]] double measure() const { return product_of_entries(size()); }
   [[nodiscard]] double diameter() const { return size().norm(); }
   [[nodiscard]] double surface() const { return high[Dim - 1]; }
   [[nodiscard]] double depth(const Vec<Dim>& p) const { return surface() - p[Dim - 1]; }
@@ -34,14 +34,14 @@ struct Domain {
   /// Where the domain lies a million of its sizes from the origin the rounding of coordinates
   /// decides.
   [[nodiscard]] double tolerance() const {
-    const double largest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    const double largest = largest_entry(larger_of(magnitudes(low), magnitudes(high)));
     return std::max(1e-10 * diameter(), 8 * std::numeric_limits<double>::epsilon() * largest);
   }
 
   /// @throws InvalidInput  a side is not positive or not finite, or too long to be squared
   void check() const {
-    if (!(low.allFinite() && high.allFinite() && (size().array() > 0).all() &&
-          std::isfinite(diameter()) && std::isfinite(measure())))
+    if (!(is_finite(low) && is_finite(high) && all_less(low, high) && std::isfinite(diameter()) &&
+          std::isfinite(measure())))
       throw InvalidInput("domain: every side must be positive and finite");
   }
 };

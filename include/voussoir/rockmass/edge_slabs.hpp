@@ -10,14 +10,14 @@ namespace voussoir {
 template <int Dim>
 [[nodiscard]] auto edge_slabs(const Domain<Dim>& domain) {
   using Shape = decltype(as_block(domain));
-  const double thickness = 0.1 * domain.size().maxCoeff();
+  const double thickness = 0.1 * largest_entry(domain.size());
   std::vector<Shape> slabs;
   for (int axis = 0; axis < Dim; ++axis)
     for (const bool upper : {false, true}) {
       if (upper && axis == Dim - 1) continue;
       Domain<Dim> slab = domain;
-      slab.low.array() -= thickness;
-      slab.high.array() += thickness;
+      slab.low = shifted_by(slab.low, -thickness);
+      slab.high = shifted_by(slab.high, thickness);
       if (upper)
         slab.low[axis] = domain.high[axis];
       else

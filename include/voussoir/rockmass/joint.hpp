@@ -20,12 +20,12 @@ struct JointOf {
 namespace detail {
 
 [[nodiscard]] inline bool is_finite(const Segment& trace) {
-  return trace.start.allFinite() && trace.end.allFinite();
+  return voussoir::is_finite(trace.start) && voussoir::is_finite(trace.end);
 }
 [[nodiscard]] inline bool is_finite(const JointPlane& trace) {
   return trace.plane.normal.allFinite() && std::isfinite(trace.plane.offset) &&
          std::all_of(trace.corners.begin(), trace.corners.end(),
-                     [](const Vec3& corner) { return corner.allFinite(); });
+                     [](const Vec3& corner) { return voussoir::is_finite(corner); });
 }
 
 }  // namespace detail

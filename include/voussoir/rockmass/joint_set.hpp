@@ -99,7 +99,7 @@ template <class Set, int Dim>
   joints.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double x = random.uniform(), y = random.uniform();
-    add(domain.low + domain.size().cwiseProduct(Vec2(x, y)));
+    add(domain.low + scaled_by(domain.size(), Vec2(x, y)));
   }
   return joints;
 }

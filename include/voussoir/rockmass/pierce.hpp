@@ -29,18 +29,17 @@ template <class Geometry>
 [[nodiscard]] std::vector<Passage> pierce(const RockMass<Geometry>& mass,
                                           const typename Geometry::Line& line) {
   const double tolerance = mass.domain.tolerance();
-  const auto low = line.start.cwiseMin(line.end).eval(),
-             high = line.start.cwiseMax(line.end).eval();
+  const auto low = smaller_of(line.start, line.end), high = larger_of(line.start, line.end);
   std::vector<Passage> passages;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     for (const auto& part : mass.bodies[b].parts) {
       auto part_low = part.vertex(0), part_high = part.vertex(0);
       for (const auto& v : part.vertices()) {
-        part_low = part_low.cwiseMin(v).eval();
-        part_high = part_high.cwiseMax(v).eval();
+        part_low = smaller_of(part_low, v);
+        part_high = larger_of(part_high, v);
       }
-      if ((part_low.array() > high.array() + tolerance).any() ||
-          (part_high.array() < low.array() - tolerance).any())
+      if (any_less(shifted_by(high, tolerance), part_low) ||
+          any_less(part_high, shifted_by(low, -tolerance)))
         continue;
       double from = 0, to = 0;
       if (clip(line, part, tolerance, from, to))

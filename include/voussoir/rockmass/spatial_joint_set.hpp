@@ -116,8 +116,8 @@ namespace detail {
   const Vec3 centre = 0.5 * (domain.low + domain.high);
   std::optional<JointPlane> inside = covering(joint, centre, domain.diameter());
   for (int axis = 0; axis < 3; ++axis)
-    for (const HalfSpace<3>& side : {HalfSpace<3>{Vec3::Unit(axis), domain.high[axis]},
-                                     HalfSpace<3>{-Vec3::Unit(axis), -domain.low[axis]}})
+    for (const HalfSpace<3>& side : {HalfSpace<3>{axis_vector<3>(axis), domain.high[axis]},
+                                     HalfSpace<3>{-axis_vector<3>(axis), -domain.low[axis]}})
       if (inside) inside = split(std::move(*inside), side, domain.tolerance()).below;
   return inside.has_value();
 }
@@ -212,12 +212,12 @@ inline void SpatialJointSet::check() const {
                             : set.area_per_volume > 0
                                 ? set.area_per_volume / detail::joint_area(set)
                                 : 1 / (set.spacing * detail::joint_area(set));
-  const Vec3 reach = Vec3::Constant(detail::joint_reach(set));
+  const Vec3 reach = all_entries<3>(detail::joint_reach(set));
   const Vec3 low = domain.low - reach, size = domain.size() + 2 * reach;
   const auto count = static_cast<std::size_t>(std::llround(per_volume * size.prod()));
   for (std::size_t k = 0; k < count; ++k) {
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
-    add(low + size.cwiseProduct(Vec3(x, y, z)), detail::random_orientation(set, random));
+    add(low + scaled_by(size, Vec3(x, y, z)), detail::random_orientation(set, random));
   }
   return joints;
 }

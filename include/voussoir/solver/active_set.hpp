@@ -55,9 +55,9 @@ class ActiveSet {
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
     for (const int b : bodies_)
-      f.segment<dof>(dof * b) =
-          system_->load.template segment<dof>(dof * b) +
-          system_->wall_fraction * system_->wall_load.template segment<dof>(dof * b);
+      set_part<dof>(f, dof * b,
+                    part<dof>(system_->load, dof * b) +
+                        system_->wall_fraction * part<dof>(system_->wall_load, dof * b));
     system_->joints.template add_forces<History>(joints_, u.data(), f.data());
     system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
     system_->interface.template add_forces<History>(interface_, u.data(), f.data());
@@ -90,7 +90,7 @@ class ActiveSet {
     double squared = 0;
     for (const int b : bodies_)
       if (system_->body(b).is_block)
-        squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
+        squared = std::max(squared, part<dim>(u, dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 
@@ -111,8 +111,8 @@ class ActiveSet {
     for (const int b : bodies_) {
       const auto& body = system_->body(b);
       const double spring = (body.weight > 0 ? body.weight : lightest_) / reach[b];
-      Block anchor = spring * Block::Identity();
-      anchor.template bottomRightCorner<dof - dim, dof - dim>() *= body.gyration * body.gyration;
+      Block anchor = diagonal_of<dof>(spring);
+      for (int k = dim; k < dof; ++k) anchor(k, k) *= body.gyration * body.gyration;
       matrix.diagonal.push_back(anchor);
     }
     std::vector<Coupling> couplings;
@@ -156,7 +156,7 @@ class ActiveSet {
     }
     Eigen::VectorXd step(dof * static_cast<Eigen::Index>(bodies_.size()));
     for (std::size_t k = 0; k < bodies_.size(); ++k)
-      step.segment<dof>(dof * static_cast<Eigen::Index>(k)) = f.segment<dof>(dof * bodies_[k]);
+      set_part<dof>(step, dof * static_cast<Eigen::Index>(k), part<dof>(f, dof * bodies_[k]));
     BlockLU<dof>(matrix).solve_in_place(step);
     return step;
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -10,6 +8,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/solver/block_elimination.hpp>
 #include <voussoir/solver/block_matrix.hpp>
+#include <voussoir/solver/small_inverse.hpp>
 
 namespace voussoir {
 
@@ -20,7 +19,7 @@ namespace voussoir {
 template <int Dof>
 class BlockCholesky {
  public:
-  using Block = Eigen::Matrix<double, Dof, Dof>;
+  using Block = Fixed<Dof, Dof>;
 
   /// @throws NumericalFault  not positive definite: some body can move without resistance; the
   ///                         message names its index
@@ -42,29 +41,26 @@ class BlockCholesky {
           [&](const BlockElimination::Place& place) {
             const Block& block = matrix.below(place.pair);
             Block& at = work[static_cast<std::size_t>(place.column)];
-            if (place.flipped) {
-              at = block.transpose();
-            } else {
-              at = block;
-            }
+            at = place.flipped ? transposed(block) : block;
           },
           [&](std::size_t j) {
             // L(i, j) = work(j) L(j, j)^-T; what remains of row i then loses L(i, j) L(k, j)^T.
-            const Block lij = work[j] * inverse_[j].transpose();
+            const Block lij = work[j] * transposed(inverse_[j]);
             work[j].setZero();
             for (std::size_t p = pattern_.begin(j); p < end[j]; ++p)
-              work[static_cast<std::size_t>(rows_[p])].noalias() -= lij * blocks_[p].transpose();
-            pivot.noalias() -= lij * lij.transpose();
+              subtract_product_transposed(work[static_cast<std::size_t>(rows_[p])], lij,
+                                          blocks_[p]);
+            subtract_product_transposed(pivot, lij, lij);
             rows_[end[j]] = static_cast<int>(i);
             blocks_[end[j]++] = lij;
           });
-      const Eigen::LLT<Block> small(pivot);
-      const Block lower = small.matrixL();
-      if (small.info() != Eigen::Success ||
-          !(lower.diagonal().array().square() > 1e-13 * diagonal.diagonal().array()).all())
+      Fixed<Dof, 1> smallest;
+      for (int k = 0; k < Dof; ++k) smallest[k] = 1e-13 * diagonal(k, k);
+      const auto inverse = inverse_cholesky_factor<Dof>(pivot, smallest);
+      if (!inverse)
         throw NumericalFault("elastic stiffness: body " + std::to_string(pattern_.original(i)) +
                              " can move without resistance");
-      inverse_[i] = small.matrixL().solve(Block::Identity());
+      inverse_[i] = *inverse;
     }
   }
 
@@ -76,21 +72,21 @@ class BlockCholesky {
     const std::size_t n = inverse_.size();
     Eigen::VectorXd y(x.size());
     for (std::size_t k = 0; k < n; ++k)
-      y.template segment<Dof>(at(k)) = x.template segment<Dof>(Dof * pattern_.original(k));
+      set_part<Dof>(y, at(k), part<Dof>(x, Dof * pattern_.original(k)));
     for (std::size_t j = 0; j < n; ++j) {
-      const Eigen::Matrix<double, Dof, 1> v = inverse_[j] * y.template segment<Dof>(at(j));
-      y.template segment<Dof>(at(j)) = v;
+      const Fixed<Dof, 1> v = inverse_[j] * part<Dof>(y, at(j));
+      set_part<Dof>(y, at(j), v);
       for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        y.template segment<Dof>(Dof * rows_[p]).noalias() -= blocks_[p] * v;
+        add_at<Dof>(y.data() + Dof * rows_[p], -(blocks_[p] * v));
     }
     for (std::size_t j = n; j-- > 0;) {
-      Eigen::Matrix<double, Dof, 1> v = y.template segment<Dof>(at(j));
+      Fixed<Dof, 1> v = part<Dof>(y, at(j));
       for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        v.noalias() -= blocks_[p].transpose() * y.template segment<Dof>(Dof * rows_[p]);
-      y.template segment<Dof>(at(j)) = inverse_[j].transpose() * v;
+        v -= transposed_product(blocks_[p], part<Dof>(y, Dof * rows_[p]));
+      set_part<Dof>(y, at(j), transposed_product(inverse_[j], v));
     }
     for (std::size_t k = 0; k < n; ++k)
-      x.template segment<Dof>(Dof * pattern_.original(k)) = y.template segment<Dof>(at(k));
+      set_part<Dof>(x, Dof * pattern_.original(k), part<Dof>(y, at(k)));
   }
 
  private:

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <cstddef>
 #include <utility>
 #include <vector>
 #include <voussoir/solver/block_elimination.hpp>
+#include <voussoir/solver/small_inverse.hpp>
 
 namespace voussoir {
 
 /// Sparse block matrix of symmetric pattern and unsymmetric values: a tangent with sliding joints.
 template <int Dof>
 struct TangentMatrix {
-  using Block = Eigen::Matrix<double, Dof, Dof>;
+  using Block = Fixed<Dof, Dof>;
   std::vector<Block> diagonal;
   std::vector<std::pair<int, int>> pairs;  ///< coupled bodies (i, j), each pair once
   std::vector<Block> forward, backward;    ///< blocks (i, j) and (j, i)
@@ -24,7 +23,7 @@ struct TangentMatrix {
 template <int Dof>
 class BlockLU {
  public:
-  using Block = Eigen::Matrix<double, Dof, Dof>;
+  using Block = Fixed<Dof, Dof>;
 
   explicit BlockLU(const TangentMatrix<Dof>& matrix)
       : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs) {
@@ -53,15 +52,15 @@ class BlockLU {
             top[j].setZero();
             for (std::size_t p = pattern_.begin(j); p < end[j]; ++p) {
               const auto k = static_cast<std::size_t>(rows_[p]);
-              left[k].noalias() -= lij * upper_[p];
-              top[k].noalias() -= lower_[p] * uji;
+              subtract_product(left[k], lij, upper_[p]);
+              subtract_product(top[k], lower_[p], uji);
             }
-            pivot.noalias() -= lij * uji;
+            subtract_product(pivot, lij, uji);
             rows_[end[j]] = static_cast<int>(i);
             lower_[end[j]] = lij;
             upper_[end[j]++] = uji;
           });
-      inverse_[i] = pivot.inverse();
+      inverse_[i] = inverse_of<Dof>(pivot);
     }
   }
 
@@ -70,19 +69,18 @@ class BlockLU {
     const std::size_t n = inverse_.size();
     Eigen::VectorXd y(x.size());
     for (std::size_t k = 0; k < n; ++k)
-      y.template segment<Dof>(at(k)) = x.template segment<Dof>(Dof * pattern_.original(k));
+      set_part<Dof>(y, at(k), part<Dof>(x, Dof * pattern_.original(k)));
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        y.template segment<Dof>(Dof * rows_[p]).noalias() -=
-            lower_[p] * y.template segment<Dof>(at(j));
+        add_at<Dof>(y.data() + Dof * rows_[p], -(lower_[p] * part<Dof>(y, at(j))));
     for (std::size_t j = n; j-- > 0;) {
-      Eigen::Matrix<double, Dof, 1> v = y.template segment<Dof>(at(j));
+      Fixed<Dof, 1> v = part<Dof>(y, at(j));
       for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        v.noalias() -= upper_[p] * y.template segment<Dof>(Dof * rows_[p]);
-      y.template segment<Dof>(at(j)) = inverse_[j] * v;
+        v -= upper_[p] * part<Dof>(y, Dof * rows_[p]);
+      set_part<Dof>(y, at(j), inverse_[j] * v);
     }
     for (std::size_t k = 0; k < n; ++k)
-      x.template segment<Dof>(Dof * pattern_.original(k)) = y.template segment<Dof>(at(k));
+      set_part<Dof>(x, Dof * pattern_.original(k), part<Dof>(y, at(k)));
   }
 
  private:

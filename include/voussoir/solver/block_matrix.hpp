@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
-
-/// A transposed copy. Set before it is assigned to, because g++ 12 takes Eigen's check for aliasing
-/// in a construction from a transpose for a use of uninitialised memory, and warns.
-template <int Dof>
-[[nodiscard]] Eigen::Matrix<double, Dof, Dof> transposed(
-    const Eigen::Matrix<double, Dof, Dof>& block) {
-  Eigen::Matrix<double, Dof, Dof> copy = Eigen::Matrix<double, Dof, Dof>::Zero();
-  copy = block.transpose();
-  return copy;
-}
 
 /// Symmetric sparse matrix of Dof x Dof blocks, one block row per body: the lower triangle.
 template <int Dof>
 class BlockMatrix {
  public:
-  using Block = Eigen::Matrix<double, Dof, Dof>;
+  using Block = Fixed<Dof, Dof>;
 
   explicit BlockMatrix(int bodies) : diagonal_(static_cast<std::size_t>(bodies), Block::Zero()) {}
 
@@ -73,12 +64,15 @@ class BlockMatrix {
 
   /// Sum of the absolute values in every row: Gershgorin's bound on the eigenvalues.
   [[nodiscard]] Eigen::VectorXd absolute_row_sums() const {
-    Eigen::VectorXd sums(Dof * size());
-    for (int i = 0; i < size(); ++i)
-      sums.segment<Dof>(Dof * i) = diagonal(i).cwiseAbs().rowwise().sum();
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(Dof * size());
+    const auto add_rows = [&sums](int row, const Block& block) {
+      for (int c = 0; c < Dof; ++c)
+        for (int r = 0; r < Dof; ++r) sums[Dof * row + r] += std::abs(block(r, c));
+    };
+    for (int i = 0; i < size(); ++i) add_rows(i, diagonal(i));
     for (const Entry& e : entries_) {
-      sums.segment<Dof>(Dof * e.row) += e.block.cwiseAbs().rowwise().sum();
-      sums.segment<Dof>(Dof * e.column) += e.block.cwiseAbs().colwise().sum().transpose();
+      add_rows(e.row, e.block);
+      add_rows(e.column, transposed(e.block));
     }
     return sums;
   }

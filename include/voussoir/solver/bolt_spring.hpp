@@ -47,7 +47,7 @@ struct BoltSpring {
     return breaks;
   }
 
-  using Block = Eigen::Matrix<double, dof, dof>;
+  using Block = Fixed<dof, dof>;
   /// The stiffness at installation, none if broken: sink(a, b, aa, ab, bb).
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
@@ -72,12 +72,12 @@ struct BoltSpring {
   }
 
  private:
-  using Lever = Eigen::Matrix<double, dof, dim>;
+  using Lever = Fixed<dof, dim>;
   [[nodiscard]] static Lever lever(const Vec<dim>& arm) {
     Lever l;
     for (int k = 0; k < dim; ++k) {
-      const Vec<dim> axis = Vec<dim>::Unit(k);
-      l.col(k) << axis, moment_of(arm, axis);
+      const Vec<dim> axis = axis_vector<dim>(k);
+      set_column(l, k, stacked(axis, moment_of(arm, axis)));
     }
     return l;
   }
@@ -92,9 +92,10 @@ struct BoltSpring {
       BoltSpan<dim> more = at, less = at;
       (more.*in)[l] += step;
       (less.*in)[l] -= step;
-      k.col(l) = share *
-                 (spring.force(more, remembered).*out - spring.force(less, remembered).*out) /
-                 (2 * step);
+      set_column(k, l,
+                 share *
+                     (spring.force(more, remembered).*out - spring.force(less, remembered).*out) /
+                     (2 * step));
     }
     return k;
   }
@@ -102,7 +103,7 @@ struct BoltSpring {
   void hand_over(const Stress<dim>& pull, const Stress<dim>& dowel, Sink&& sink) const {
     const Lever pa = lever(arm_a), pb = lever(arm_b), da = lever(joint_a), db = lever(joint_b);
     const auto block = [&](const Lever& p, const Lever& q, const Lever& d, const Lever& e) {
-      return Block(p * pull * q.transpose() + d * dowel * e.transpose());
+      return Block(p * pull * transposed(q) + d * dowel * transposed(e));
     };
     sink(block(pa, pa, da, da), Block(-block(pa, pb, da, db)), Block(-block(pb, pa, db, da)),
          block(pb, pb, db, db));

@@ -15,15 +15,14 @@ namespace voussoir {
 /// Small displacement of the point at `arm` from the centre of a body with these values.
 template <int Dim>
 [[nodiscard]] Vec<Dim> displacement_at(const double* body, const Vec<Dim>& arm) {
-  return Eigen::Map<const Vec<Dim>>(body) +
-         turned(Spin<Dim>(Eigen::Map<const Spin<Dim>>(body + Dim)), arm);
+  return vector_at<Dim>(body) + turned(vector_at<spin_count<Dim>>(body + Dim), arm);
 }
 
 /// Adds a force that acts at `arm` from the centre to the force and moment of a body.
 template <int Dim>
 void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
-  Eigen::Map<Vec<Dim>>{body} += force;
-  Eigen::Map<Spin<Dim>>{body + Dim} += moment_of(arm, force);
+  add_at<Dim>(body, force);
+  add_at<spin_count<Dim>>(body + Dim, moment_of(arm, force));
 }
 
 /// What evaluating forces does to the contact history.
@@ -83,9 +82,8 @@ class ContactGroup {
     contact.last = contact.first + static_cast<int>(at.size());
     contact.tangents = tangent_basis(contact.normal);
     for (const FacetPoint<dim>& point : at) {
-      Vec<dim> offset;
-      offset << 0, contact.tangents.transpose() * point.offset;
-      points_.push_back({offset, point.weight, {}});
+      points_.push_back(
+          {stacked(0.0, transposed(contact.tangents) * point.offset), point.weight, {}});
     }
     contacts_.push_back(contact);
   }
@@ -102,7 +100,7 @@ class ContactGroup {
   void set_initial(StressAt&& stress_at) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
       const Vec<dim> force = stress_at(c, offset) * c.normal * p.weight;
-      p.initial = {c.normal.dot(force), c.tangents.transpose() * force};
+      p.initial = {c.normal.dot(force), transposed(c.tangents) * force};
     });
   }
 
@@ -153,23 +151,21 @@ class ContactGroup {
   /// Hands the elastic (closed, sticking) stiffness of each contact to `sink(a, b, aa, ab, bb)`.
   template <class Sink>
   void add_stiffness(Sink&& sink) const {
-    using Block = Eigen::Matrix<double, dof, dof>;
-    using Row = Eigen::Matrix<double, dof, 1>;
+    using Block = Fixed<dof, dof>;
     for (const Contact& c : contacts_) {
       Block aa = Block::Zero(), ab = Block::Zero(), bb = Block::Zero();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
         const Vec<dim> offset = offset_of(c, p);
         for (int direction = 0; direction < dim; ++direction) {
-          const Vec<dim> unit = direction == 0 ? c.normal : Vec<dim>(c.tangents.col(direction - 1));
+          const Vec<dim> unit = direction == 0 ? c.normal : column(c.tangents, direction - 1);
           const double stiffness = p.weight * (direction == 0 ? law_of(c).joint_normal_stiffness()
                                                               : law_of(c).joint_shear_stiffness());
-          Row a, b;
-          a << unit, moment_of(Vec<dim>(c.arm_a + offset), unit);
-          b << unit, moment_of(Vec<dim>(c.arm_b + offset), unit);
-          aa += stiffness * a * a.transpose();
-          ab -= stiffness * a * b.transpose();
-          bb += stiffness * b * b.transpose();
+          const Fixed<dof, 1> a = stacked(unit, moment_of(c.arm_a + offset, unit));
+          const Fixed<dof, 1> b = stacked(unit, moment_of(c.arm_b + offset, unit));
+          aa += outer<dof, dof>(stiffness * a, a);
+          ab -= outer<dof, dof>(stiffness * a, b);
+          bb += outer<dof, dof>(stiffness * b, b);
         }
       }
       sink(c.a, c.b, aa, ab, bb);
@@ -183,13 +179,11 @@ class ContactGroup {
   /// nearly so, hence the result is exact to rounding away from kinks and their mean at a kink.
   template <class Sink>
   void add_tangent(std::span<const int> which, const double* u, Sink&& sink) const {
-    using Block = Eigen::Matrix<double, dof, dof>;
-    using Rows = Eigen::Matrix<double, dof, dim>;
+    using Block = Fixed<dof, dof>;
+    using Rows = Fixed<dof, dim>;
     constexpr double step = 1e-9;
     for (const int number : which) {
       const Contact& c = contacts_[static_cast<std::size_t>(number)];
-      Stress<dim> axes;  // columns: normal, tangents
-      axes << c.normal, c.tangents;
       Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
@@ -203,20 +197,20 @@ class ContactGroup {
           const PointForce<dim> up = law_of(c).force(more, p.state),
                                 down = law_of(c).force(less, p.state);
           stiffness(0, l) = (down.normal - up.normal) / (2 * step);
-          stiffness.template block<dim - 1, 1>(1, l) =
-              (down.tangential - up.tangential) / (2 * step);
+          for (int m = 1; m < dim; ++m)
+            stiffness(m, l) = (down.tangential[m - 1] - up.tangential[m - 1]) / (2 * step);
         }
         Rows a, b;
         for (int l = 0; l < dim; ++l) {
-          const Vec<dim> axis = axes.col(l);
-          a.col(l) << axis, moment_of(Vec<dim>(c.arm_a + offset), axis);
-          b.col(l) << axis, moment_of(Vec<dim>(c.arm_b + offset), axis);
+          const Vec<dim> axis = l == 0 ? c.normal : column(c.tangents, l - 1);
+          set_column(a, l, stacked(axis, moment_of(c.arm_a + offset, axis)));
+          set_column(b, l, stacked(axis, moment_of(c.arm_b + offset, axis)));
         }
         const Rows sa = a * stiffness, sb = b * stiffness;
-        aa += sa * a.transpose();
-        ab -= sa * b.transpose();
-        ba -= sb * a.transpose();
-        bb += sb * b.transpose();
+        aa += sa * transposed(a);
+        ab -= sa * transposed(b);
+        ba -= sb * transposed(a);
+        bb += sb * transposed(b);
       }
       sink(c.a, c.b, aa, ab, ba, bb);
     }
@@ -236,14 +230,12 @@ class ContactGroup {
 
   /// From the centre of the facet to a point, world axes [m].
   [[nodiscard]] static Vec<dim> offset_of(const Contact& c, const Point& p) {
-    return p.offset[0] * c.normal + c.tangents * p.offset.template tail<dim - 1>();
+    return p.offset[0] * c.normal + c.tangents * part<dim - 1>(p.offset, 1);
   }
   /// Opening and slips of a point that displacement `u` makes, besides those at the start.
   [[nodiscard]] static Vec<dim> linear_motion(const Contact& c, const Point& p, const double* u) {
     const Vec<dim> jump = jump_at(c, offset_of(c, p), u);
-    Vec<dim> motion;
-    motion << c.normal.dot(jump), c.tangents.transpose() * jump;
-    return motion;
+    return stacked(c.normal.dot(jump), transposed(c.tangents) * jump);
   }
 
   /// Forgets the contacts of bodies for which `gone(body)` holds.
@@ -270,8 +262,7 @@ class ContactGroup {
     const TangentBasis<dim>& tangents = c.tangents;
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
     const Vec<dim> jump = displacement_at<dim>(ub, c.arm_b) - displacement_at<dim>(ua, c.arm_a);
-    const Spin<dim> turn =
-        Eigen::Map<const Spin<dim>>(ub + dim) - Eigen::Map<const Spin<dim>>(ua + dim);
+    const Spin<dim> turn = vector_at<dof - dim>(ub + dim) - vector_at<dof - dim>(ua + dim);
     Vec<dim> force = Vec<dim>::Zero();
     Spin<dim> moment = Spin<dim>::Zero();
     for (int k = c.first; k < c.last; ++k) {
@@ -281,17 +272,17 @@ class ContactGroup {
       const PointLoad<dim> load{p.weight,
                                 p.initial,
                                 {p.start[0] + c.normal.dot(motion),
-                                 p.start.template tail<dim - 1>() + tangents.transpose() * motion}};
+                                 part<dim - 1>(p.start, 1) + transposed(tangents) * motion}};
       const PointForce<dim> at = law_of(c).force(load, p.state);
       if constexpr (std::is_same_v<History, Committing>) law_of(c).commit(load, p.state);
       const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
       force += on_b;
       moment += moment_of(offset, on_b);
     }
-    Eigen::Map<Vec<dim>>{f + dof* c.b} += force;
-    Eigen::Map<Vec<dim>>{f + dof* c.a} -= force;
-    Eigen::Map<Spin<dim>>{f + dof* c.b + dim} += moment + moment_of(c.arm_b, force);
-    Eigen::Map<Spin<dim>>{f + dof* c.a + dim} -= moment + moment_of(c.arm_a, force);
+    add_at<dim>(f + dof * c.b, force);
+    add_at<dim>(f + dof * c.a, -force);
+    add_at<dof - dim>(f + dof * c.b + dim, moment + moment_of(c.arm_b, force));
+    add_at<dof - dim>(f + dof * c.a + dim, -(moment + moment_of(c.arm_a, force)));
   }
 
   /// The same in the plane, number by number and in the axes of the contact: half the time, for
@@ -335,7 +326,7 @@ class ContactGroup {
                                                   const Vec<dim>& offset, const double* u) {
     const Vec<dim> motion = jump_at(c, offset, u);
     return {p.start[0] + c.normal.dot(motion),
-            p.start.template tail<dim - 1>() + c.tangents.transpose() * motion};
+            part<dim - 1>(p.start, 1) + transposed(c.tangents) * motion};
   }
 
   template <class Visit>

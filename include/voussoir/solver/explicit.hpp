@@ -51,79 +51,7 @@ class Explicit {
   /// Accepts on the same three tests as `TwoLevel`; a factor is made for the estimate alone, when
   /// the unbalance test has passed.
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    constexpr int dof = System::dof;
-    EquilibriumReport report;
-    const Acceptance& accept = context.acceptance;
-    detail::drop(system, {}, context, report);
-    const auto solve = [&](Eigen::VectorXd& f) { elastic_correction(system, f, report); };
-    if (detail::has_collapsed<System::dim>(report, accept)) return report;
-    if (detail::moves_too_far(system, context, solve, report)) return report;
-    const double from = system.wall_fraction, to = context.wall_fraction;
-    Eigen::VectorXd& u = system.displacement;
-    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
-    Eigen::VectorXd mass = masses(system), inverse_mass = mass.cwiseInverse();
-    double step = stable_step(system, mass);
-    double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
-    while (report.steps < params_.max_steps) {
-      const bool ramping = report.steps < params_.ramp_steps;
-      const double done =
-          ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
-      system.wall_fraction = from + (to - from) * done;
-      system.template forces<Committing>(u, f);
-      ++report.steps;
-      // Velocity Verlet in its leapfrog form: velocities live at half steps.
-      // A loop: Eigen's sign() is not made of vector instructions.
-      for (Eigen::Index k = 0; k < u.size(); ++k) {
-        const double along = velocity[k] > 0 ? 1.0 : velocity[k] < 0 ? -1.0 : 0.0;
-        velocity[k] += step * inverse_mass[k] * (f[k] - params_.damping * std::abs(f[k]) * along);
-        u[k] += step * velocity[k];
-      }
-      if (report.steps % params_.check_every != 0) continue;
-      report.largest_displacement = system.largest_translation(u);
-      if (!u.allFinite())  // a maximum does not tell: it passes over what is not a number
-        throw NumericalFault("explicit stepping: displacements are not finite at step " +
-                             std::to_string(report.steps) +
-                             "; lower the safety factor of the step");
-      if (context.progress && !context.progress(ramping ? done : -1.0)) {
-        report.reason = "stopped by the user";
-        report.stopped = true;
-        break;
-      }
-      const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-      const bool found = detail::find_when_due(system, accept);
-      if (found || !fallen.empty()) {
-        detail::drop(system, fallen, context, report);
-        for (int b = 0; b < system.body_count(); ++b)
-          if (!system.body(b).movable) velocity.template segment<dof>(dof * b).setZero();
-        report.largest_displacement = system.largest_translation(u);
-        if (detail::has_collapsed<System::dim>(report, accept)) break;
-        mass = masses(system);
-        inverse_mass = mass.cwiseInverse();
-        step = stable_step(system, mass);
-        continue;
-      }
-      if (ramping) continue;
-      report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (report.unbalance_over_weight >= accept.unbalance_over_weight ||
-          report.unbalance_over_weight > next_estimate)
-        continue;
-      Eigen::VectorXd d = f;
-      elastic_correction(system, d, report);
-      report.error_estimate = system.relative_correction(d, u);
-      if (report.error_estimate < accept.error_estimate) {
-        if (detail::find_when_due(system, accept, true)) continue;
-        report.verdict = Verdict::stable;
-        report.reason = "error estimate, unbalance and displacements are within their limits";
-        break;
-      }
-      next_estimate = 0.5 * report.unbalance_over_weight;
-    }
-    if (report.verdict == Verdict::undecided && report.reason.empty())
-      report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
-    return report;
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
   /// The largest stable time step of the undamped system with these masses, from Gershgorin's bound
   /// on every row: 2 / omega, omega^2 <= row sum / mass [s].
@@ -156,5 +84,78 @@ class Explicit {
 
   Params params_;
 };
+
+template <class System>
+EquilibriumReport Explicit::find(System& system, const SearchContext& context) const {
+  constexpr int dof = System::dof;
+  EquilibriumReport report;
+  const Acceptance& accept = context.acceptance;
+  detail::drop(system, {}, context, report);
+  const auto solve = [&](Eigen::VectorXd& f) { elastic_correction(system, f, report); };
+  if (detail::has_collapsed<System::dim>(report, accept)) return report;
+  if (detail::moves_too_far(system, context, solve, report)) return report;
+  const double from = system.wall_fraction, to = context.wall_fraction;
+  Eigen::VectorXd& u = system.displacement;
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
+  Eigen::VectorXd mass = masses(system), inverse_mass = mass.cwiseInverse();
+  double step = stable_step(system, mass);
+  double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
+  while (report.steps < params_.max_steps) {
+    const bool ramping = report.steps < params_.ramp_steps;
+    const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
+    system.wall_fraction = from + (to - from) * done;
+    system.template forces<Committing>(u, f);
+    ++report.steps;
+    // Velocity Verlet in its leapfrog form: velocities live at half steps.
+    // A loop: Eigen's sign() is not made of vector instructions.
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      const double along = velocity[k] > 0 ? 1.0 : velocity[k] < 0 ? -1.0 : 0.0;
+      velocity[k] += step * inverse_mass[k] * (f[k] - params_.damping * std::abs(f[k]) * along);
+      u[k] += step * velocity[k];
+    }
+    if (report.steps % params_.check_every != 0) continue;
+    report.largest_displacement = system.largest_translation(u);
+    if (!is_finite(u))  // a maximum does not tell: it passes over what is not a number
+      throw NumericalFault("explicit stepping: displacements are not finite at step " +
+                           std::to_string(report.steps) + "; lower the safety factor of the step");
+    if (context.progress && !context.progress(ramping ? done : -1.0)) {
+      report.reason = "stopped by the user";
+      report.stopped = true;
+      break;
+    }
+    const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+    const bool found = detail::find_when_due(system, accept);
+    if (found || !fallen.empty()) {
+      detail::drop(system, fallen, context, report);
+      for (int b = 0; b < system.body_count(); ++b)
+        if (!system.body(b).movable) set_part<dof>(velocity, dof * b, Fixed<dof, 1>::Zero());
+      report.largest_displacement = system.largest_translation(u);
+      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      mass = masses(system);
+      inverse_mass = mass.cwiseInverse();
+      step = stable_step(system, mass);
+      continue;
+    }
+    if (ramping) continue;
+    report.unbalance_over_weight = system.unbalance_over_weight(f);
+    if (report.unbalance_over_weight >= accept.unbalance_over_weight ||
+        report.unbalance_over_weight > next_estimate)
+      continue;
+    Eigen::VectorXd d = f;
+    elastic_correction(system, d, report);
+    report.error_estimate = system.relative_correction(d, u);
+    if (report.error_estimate < accept.error_estimate) {
+      if (detail::find_when_due(system, accept, true)) continue;
+      report.verdict = Verdict::stable;
+      report.reason = "error estimate, unbalance and displacements are within their limits";
+      break;
+    }
+    next_estimate = 0.5 * report.unbalance_over_weight;
+  }
+  if (report.verdict == Verdict::undecided && report.reason.empty())
+    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  return report;
+}
 
 }  // namespace voussoir

@@ -19,7 +19,7 @@ template <class System>
   std::vector<int> fallen;
   for (int b = 0; b < system.body_count(); ++b)
     if (system.body(b).movable && system.body(b).is_block &&
-        !(system.displacement.template segment<System::dim>(System::dof * b).norm() <= limit))
+        !(part<System::dim>(system.displacement, System::dof * b).norm() <= limit))
       fallen.push_back(b);
   return fallen;
 }
@@ -63,13 +63,13 @@ template <class System, class Solve>
   system.forces(system.displacement, u);
   system.wall_fraction = now;
   solve(u);
-  if (!u.allFinite())
+  if (!voussoir::is_finite(u))
     throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
   u += system.displacement;
   std::vector<double> moved;
   for (int b = 0; b < system.body_count(); ++b)
     if (system.body(b).movable && system.body(b).is_block)
-      moved.push_back(u.template segment<System::dim>(System::dof * b).norm());
+      moved.push_back(part<System::dim>(u, System::dof * b).norm());
   if (moved.empty()) return false;
   const auto place =
       moved.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(moved.size() - 1));

@@ -50,7 +50,7 @@ class FoundAgain {
         for (const auto& v : part.vertices())
           bodies_[index(b)].radius =
               std::max(bodies_[index(b)].radius, (v - system_.body(b).centre).norm());
-        tracker.add(part, system_.body(b).centre, b, Rotation<dim>::Identity(), b);
+        tracker.add(part, system_.body(b).centre, b, diagonal_of<dim>(1), b);
         parts_.push_back(&part);
       }
     }
@@ -89,7 +89,7 @@ class FoundAgain {
   [[nodiscard]] const Pose<dim>& now(int b) const { return bodies_[index(b)].pose; }
   /// How a body has turned since contacts were found.
   [[nodiscard]] Rotation<dim> turn_of(int b) const {
-    return now(b).rotation * then_[index(b)].rotation.transpose();
+    return now(b).rotation * transposed(then_[index(b)].rotation);
   }
 
   /// Contacts as points fixed in bodies that may move by any amount.
@@ -100,10 +100,9 @@ class FoundAgain {
     const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
     for (const auto& c : group.contacts()) {
       const Pose<dim>&a = then_[index(c.a)], &b = then_[index(c.b)];
-      Rotation<dim> frame;
-      frame << c.normal, c.tangents;
+      const Rotation<dim> frame = frame_of(c.normal, c.tangents);
       typename MovingContacts<dim, Law>::Contact contact;
-      contact.frame = a.rotation.transpose() * frame;
+      contact.frame = transposed(a.rotation) * frame;
       contact.a = c.a;
       contact.b = c.b;
       contact.first = c.first;
@@ -113,7 +112,7 @@ class FoundAgain {
       for (int k = c.first; k < c.last; ++k) {
         const auto& p = group.points()[index(k)];
         typename MovingContacts<dim, Law>::Point point{};
-        point.place = b.rotation.transpose() * Vec<dim>(c.arm_b + group.offset_of(c, p));
+        point.place = transposed(b.rotation) * (c.arm_b + group.offset_of(c, p));
         point.weight = p.weight;
         point.initial = p.initial;
         point.state = p.state;
@@ -121,7 +120,7 @@ class FoundAgain {
         const PointMotion<dim> raw = MovingContacts<dim, Law>::motion_of(point, at);
         Vec<dim> motion = p.start;
         if (found_at != nullptr) motion += group.linear_motion(c, p, found_at);
-        point.zero << raw.opening - motion[0], raw.slip - motion.template tail<dim - 1>();
+        point.zero = stacked(raw.opening - motion[0], raw.slip - part<dim - 1>(motion, 1));
         moving.points().push_back(point);
       }
       moving.contacts().push_back(contact);
@@ -151,7 +150,7 @@ class FoundAgain {
       double least = std::numeric_limits<double>::infinity();
       for (; it != order_.end() && key(*it) == wanted; ++it) {
         const auto& c = group_.contacts()[*it];
-        const Vec<dim> was = bodies_[index(c.a)].pose.rotation * c.frame.col(0);
+        const Vec<dim> was = bodies_[index(c.a)].pose.rotation * column(c.frame, 0);
         if (std::abs(was.dot(normal)) < 0.5) continue;
         for (int k = c.first; k < c.last; ++k) {
           const double distance =
@@ -185,8 +184,8 @@ class FoundAgain {
     middle /= static_cast<double>(found.polygon.size());
     std::vector<typename Group::Point> points;
     // Where a joint gapes it closes at an edge: only corner points lie there.
-    const Rotation<dim> turn = now(a).rotation.transpose() * now(b).rotation;
-    const bool gapes = (turn - Rotation<dim>::Identity()).norm() > gaping;
+    const Rotation<dim> turn = transposed(now(a).rotation) * now(b).rotation;
+    const bool gapes = (turn - diagonal_of<dim>(1)).norm() > gaping;
     const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
     const typename Group::Contact* const old = by_bodies.nearest(a, b, found.normal, middle);
     auto contact = ContactRenewal<dim, Group>(bodies_, group)
@@ -201,7 +200,7 @@ class FoundAgain {
                            const Contact<dim>& found) const {
     if (group.laws().size() < 2 || system_.law_of_cut == nullptr) return 0;
     const Vec<dim> normal =
-        now(a).rotation.transpose() * (of_a ? found.normal : Vec<dim>(-found.normal));
+        transposed(now(a).rotation) * (of_a ? found.normal : Vec<dim>(-found.normal));
     const int cut = cut_facing(*parts_[owner], normal);
     return cut >= 0 && index(cut) < system_.law_of_cut->size() ? (*system_.law_of_cut)[index(cut)]
                                                                : 0;
@@ -220,7 +219,7 @@ class FoundAgain {
     const Pose<dim>&a = now(c.a), &b = now(c.b);
     const Rotation<dim> frame = a.rotation * c.frame;
     typename NewGroup::Contact contact{};
-    contact.normal = frame.col(0);
+    contact.normal = column(frame, 0);
     contact.tangents = frame.template rightCols<dim - 1>();
     contact.a = c.a;
     contact.b = c.b;
@@ -238,12 +237,12 @@ class FoundAgain {
     std::vector<typename NewGroup::Point> flat;
     for (const auto& p : points) {
       typename NewGroup::Point point{};
-      point.offset = frame.transpose() * Vec<dim>(b(p.place) - middle);
+      point.offset = transposed(frame) * (b(p.place) - middle);
       point.weight = p.weight;
       point.initial = p.initial;
       point.state = p.state;
       const PointMotion<dim> motion = Group::motion_of(p, at);
-      point.start << motion.opening, motion.slip;
+      point.start = stacked(motion.opening, motion.slip);
       point.start -= to.linear_motion(contact, point, system_.displacement.data());
       flat.push_back(point);
     }

@@ -52,7 +52,7 @@ struct InSitu {
   /// Stress at a depth, compression positive [Pa].
   template <int Dim>
   [[nodiscard]] Stress<Dim> stress(double depth) const {
-    Stress<Dim> s = k0 * vertical(depth) * Stress<Dim>::Identity();
+    Stress<Dim> s = diagonal_of<Dim>(k0 * vertical(depth));
     s(Dim - 1, Dim - 1) = vertical(depth);
     if constexpr (Dim == 3) {
       if (k0_y >= 0) s(1, 1) = k0_y * vertical(depth);

@@ -78,7 +78,7 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
          bolt_crossings(pierce(mass, bar), bar, anchors, mass.domain.tolerance())) {
       const Pose<dim> a = run.home(at.a), b = run.home(at.b);
       const auto in = [](const Pose<dim>& pose, const Vec<dim>& p) {
-        return Vec<dim>(pose.rotation.transpose() * (p - pose.position));
+        return transposed(pose.rotation) * (p - pose.position);
       };
       typename MovingBolts<dim, BoltLaw>::Spring spring{};
       spring.a = at.a;
@@ -89,11 +89,11 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
       spring.anchor_b = in(b, at.joint_b + at.after * axis);
       spring.joint_a = in(a, at.joint_a);
       spring.joint_b = in(b, at.joint_b);
-      spring.initial = a.rotation.transpose() * at.initial;
+      spring.initial = transposed(a.rotation) * at.initial;
       if (run.steps() > 0)
-        spring.initial = run.pose(at.a).rotation.transpose() *
+        spring.initial = transposed(run.pose(at.a).rotation) *
                          (run.pose(at.b)(spring.anchor_b) - run.pose(at.a)(spring.anchor_a));
-      spring.axis = a.rotation.transpose() * axis;
+      spring.axis = transposed(a.rotation) * axis;
       spring.share = dim == 2 ? 1 / spacing : 1;
       bolts->add(spring);
     }
@@ -197,7 +197,7 @@ std::shared_ptr<MovingLining<Geometry>> add_lining(Dynamics<Geometry::dim, Joint
     const double inertia =
         shares[k].mass * (length * length + thickness * thickness) / 12 * (is_pinned ? 1e12 : 1.0);
     nodes.push_back({frame.nodes[k] + tiles.shift(k), tiles.tiles(k), shares[k].mass,
-                     Spin<dim>::Constant(inertia)});
+                     all_entries<dof - dim>(inertia)});
   }
   std::vector<FrameElement<Geometry>> members;
   const int first = run.body_count();
@@ -208,7 +208,7 @@ std::shared_ptr<MovingLining<Geometry>> add_lining(Dynamics<Geometry::dim, Joint
     ElementMatrix<dof> stiffness = Lining::template stiffness<dof>(section, along.norm());
     if (is_pinned)
       for (int row = 0; row < 2 * dof; ++row)
-        if (row % dof >= dim) stiffness.row(row).setZero();
+        if (row % dof >= dim) set_row(stiffness, row, all_entries<2 * dof>(0));
     members.push_back({first + member.first, first + member.second, along.norm(),
                        frame_axes<dim>(along, member.outward), stiffness});
   }

@@ -79,11 +79,11 @@ struct Press {
       const Vec<dim> area = f.facet.area_vector();
       if (std::abs(area.dot(outward)) < 0.5 * area.norm()) lateral_area += area.norm();
     }
-    length = mass.domain.size().cwiseProduct(outward).norm();
+    length = scaled_by(mass.domain.size(), outward).norm();
   }
 
   void move_platen(double motion) {
-    system.displacement.template segment<dim>(dof * platen) = -motion * outward;
+    set_part<dim>(system.displacement, dof * platen, -motion * outward);
   }
 
   /// @param opens  walls pull at nothing that has left them; else the law without its end at an

@@ -46,77 +46,84 @@ class Relaxation {
   /// Accepts when the unbalance test has passed and no block is beyond the displacement limit; no
   /// error estimate, because the slip made on the way is not in it.
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    EquilibriumReport report;
-    detail::drop(system, {}, context, report);
-    const auto solve = [&](Eigen::VectorXd& f) {
-      BlockCholesky<System::dof>(system.elastic_stiffness()).solve_in_place(f);
-      ++report.factorisations;
-      ++report.elastic_solves;
-    };
-    if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
-        !detail::moves_too_far(system, context, solve, report))
-      follow(system, context, report);
-    return report;
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
   /// The same without asking first whether falling blocks can be told by their displacement, for
   /// a caller that has. Adds to what is in the report.
   template <class System>
-  void follow(System& system, const SearchContext& context, EquilibriumReport& report) const {
-    constexpr int dof = System::dof;
-    const Acceptance& accept = context.acceptance;
-    system.wall_fraction = context.wall_fraction;
-    Eigen::VectorXd& u = system.displacement;
-    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
-    // Masses of a quarter of the row sums make the critical step 1 for every unknown.
-    Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
-    const double step = params_.safety / std::sqrt(1 + params_.damping);
-    while (report.steps < params_.max_steps) {
-      system.template forces<Committing>(u, f);
-      if (!f.allFinite())
-        throw NumericalFault("relaxation: forces are not finite at step " +
-                             std::to_string(report.steps));
-      const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-      const bool found = detail::find_when_due(system, accept);
-      if (found || !fallen.empty()) {
-        detail::drop(system, fallen, context, report);
-        if (detail::has_collapsed<System::dim>(report, accept)) break;
-        mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
-        continue;
-      }
-      report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (report.unbalance_over_weight < accept.unbalance_over_weight) {
-        if (detail::find_when_due(system, accept, true)) continue;
-        report.verdict = Verdict::stable;
-        report.reason = "every block is in equilibrium within the unbalance limit";
-        break;
-      }
-      if (context.progress && !context.progress(-1.0)) {
-        report.reason = "stopped by the user";
-        report.stopped = true;
-        break;
-      }
-      ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);
-      for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
-        if (k > 0) active.template forces<Committing>(u, f);
-        ++report.steps;
-        for (const int b : active.bodies())
-          for (int i = dof * b; i < dof * (b + 1); ++i) {
-            const double against = velocity[i] > 0 ? 1.0 : (velocity[i] < 0 ? -1.0 : 0.0);
-            velocity[i] += step * (f[i] - params_.damping * std::abs(f[i]) * against) / mass[i];
-            u[i] += step * velocity[i];
-          }
-      }
-    }
-    if (report.verdict == Verdict::undecided && report.reason.empty())
-      report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
-    report.largest_displacement = system.largest_translation(u);
-  }
+  void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
  private:
   Params params_;
 };
+
+template <class System>
+EquilibriumReport Relaxation::find(System& system, const SearchContext& context) const {
+  EquilibriumReport report;
+  detail::drop(system, {}, context, report);
+  const auto solve = [&](Eigen::VectorXd& f) {
+    BlockCholesky<System::dof>(system.elastic_stiffness()).solve_in_place(f);
+    ++report.factorisations;
+    ++report.elastic_solves;
+  };
+  if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
+      !detail::moves_too_far(system, context, solve, report))
+    follow(system, context, report);
+  return report;
+}
+
+template <class System>
+void Relaxation::follow(System& system, const SearchContext& context,
+                        EquilibriumReport& report) const {
+  constexpr int dof = System::dof;
+  const Acceptance& accept = context.acceptance;
+  system.wall_fraction = context.wall_fraction;
+  Eigen::VectorXd& u = system.displacement;
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
+  // Masses of a quarter of the row sums make the critical step 1 for every unknown.
+  Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
+  const double step = params_.safety / std::sqrt(1 + params_.damping);
+  while (report.steps < params_.max_steps) {
+    system.template forces<Committing>(u, f);
+    if (!is_finite(f))
+      throw NumericalFault("relaxation: forces are not finite at step " +
+                           std::to_string(report.steps));
+    const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+    const bool found = detail::find_when_due(system, accept);
+    if (found || !fallen.empty()) {
+      detail::drop(system, fallen, context, report);
+      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
+      continue;
+    }
+    report.unbalance_over_weight = system.unbalance_over_weight(f);
+    if (report.unbalance_over_weight < accept.unbalance_over_weight) {
+      if (detail::find_when_due(system, accept, true)) continue;
+      report.verdict = Verdict::stable;
+      report.reason = "every block is in equilibrium within the unbalance limit";
+      break;
+    }
+    if (context.progress && !context.progress(-1.0)) {
+      report.reason = "stopped by the user";
+      report.stopped = true;
+      break;
+    }
+    ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);
+    for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
+      if (k > 0) active.template forces<Committing>(u, f);
+      ++report.steps;
+      for (const int b : active.bodies())
+        for (int i = dof * b; i < dof * (b + 1); ++i) {
+          const double against = velocity[i] > 0 ? 1.0 : (velocity[i] < 0 ? -1.0 : 0.0);
+          velocity[i] += step * (f[i] - params_.damping * std::abs(f[i]) * against) / mass[i];
+          u[i] += step * velocity[i];
+        }
+    }
+  }
+  if (report.verdict == Verdict::undecided && report.reason.empty())
+    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  report.largest_displacement = system.largest_translation(u);
+}
 
 }  // namespace voussoir

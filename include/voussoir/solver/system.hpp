@@ -77,13 +77,13 @@ class System {
   int add_body(const Body& body) {
     bodies_.push_back(body);
     const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
-    displacement.conservativeResizeLike(Eigen::VectorXd::Zero(size));
-    load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    grow(displacement, size);
+    grow(load, size);
     if (has_found_again()) {
-      found_at_.conservativeResizeLike(Eigen::VectorXd::Zero(size));
-      turned_.push_back(Rotation<dim>::Identity());
+      grow(found_at_, size);
+      turned_.push_back(diagonal_of<dim>(1));
     }
-    wall_load.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+    grow(wall_load, size);
     return static_cast<int>(bodies_.size()) - 1;
   }
 
@@ -94,10 +94,9 @@ class System {
   [[nodiscard]] Pose<dim> pose(int b) const {
     Pose<dim> at = pose_when_found(b);
     if (!body(b).movable) return at;
-    const auto now = displacement.segment<dof>(dof * b);
-    at.position = body(b).centre + now.template head<dim>();
-    Spin<dim> turn = now.template tail<dof - dim>();
-    if (has_found_again()) turn -= found_at_.template segment<dof - dim>(dof * b + dim);
+    at.position = body(b).centre + part<dim>(displacement, dof * b);
+    Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
+    if (has_found_again()) turn -= part<dof - dim>(found_at_, dof * b + dim);
     at.rotation = rotation_by(turn) * at.rotation;
     return at;
   }
@@ -106,7 +105,7 @@ class System {
     Pose<dim> at;
     at.position = body(b).centre;
     if (static_cast<std::size_t>(b) < turned_.size()) {
-      at.position += found_at_.template segment<dim>(dof * b);
+      at.position += part<dim>(found_at_, dof * b);
       at.rotation = turned_[static_cast<std::size_t>(b)];
     }
     return at;
@@ -133,10 +132,10 @@ class System {
     double farthest = 0;
     for (int b = 0; b < body_count(); ++b) {
       if (!body(b).movable || !body(b).is_block) continue;
-      Eigen::Matrix<double, dof, 1> u = displacement.segment<dof>(dof * b);
-      if (has_found_again()) u -= found_at_.template segment<dof>(dof * b);
-      farthest = std::max(farthest, u.template head<dim>().norm() +
-                                        body(b).gyration * u.template tail<dof - dim>().norm());
+      Fixed<dof, 1> u = part<dof>(displacement, dof * b);
+      if (has_found_again()) u -= part<dof>(found_at_, dof * b);
+      farthest = std::max(
+          farthest, part<dim>(u, 0).norm() + body(b).gyration * part<dof - dim>(u, dim).norm());
     }
     return farthest;
   }
@@ -171,7 +170,7 @@ class System {
     }
     for (const auto& frame : frames) frame.add_force(u.data(), f.data());
     for (int b = 0; b < body_count(); ++b)
-      if (!body(b).movable) f.segment<dof>(dof * b).setZero();
+      if (!body(b).movable) set_part<dof>(f, dof * b, Fixed<dof, 1>::Zero());
   }
 
   /// Brings all history up to date with the present displacement.
@@ -202,7 +201,7 @@ class System {
       bolt.add_stiffness(bolt_laws[static_cast<std::size_t>(bolt.law)], sink);
     for (const auto& frame : frames) frame.add_stiffness(sink);
     for (int b = 0; b < body_count(); ++b)
-      if (!body(b).movable) k.add(b, Matrix::Block::Identity());
+      if (!body(b).movable) k.add(b, diagonal_of<dof>(1));
     k.compress();
     return k;
   }
@@ -214,7 +213,7 @@ class System {
       is_gone[static_cast<std::size_t>(b)] = 1;
       bodies_[static_cast<std::size_t>(b)].movable = false;
       bodies_[static_cast<std::size_t>(b)].is_gone = true;
-      displacement.segment<dof>(dof * b).setZero();
+      set_part<dof>(displacement, dof * b, Fixed<dof, 1>::Zero());
     }
     const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
     joints.remove(test);
@@ -264,8 +263,8 @@ class System {
   [[nodiscard]] double unbalance_of(const Eigen::VectorXd& f, int b, double lightest) const {
     const Body& it = body(b);
     if (!it.movable) return 0.0;
-    const double force = f.segment<dim>(dof * b).norm();
-    const double moment = f.segment<dof - dim>(dof * b + dim).norm() / it.gyration;
+    const double force = part<dim>(f, dof * b).norm();
+    const double moment = part<dof - dim>(f, dof * b + dim).norm() / it.gyration;
     return (force + moment) / (it.weight > 0 ? it.weight : lightest);
   }
   [[nodiscard]] double unbalance_over_weight(const Eigen::VectorXd& f) const {
@@ -281,7 +280,7 @@ class System {
                                            const Eigen::VectorXd& u) const {
     double squared = 0;
     for (int b = 0; b < body_count(); ++b)
-      squared = std::max(squared, correction.segment<dim>(dof * b).squaredNorm());
+      squared = std::max(squared, part<dim>(correction, dof * b).squaredNorm());
     return std::sqrt(squared) / std::max(largest_translation(u), 1e-9);
   }
 
@@ -289,11 +288,18 @@ class System {
   [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
     double squared = 0;
     for (int b = 0; b < body_count(); ++b)
-      if (body(b).is_block) squared = std::max(squared, u.segment<dim>(dof * b).squaredNorm());
+      if (body(b).is_block) squared = std::max(squared, part<dim>(u, dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 
  private:
+  /// Lengthens a vector by zeros.
+  static void grow(Eigen::VectorXd& vector, Eigen::Index size) {
+    const Eigen::Index before = vector.size();
+    vector.conservativeResize(size);
+    std::fill(vector.data() + before, vector.data() + size, 0.0);
+  }
+
   std::vector<Body> bodies_;
   Eigen::VectorXd found_at_;           ///< displacement at which contacts were found again
   std::vector<Rotation<dim>> turned_;  ///< of bodies then

@@ -68,43 +68,7 @@ class TwoLevel {
   }
 
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    EquilibriumReport whole;
-    detail::drop(system, {}, context, whole);
-    Elastic<System> elastic;
-    elastic.prepare(system, params_.fire, whole);
-    const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
-    if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return whole;
-    if (detail::moves_too_far(system, context, solve, whole)) return whole;
-    const auto part_of_stage = [&](double wall_fraction) {
-      SearchContext part = context;
-      part.wall_fraction = wall_fraction;
-      part.acceptance.collapse_measure -= whole.fallen_measure;
-      return part;
-    };
-    const System start = system;
-    const double from = start.wall_fraction, to = context.wall_fraction;
-    const bool unloading = from != to && params_.increments > 1;
-    add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
-    if (unloading && whole.reason.empty()) {
-      // Something fell, or no end was found. The elastic start of one large step opens joints that
-      // a gradual unloading keeps closed, so only what falls then has fallen. Most falls when
-      // little traction is left: the increments shrink with it.
-      system = start;
-      for (int k = 1; k <= params_.increments; ++k) {
-        const bool last = k == params_.increments;
-        const double left = last ? to : to + (from - to) * std::pow(0.4, k);
-        add(whole, find_in_one_step(system, part_of_stage(left), false, elastic));
-        if (whole.verdict != Verdict::stable) break;
-      }
-    }
-    // The search that ended it speaks of its own blocks; the verdict of all of them.
-    if (whole.verdict == Verdict::collapsing)
-      (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
-    if (whole.verdict == Verdict::stable && !whole.fallen.empty())
-      whole.reason = "within all limits after loose blocks had fallen";
-    return whole;
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
  private:
   enum class Outcome { decided, open };
@@ -232,7 +196,7 @@ class TwoLevel {
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
       settle_locally(system, elastic.fire(), accept, estimate, reach, f, report);
       // A maximum would not tell: it passes over what is not a number.
-      if (!u.allFinite())
+      if (!is_finite(u))
         throw NumericalFault("two-level search: displacements are not finite in search " +
                              std::to_string(burst));
       const bool falls = system.largest_translation(u) > accept.displacement_limit;
@@ -257,7 +221,7 @@ class TwoLevel {
       report.largest_displacement = system.largest_translation(u);
       report.error_estimate = estimate = system.relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (!d.allFinite())
+      if (!is_finite(d))
         throw NumericalFault("two-level search: the elastic correction is not finite in search " +
                              std::to_string(burst));
       if (report.error_estimate < accept.error_estimate &&
@@ -313,22 +277,21 @@ class TwoLevel {
       if (active.worst_unbalance(f) < 0.1 * accept.unbalance_over_weight) break;
       const Eigen::VectorXd step = active.newton_step(u, f, reach);
       before = u;
-      double part = step.allFinite() ? 1.0 : 0.0, next = now;
-      for (; part > 0.2; part *= 0.5) {
+      double share = is_finite(step) ? 1.0 : 0.0, next = now;
+      for (; share > 0.2; share *= 0.5) {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
-          Eigen::Matrix<double, dof, 1> move =
-              part * step.template segment<dof>(dof * static_cast<Eigen::Index>(b));
-          const double length = move.template head<dim>().norm();
-          if (length > 0.5 * longest_move(accept)) move *= 0.5 * longest_move(accept) / length;
-          u.template segment<dof>(dof * bodies[b]) =
-              before.template segment<dof>(dof * bodies[b]) + move;
+          Fixed<dof, 1> move = share * part<dof>(step, dof * static_cast<Eigen::Index>(b));
+          const double length = part<dim>(move, 0).norm();
+          if (length > 0.5 * longest_move(accept))
+            move = move * (0.5 * longest_move(accept) / length);
+          set_part<dof>(u, dof * bodies[b], part<dof>(before, dof * bodies[b]) + move);
         }
         active.forces(u, f);
         ++report.steps;
         next = active.squared_unbalance(f);
         if (next <= 1.02 * now) break;
       }
-      if (part < 0.2) {
+      if (share < 0.2) {
         worse = f;
         u = before;
         active.forces(u, f);
@@ -336,7 +299,7 @@ class TwoLevel {
         continue;
       }
       now = next;
-      if (part == 1.0)
+      if (share == 1.0)
         for (const int b : bodies) reach[b] = std::min(4 * reach[b], longest_move(accept));
       if (active.largest_translation(u) > accept.displacement_limit ||
           detail::is_due(system, accept))
@@ -393,5 +356,44 @@ class TwoLevel {
   Params params_;
   Relaxation fallback_;
 };
+
+template <class System>
+EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) const {
+  EquilibriumReport whole;
+  detail::drop(system, {}, context, whole);
+  Elastic<System> elastic;
+  elastic.prepare(system, params_.fire, whole);
+  const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
+  if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return whole;
+  if (detail::moves_too_far(system, context, solve, whole)) return whole;
+  const auto part_of_stage = [&](double wall_fraction) {
+    SearchContext part = context;
+    part.wall_fraction = wall_fraction;
+    part.acceptance.collapse_measure -= whole.fallen_measure;
+    return part;
+  };
+  const System start = system;
+  const double from = start.wall_fraction, to = context.wall_fraction;
+  const bool unloading = from != to && params_.increments > 1;
+  add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
+  if (unloading && whole.reason.empty()) {
+    // Something fell, or no end was found. The elastic start of one large step opens joints that
+    // a gradual unloading keeps closed, so only what falls then has fallen. Most falls when
+    // little traction is left: the increments shrink with it.
+    system = start;
+    for (int k = 1; k <= params_.increments; ++k) {
+      const bool last = k == params_.increments;
+      const double left = last ? to : to + (from - to) * std::pow(0.4, k);
+      add(whole, find_in_one_step(system, part_of_stage(left), false, elastic));
+      if (whole.verdict != Verdict::stable) break;
+    }
+  }
+  // The search that ended it speaks of its own blocks; the verdict of all of them.
+  if (whole.verdict == Verdict::collapsing)
+    (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
+  if (whole.verdict == Verdict::stable && !whole.fallen.empty())
+    whole.reason = "within all limits after loose blocks had fallen";
+  return whole;
+}
 
 }  // namespace voussoir

@@ -103,8 +103,8 @@ struct PersistentSet {
     const Vec2 n = set.normal(), t(n.y(), -n.x());
     const Vec3 g(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());
     const Vec3 h(n.x() * t.x(), n.y() * t.y(), n.x() * t.y() + n.y() * t.x());
-    compliance += g * g.transpose() / (joints.normal * set.spacing) +
-                  h * h.transpose() / (joints.shear * set.spacing);
+    compliance +=
+        outer(g, g) / (joints.normal * set.spacing) + outer(h, h) / (joints.shear * set.spacing);
   }
   return compliance;
 }
@@ -122,14 +122,14 @@ enum class ShearCondition {
 [[nodiscard]] inline OedometerModuli oedometer_of(const Eigen::Matrix3d& compliance,
                                                   CompressedAlong along, ShearCondition shear) {
   // Cofactors: Eigen/Core has no solver, and three unknowns need none.
-  const Vec3 c0 = compliance.col(0), c1 = compliance.col(1), c2 = compliance.col(2);
+  const Vec3 c0 = column(compliance, 0), c1 = column(compliance, 1), c2 = column(compliance, 2);
   const double determinant = c0.dot(cross(c1, c2));
   if (!(std::abs(determinant) > 1e-12 * c0.norm() * c1.norm() * c2.norm()))
     throw InvalidInput("oedometer of a compliance: singular; needs two joint sets that cross");
   Eigen::Matrix3d stiffness;
-  stiffness.row(0) = cross(c1, c2).transpose() / determinant;
-  stiffness.row(1) = cross(c2, c0).transpose() / determinant;
-  stiffness.row(2) = cross(c0, c1).transpose() / determinant;
+  set_row(stiffness, 0, cross(c1, c2) / determinant);
+  set_row(stiffness, 1, cross(c2, c0) / determinant);
+  set_row(stiffness, 2, cross(c0, c1) / determinant);
   const int axial = along == CompressedAlong::horizontal ? 0 : 1, lateral = 1 - axial;
   // gamma such that the shear stress is zero, or zero.
   const double gamma = shear == ShearCondition::free ? -stiffness(2, axial) / stiffness(2, 2) : 0.0;

@@ -220,7 +220,7 @@ struct LiningRibs {
       for (int row = 0; strip && row < rows; ++row) {
         auto parts = split(
             std::move(*strip),
-            HalfSpace<3>::through(Vec3(0, from + (row + 1) * width, 0), Vec3::UnitY()), tolerance);
+            HalfSpace<3>::through(Vec3(0, from + (row + 1) * width, 0), Vec3(0, 1, 0)), tolerance);
         if (parts.below && parts.below->area() > tolerance * nodes.stretch)
           frame.contacts.push_back({node_at(row, node), wall.body, {parts.below->corners}});
         strip = std::move(parts.above);

@@ -46,7 +46,7 @@ class FacePair3 {
     Touch by = Touch::face_a;
     bool apart = true;
     /// A point of the overlap, from the first vertex of a; 0 if none is known [m].
-    Eigen::Vector3f inside = Eigen::Vector3f::Zero();
+    std::array<float, 3> inside{};
   };
 
   explicit FacePair3(const PlacedShapes<3>& shapes) : shapes_(&shapes) {}
@@ -57,8 +57,9 @@ class FacePair3 {
     const double by_faces = find_face(a, b, 0, 0, memory);
     if (memory.apart) return false;
     if (clip_.size() > 0) {
-      const Eigen::Vector3f from_a =
-          (clip_.middle() - (*shapes_)[a].vertex(0)).template cast<float>();
+      const Vec3 arm = clip_.middle() - (*shapes_)[a].vertex(0);
+      const std::array<float, 3> from_a{static_cast<float>(arm.x()), static_cast<float>(arm.y()),
+                                        static_cast<float>(arm.z())};
       if (both_contain(a, b, from_a)) {
         memory.inside = from_a;
         return true;
@@ -127,11 +128,12 @@ class FacePair3 {
   /// deeper than some fifty roundings of its coordinates, and than the vertices of a face, over
   /// which the axes are measured, lie off its plane.
   [[nodiscard]] bool both_contain(std::size_t i, std::size_t j,
-                                  const Eigen::Vector3f& from_a) const {
+                                  const std::array<float, 3>& from_a) const {
     const LinkedShape a = linked(i), b = linked(j);
-    const Vec3 point = a.shape.vertex(0) + from_a.template cast<double>();
-    const double doubt = 1e-14 * (1 + point.template lpNorm<1>()) +
-                         std::max(a.topology.unevenness, b.topology.unevenness);
+    const Vec3 point = a.shape.vertex(0) + Vec3(from_a[0], from_a[1], from_a[2]);
+    const double doubt =
+        1e-14 * (1 + std::abs(point.x()) + std::abs(point.y()) + std::abs(point.z())) +
+        std::max(a.topology.unevenness, b.topology.unevenness);
     return height_above_faces(a.shape, point) < -doubt &&
            height_above_faces(b.shape, point) < -doubt;
   }

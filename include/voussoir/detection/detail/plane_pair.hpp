@@ -56,8 +56,10 @@ class PlanePair {
   /// +1 for planes of a, -1 for planes of b.
   [[nodiscard]] Lanes side(std::size_t group) const {
     static_assert(lane_count == 4);
-    const double of_a = static_cast<double>(count_a_) - static_cast<double>(group);
-    return (Lanes(0, 1, 2, 3) < of_a).select(Lanes::Constant(1), Lanes::Constant(-1));
+    Lanes sides;
+    for (std::size_t k = 0; k < lane_count; ++k)
+      sides[static_cast<Eigen::Index>(k)] = group + k < count_a_ ? 1 : -1;
+    return sides;
   }
 
   [[nodiscard]] Vec<Dim> normal_of(std::size_t plane) const {

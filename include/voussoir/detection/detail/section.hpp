@@ -23,12 +23,13 @@ class Section {
            std::vector<Vec3>& out) {
     const Vec3 middle = midway(a, of_a.edges[edge_a], b, of_b.edges[edge_b]);
     const TangentBasis<3> basis = tangent_basis(normal);
+    const Vec3 first = column(basis, 0), second = column(basis, 1);
     const double size = of_a.diameter + of_b.diameter;
     points_ = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
     for (const PlacedShape<3>* shape : {&a, &b})
       for (std::size_t face = 0; face < shape->face_count; ++face) {
         const Vec3 side = shape->normal(face);
-        const Vec2 slope(side.dot(basis.col(0)), side.dot(basis.col(1)));
+        const Vec2 slope(side.dot(first), side.dot(second));
         keep(slope, shape->offset(face) - side.dot(middle));
       }
     area_ = 0;
@@ -40,8 +41,7 @@ class Section {
       return;
     }
     out.clear();
-    for (const Vec2& p : points_)
-      out.push_back(middle + p.x() * basis.col(0) + p.y() * basis.col(1));
+    for (const Vec2& p : points_) out.push_back(middle + p.x() * first + p.y() * second);
   }
 
   [[nodiscard]] double area() const { return area_; }  ///< [m^2]

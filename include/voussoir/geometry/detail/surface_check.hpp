@@ -59,9 +59,9 @@ class SurfaceCheck {
       refuse("has " + std::to_string(surface_.faces.size()) + " faces, needs at least 4");
     Vec3 low = vertices.front(), high = low;
     for (std::size_t v = 0; v < vertices.size(); ++v) {
-      if (!vertices[v].allFinite()) refuse(vertex_name(v) + ": coordinates must be finite");
-      low = low.cwiseMin(vertices[v]);
-      high = high.cwiseMax(vertices[v]);
+      if (!is_finite(vertices[v])) refuse(vertex_name(v) + ": coordinates must be finite");
+      low = smaller_of(low, vertices[v]);
+      high = larger_of(high, vertices[v]);
     }
     // A billionth of the size: coordinates written with ten digits pass, and no joint is so thin.
     // Far from the origin the coordinates themselves are rounded to more than that.
