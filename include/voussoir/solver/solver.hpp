@@ -22,23 +22,17 @@
 
 namespace voussoir {
 
-/// Rock, excavation, supports and the search for equilibrium, composed from policies.
+/// Rock, excavation, supports and the search for equilibrium. `Solver` composes it from policies.
 ///
 /// The order of calls is that of the construction: the rock in its in-situ stress; excavate; then
 /// any number of stages of installing supports, changing the wall traction and finding equilibrium.
 /// History is committed when an equilibrium is found.
 ///
 /// 2-D forces are per metre of tunnel; a bolt's values are per bolt, shared over its spacing.
-template <class... Policies>
-class Solver {
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+class ComposedSolver {
  public:
-  using Parts = Composition<Policies...>;
-  using Geometry = typename Parts::Geometry;
-  using JointLaw = typename Parts::JointLaw;
-  using Anchors = typename Parts::Anchors;
-  using BoltLaw = typename Parts::BoltLaw;
-  using Lining = typename Parts::Lining;
-  using Method = typename Parts::Method;
   using SystemType = System<Geometry, JointLaw, BoltLaw>;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
@@ -48,39 +42,19 @@ class Solver {
   /// @param points  of every contact; with `centre` a block that touches others in one facet alone
   ///                can turn freely, which `TwoLevel` does not accept
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
-  Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
-         ContactPoints points = ContactPoints::gauss)
-      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points) {}
+  ComposedSolver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
+                 ContactPoints points = ContactPoints::gauss)
+      : ComposedSolver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ,
+                       points) {}
   /// The same with laws of their own for some joint sets.
-  Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-         ContactPoints points = ContactPoints::gauss)
-      : mass_(std::move(mass)),
-        joint_laws_(std::move(joint_laws)),
-        in_situ_(in_situ),
-        points_(points),
-        system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
-    in_situ_.check();
-    if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
-    build();
-  }
-
-  /// The models this solver is made of, by name.
-  [[nodiscard]] static std::string composition() { return Parts::describe(); }
+  ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+                 ContactPoints points = ContactPoints::gauss);
 
   /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
   /// goes on acting until a stage takes it away.
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]
   /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
-  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074) {
-    if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
-    mass_ = carve(std::move(mass_), opening, smallest_piece);
-    system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
-    build();
-    Eigen::VectorXd f;
-    system_.forces(system_.displacement, f);
-    system_.wall_load = -f;
-    system_.wall_fraction = 1;
-  }
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074);
 
   /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
   /// present position of the rock, free of force but for its pretension.
@@ -88,43 +62,7 @@ class Solver {
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
   /// @throws InvalidInput  no length or spacing, or the tip is outside the domain
   int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
-                   const Anchors& anchors = {}) {
-    require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing,
-            "> 0 m");
-    const double length = bar.length();
-    require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
-    const auto& domain = mass_.domain;
-    if ((bar.end.array() < domain.low.array()).any() ||
-        (bar.end.array() > domain.high.array()).any())
-      throw InvalidInput("bolt: its tip at " + text_of<dim>(bar.end) +
-                         " m is outside the domain, which reaches from " +
-                         text_of<dim>(domain.low) + " to " + text_of<dim>(domain.high) + " m");
-    const Vec<dim> axis = (bar.end - bar.start) / length;
-    system_.bolt_laws.push_back(law);
-    const auto crossings =
-        bolt_crossings(passages_of_present_rock(bar), bar, anchors, domain.tolerance());
-    for (const BoltCrossingPoint<dim>& at : crossings) {
-      BoltSpring<Geometry, BoltLaw> spring{};
-      spring.a = at.a;
-      spring.b = at.b;
-      spring.bolt = bolt_count_;
-      spring.position = at.position;
-      spring.joint_a = system_.arm(at.a, at.joint_a);
-      spring.joint_b = system_.arm(at.b, at.joint_b);
-      spring.arm_a = spring.joint_a - at.before * axis;
-      spring.arm_b = spring.joint_b + at.after * axis;
-      spring.span = {at.initial, axis, Vec<dim>::Zero()};
-      const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
-      spring.span.motion = -present.motion;
-      spring.span.jump = -present.jump;
-      spring.share = dim == 2 ? 1.0 / spacing : 1.0;
-      spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
-      system_.bolts.push_back(spring);
-    }
-    ++bolt_count_;
-    started_ = true;
-    return static_cast<int>(crossings.size());
-  }
+                   const Anchors& anchors = {});
 
   /// Installs a lining on the wall in its present position, free of force.
   /// @param interface_law  rock on lining
@@ -136,43 +74,7 @@ class Solver {
   /// The same with members of several sections: ribs and what joins them.
   void install_lining(const LiningFrame<Geometry>& frame,
                       const std::vector<LiningSection>& sections,
-                      const CoulombJoint& interface_law) {
-    if (first_node_ >= 0) throw InvalidInput("lining: there is already one");
-    if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
-                     [this](const auto& c) { return system_.body(c.body).movable; }))
-      throw InvalidInput("lining: no rock touches it");
-    first_node_ = system_.body_count();
-    const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
-    for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
-      const double weight = shares[k].mass * in_situ_.gravity;
-      const int node =
-          system_.add_body({frame.nodes[k], weight, std::max(shares[k].length, 1e-3), true, false});
-      system_.load[dof * node + dim - 1] = -weight;
-      measures_.push_back(0.0);
-    }
-    for (const auto& member : frame.members) {
-      const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(member.first)];
-      const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
-      const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
-      const double length = (b - a).norm();
-      system_.frames.push_back({first_node_ + member.first, first_node_ + member.second, length,
-                                frame_axes<dim>(b - a, member.outward),
-                                Lining::template stiffness<dof>(section, length)});
-    }
-    typename SystemType::Interface interface({interface_law});
-    for (const LiningContact<Geometry>& c : frame.contacts) {
-      if (!system_.body(c.body).movable) continue;  // that block has fallen
-      const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
-      const int node = first_node_ + c.node;
-      // A pin is pushed in its middle, wherever on its stretch the rock touches it.
-      Vec<dim> centre = system_.body(node).centre;
-      if constexpr (requires { Lining::is_pinned; }) centre = c.facet.centre();
-      interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1});
-    }
-    interface.start_from(system_.displacement.data());
-    system_.interface = std::move(interface);
-    started_ = true;
-  }
+                      const CoulombJoint& interface_law);
 
   /// Lets the rock and its supports find their equilibrium with a part of the in-situ traction left
   /// on the wall (relaxation before support: > 0; the final state: 0).
@@ -180,16 +82,7 @@ class Solver {
   ///                         the acceptance out of range
   /// @throws NumericalFault  see the method
   EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
-                                const Acceptance& acceptance = {}, const Progress& progress = {}) {
-    require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
-            wall_fraction, "0 to 1 and no more than was left before");
-    acceptance.check();
-    started_ = true;
-    const SearchContext context{acceptance, &measures_, wall_fraction, progress};
-    EquilibriumReport report = method.find(system_, context);
-    fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
-    return report;
-  }
+                                const Acceptance& acceptance = {}, const Progress& progress = {});
 
   /// What `creep` found at a time.
   struct CreepState {
@@ -235,14 +128,7 @@ class Solver {
   [[nodiscard]] int ground() const { return static_cast<int>(mass_.bodies.size()); }
 
   /// Displacement of a point that moves with a body since the in-situ state [m].
-  [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const {
-    const Vec<dim> arm = point - system_.body(body).centre;
-    if (system_.has_found_again()) {
-      const Pose<dim> now = system_.pose(body);
-      return now(arm) - point;
-    }
-    return displacement_at<dim>(system_.displacement.data() + dof * body, arm);
-  }
+  [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const;
 
  private:
   /// A stand-in until a lining is installed: there are no contacts that could use it.
@@ -251,66 +137,9 @@ class Solver {
         {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
   }
 
-  [[nodiscard]] std::vector<FacetPoint<dim>> points_on(
-      const typename Geometry::Facet& facet) const {
-    if (points_ == ContactPoints::gauss) {
-      const auto gauss = facet.gauss_points();
-      return {gauss.begin(), gauss.end()};
-    }
-    std::vector<WeightedPoint<dim>> places;
-    if constexpr (dim == 2)
-      place_points(points_, std::array{facet.start, facet.end}, facet.measure(), places);
-    else
-      place_points(points_, facet.vertices, facet.measure(), places);
-    std::vector<FacetPoint<dim>> points;
-    for (const WeightedPoint<dim>& p : places)
-      points.push_back({p.place - facet.centre(), p.weight});
-    return points;
-  }
+  [[nodiscard]] std::vector<FacetPoint<dim>> points_on(const typename Geometry::Facet& facet) const;
 
-  void build() {
-    measures_.clear();
-    for (const Body<Geometry>& body : mass_.bodies) {
-      const auto& p = body.properties;
-      const double weight = in_situ_.density * in_situ_.gravity * p.measure;
-      const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
-      const int b = system_.add_body({p.centroid, weight, gyration, true});
-      system_.load[dof * b + dim - 1] = -weight;
-      measures_.push_back(p.measure);
-    }
-    const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
-    measures_.push_back(0.0);
-    const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
-    for (const auto& c : Parts::Detector::find(mass_)) {
-      const auto points = points_on(c.facet);
-      const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
-      system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
-                         points, law);
-    }
-    for (const auto& f : boundary_facets(mass_)) {
-      const auto points = points_on(f.facet);
-      if (f.side == SideOf<dim>::top) {
-        const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
-        add_force_at<dim>(system_.load.data() + dof * f.body,
-                          f.facet.centre_from(system_.body(f.body).centre), pressure);
-      } else {
-        system_.boundary.add(f.body, fixed, f.facet, system_.body(f.body).centre,
-                             system_.body(fixed).centre, points);
-        add_edge_shear(f.body, f.facet, points);
-      }
-    }
-    auto shapes = std::make_shared<typename SystemType::Shapes>();
-    for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
-    shapes->push_back(edge_slabs(mass_.domain));
-    system_.shapes = std::move(shapes);
-    system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
-    const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
-      const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
-      return in_situ_.stress<dim>(mass_.domain.depth(point));
-    };
-    system_.joints.set_initial(stress_at);
-    system_.boundary.set_initial(stress_at);
-  }
+  void build();
 
   /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
   /// acting as a load.
@@ -324,18 +153,14 @@ class Solver {
       const Vec<dim> traction =
           in_situ_.stress<dim>(mass_.domain.depth(Vec<dim>(centre + arm))) * normal;
       const Vec<dim> shear = traction - normal.dot(traction) * normal;
-      if (!shear.isZero(0))
+      if (!is_zero(shear))
         add_force_at<dim>(system_.load.data() + dof * body, arm, Vec<dim>(-p.weight * shear));
     }
   }
 
   /// The passages of a bar without the bodies that have fallen.
   [[nodiscard]] std::vector<Passage> passages_of_present_rock(
-      const typename Geometry::Line& bar) const {
-    std::vector<Passage> passages = pierce(mass_, bar);
-    std::erase_if(passages, [this](const Passage& p) { return !system_.body(p.body).movable; });
-    return passages;
-  }
+      const typename Geometry::Line& bar) const;
 
   RockMass<Geometry> mass_;
   LawsBySet<JointLaw> joint_laws_;
@@ -349,4 +174,246 @@ class Solver {
   bool started_ = false;
 };
 
+namespace detail {
+template <class Parts>
+using Composed =
+    ComposedSolver<typename Parts::Geometry, typename Parts::Detector, typename Parts::JointLaw,
+                   typename Parts::Anchors, typename Parts::BoltLaw, typename Parts::Lining,
+                   typename Parts::Method>;
+}  // namespace detail
+
+/// A solver composed from policies in any order (see `Composition`). Whatever the order, the type
+/// behind it is the same one, so that a program which spells a composition in two ways pays for it
+/// once.
+template <class... Policies>
+class Solver : public detail::Composed<Composition<Policies...>> {
+ public:
+  using Parts = Composition<Policies...>;
+  using detail::Composed<Parts>::ComposedSolver;
+  static_assert(
+      explain_equilibrium_method<
+          typename Parts::Method,
+          System<typename Parts::Geometry, typename Parts::JointLaw, typename Parts::BoltLaw>>());
+
+  /// The models this solver is made of, by name.
+  [[nodiscard]] static std::string composition() { return Parts::describe(); }
+};
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
+    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+    ContactPoints points)
+    : mass_(std::move(mass)),
+      joint_laws_(std::move(joint_laws)),
+      in_situ_(in_situ),
+      points_(points),
+      system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
+  in_situ_.check();
+  if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
+  build();
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::excavate(
+    const typename Geometry::Opening& opening, double smallest_piece) {
+  if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
+  mass_ = carve(std::move(mass_), opening, smallest_piece);
+  system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
+  build();
+  Eigen::VectorXd f;
+  system_.forces(system_.displacement, f);
+  system_.wall_load = -f;
+  system_.wall_fraction = 1;
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::install_bolt(
+    const typename Geometry::Line& bar, const BoltLaw& law, double spacing,
+    const Anchors& anchors) {
+  require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
+  const double length = bar.length();
+  require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
+  const auto& domain = mass_.domain;
+  if (any_less(bar.end, domain.low) || any_less(domain.high, bar.end))
+    throw InvalidInput("bolt: its tip at " + text_of<dim>(bar.end) +
+                       " m is outside the domain, which reaches from " + text_of<dim>(domain.low) +
+                       " to " + text_of<dim>(domain.high) + " m");
+  const Vec<dim> axis = (bar.end - bar.start) / length;
+  system_.bolt_laws.push_back(law);
+  const auto crossings =
+      bolt_crossings(passages_of_present_rock(bar), bar, anchors, domain.tolerance());
+  for (const BoltCrossingPoint<dim>& at : crossings) {
+    BoltSpring<Geometry, BoltLaw> spring{};
+    spring.a = at.a;
+    spring.b = at.b;
+    spring.bolt = bolt_count_;
+    spring.position = at.position;
+    spring.joint_a = system_.arm(at.a, at.joint_a);
+    spring.joint_b = system_.arm(at.b, at.joint_b);
+    spring.arm_a = spring.joint_a - at.before * axis;
+    spring.arm_b = spring.joint_b + at.after * axis;
+    spring.span = {at.initial, axis, Vec<dim>::Zero()};
+    const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
+    spring.span.motion = -present.motion;
+    spring.span.jump = -present.jump;
+    spring.share = dim == 2 ? 1.0 / spacing : 1.0;
+    spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
+    system_.bolts.push_back(spring);
+  }
+  ++bolt_count_;
+  started_ = true;
+  return static_cast<int>(crossings.size());
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::install_lining(
+    const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
+    const CoulombJoint& interface_law) {
+  if (first_node_ >= 0) throw InvalidInput("lining: there is already one");
+  if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
+                   [this](const auto& c) { return system_.body(c.body).movable; }))
+    throw InvalidInput("lining: no rock touches it");
+  first_node_ = system_.body_count();
+  const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
+  for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
+    const double weight = shares[k].mass * in_situ_.gravity;
+    const int node =
+        system_.add_body({frame.nodes[k], weight, std::max(shares[k].length, 1e-3), true, false});
+    system_.load[dof * node + dim - 1] = -weight;
+    measures_.push_back(0.0);
+  }
+  for (const auto& member : frame.members) {
+    const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(member.first)];
+    const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
+    const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
+    const double length = (b - a).norm();
+    system_.frames.push_back({first_node_ + member.first, first_node_ + member.second, length,
+                              frame_axes<dim>(b - a, member.outward),
+                              Lining::template stiffness<dof>(section, length)});
+  }
+  typename SystemType::Interface interface({interface_law});
+  for (const LiningContact<Geometry>& c : frame.contacts) {
+    if (!system_.body(c.body).movable) continue;  // that block has fallen
+    const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
+    const int node = first_node_ + c.node;
+    // A pin is pushed in its middle, wherever on its stretch the rock touches it.
+    Vec<dim> centre = system_.body(node).centre;
+    if constexpr (requires { Lining::is_pinned; }) centre = c.facet.centre();
+    interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1});
+  }
+  interface.start_from(system_.displacement.data());
+  system_.interface = std::move(interface);
+  started_ = true;
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+EquilibriumReport ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
+                                 Method>::equilibrium(double wall_fraction, const Method& method,
+                                                      const Acceptance& acceptance,
+                                                      const Progress& progress) {
+  require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
+          wall_fraction, "0 to 1 and no more than was left before");
+  acceptance.check();
+  started_ = true;
+  const SearchContext context{acceptance, &measures_, wall_fraction, progress};
+  EquilibriumReport report = method.find(system_, context);
+  fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
+  return report;
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
+                    Method>::displacement_of(int body, const Vec<dim>& point) const -> Vec<dim> {
+  const Vec<dim> arm = point - system_.body(body).centre;
+  if (system_.has_found_again()) {
+    const Pose<dim> now = system_.pose(body);
+    return now(arm) - point;
+  }
+  return displacement_at<dim>(system_.displacement.data() + dof * body, arm);
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::points_on(
+    const typename Geometry::Facet& facet) const -> std::vector<FacetPoint<dim>> {
+  if (points_ == ContactPoints::gauss) {
+    const auto gauss = facet.gauss_points();
+    return {gauss.begin(), gauss.end()};
+  }
+  std::vector<WeightedPoint<dim>> places;
+  if constexpr (dim == 2)
+    place_points(points_, std::array{facet.start, facet.end}, facet.measure(), places);
+  else
+    place_points(points_, facet.vertices, facet.measure(), places);
+  std::vector<FacetPoint<dim>> points;
+  for (const WeightedPoint<dim>& p : places) points.push_back({p.place - facet.centre(), p.weight});
+  return points;
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::build() {
+  measures_.clear();
+  for (const Body<Geometry>& body : mass_.bodies) {
+    const auto& p = body.properties;
+    const double weight = in_situ_.density * in_situ_.gravity * p.measure;
+    const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
+    const int b = system_.add_body({p.centroid, weight, gyration, true});
+    system_.load[dof * b + dim - 1] = -weight;
+    measures_.push_back(p.measure);
+  }
+  const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
+  measures_.push_back(0.0);
+  const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
+  for (const auto& c : Detector::find(mass_)) {
+    const auto points = points_on(c.facet);
+    const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
+    system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
+                       points, law);
+  }
+  for (const auto& f : boundary_facets(mass_)) {
+    const auto points = points_on(f.facet);
+    if (f.side == SideOf<dim>::top) {
+      const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
+      add_force_at<dim>(system_.load.data() + dof * f.body,
+                        f.facet.centre_from(system_.body(f.body).centre), pressure);
+    } else {
+      system_.boundary.add(f.body, fixed, f.facet, system_.body(f.body).centre,
+                           system_.body(fixed).centre, points);
+      add_edge_shear(f.body, f.facet, points);
+    }
+  }
+  auto shapes = std::make_shared<typename SystemType::Shapes>();
+  for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
+  shapes->push_back(edge_slabs(mass_.domain));
+  system_.shapes = std::move(shapes);
+  system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
+  const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
+    const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
+    return in_situ_.stress<dim>(mass_.domain.depth(point));
+  };
+  system_.joints.set_initial(stress_at);
+  system_.boundary.set_initial(stress_at);
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+std::vector<Passage>
+ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
+               Method>::passages_of_present_rock(const typename Geometry::Line& bar) const {
+  std::vector<Passage> passages = pierce(mass_, bar);
+  std::erase_if(passages, [this](const Passage& p) { return !system_.body(p.body).movable; });
+  return passages;
+}
+
 }  // namespace voussoir
+
+#ifdef VOUSSOIR_COMPILED
+#include <voussoir/solver/compiled.hpp>
+#endif

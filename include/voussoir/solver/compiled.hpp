@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/solver/explicit.hpp>
+#include <voussoir/solver/relaxation.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/solver/two_level.hpp>
+
+/// What the library `voussoir::compiled` holds: the common compositions, compiled once. A program
+/// that links it has VOUSSOIR_COMPILED defined; `solver.hpp` then includes this list, and the
+/// compiler leaves what stands in it to the library. Any other composition is compiled where it is
+/// used, as without the library: it saves time and changes no answer.
+///
+/// The library's own sources (cmake/compiled) define the words below as plain `template`.
+#ifndef VOUSSOIR_PLANAR_TEMPLATE
+#define VOUSSOIR_PLANAR_TEMPLATE extern template
+#endif
+#ifndef VOUSSOIR_SPATIAL_TEMPLATE
+#define VOUSSOIR_SPATIAL_TEMPLATE extern template
+#endif
+
+/// The searches for equilibrium in one kind of system.
+#define VOUSSOIR_SEARCHES(WORD, ...)                                                         \
+  WORD EquilibriumReport TwoLevel::find(System<__VA_ARGS__>&, const SearchContext&) const;   \
+  WORD EquilibriumReport Relaxation::find(System<__VA_ARGS__>&, const SearchContext&) const; \
+  WORD void Relaxation::follow(System<__VA_ARGS__>&, const SearchContext&,                   \
+                               EquilibriumReport&) const;                                    \
+  WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
+
+namespace voussoir {
+
+VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialBolt)
+VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
+                                              AxialBolt, EulerBernoulliBeam, TwoLevel>;
+VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialShearBolt)
+
+VOUSSOIR_SEARCHES(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, CoulombJoint, AxialBolt)
+VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,
+                                               AxialBolt, EulerBernoulliBeam, TwoLevel>;
+VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,
+                                               AxialBolt, TimoshenkoBeam, TwoLevel>;
+
+}  // namespace voussoir
+
+#undef VOUSSOIR_SEARCHES
