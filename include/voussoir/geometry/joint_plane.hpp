@@ -82,7 +82,7 @@ inline constexpr int disc_corners = 32;
   const double radius = 0.5 * diameter * disc_reach();
   for (int k = 0; k < disc_corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / disc_corners;
-    joint.corners.push_back(
+    joint.corners.emplace_back(
         centre + radius * (std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1)));
   }
   return joint;
