@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What the README shows is what runs: its first C++ program is examples/minimal.cpp; `## Quick start`
 # has exactly two ```sh blocks of one line, each the name of a script that can be executed; and the
-# second, which passes the tests, is what .ci/run runs. Run by CTest:
+# second, which passes the tests, is what .ci/run runs. The headers that docs/glossary.md names exist.
+# Run by CTest:
 #   cmake -DROOT=<project> -P readme.cmake                      checks the tree
 #   cmake -DROOT=<project> -DSELF_CHECK=<scratch folder> ...    checks that planted faults are found
 cmake_minimum_required(VERSION 3.25)
@@ -58,6 +59,16 @@ function(complaint root out)
   if(NOT shown STREQUAL program)
     complain("README.md: the first ```cpp block is not examples/minimal.cpp (without its licence line)")
   endif()
+
+  file(READ "${root}/docs/glossary.md" glossary)
+  string(REGEX MATCHALL "`[a-z_]+/[a-z_]+\\.hpp`" headers "${glossary}")
+  list(REMOVE_DUPLICATES headers)
+  foreach(header IN LISTS headers)
+    string(REPLACE "`" "" header "${header}")
+    if(NOT EXISTS "${ROOT}/include/voussoir/${header}")
+      complain("docs/glossary.md: there is no header ${header}")
+    endif()
+  endforeach()
 endfunction()
 
 # edit(<file> <from> <to>): a fault in the scratch copy.
@@ -77,6 +88,7 @@ else()
     file(REMOVE_RECURSE "${SELF_CHECK}")
     file(COPY "${ROOT}/README.md" DESTINATION "${SELF_CHECK}")
     file(COPY "${ROOT}/.ci/run" DESTINATION "${SELF_CHECK}/.ci")
+    file(COPY "${ROOT}/docs/glossary.md" DESTINATION "${SELF_CHECK}/docs")
     file(COPY "${ROOT}/tests/run" DESTINATION "${SELF_CHECK}/tests")
     file(COPY "${ROOT}/examples/first_picture.sh" "${ROOT}/examples/minimal.cpp"
          DESTINATION "${SELF_CHECK}/examples")
@@ -104,5 +116,7 @@ else()
   must_say("does not run `tests/run`")
   edit(examples/minimal.cpp "int main" "int Main")
   must_say("not examples/minimal.cpp")
+  edit(docs/glossary.md "core/random.hpp" "core/chance.hpp")
+  must_say("no header core/chance.hpp")
   file(REMOVE_RECURSE "${SELF_CHECK}")
 endif()
