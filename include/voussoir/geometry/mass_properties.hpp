@@ -31,7 +31,7 @@ struct MassProperties {
 [[nodiscard]] inline MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
   double area = 0, polar = 0;
   Vec2 first_moment = Vec2::Zero();
-  const Vec2 origin = vertices.front();
+  const Vec2& origin = vertices.front();
   for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
     const Vec2 a = vertices[k] - origin, b = vertices[k + 1] - origin;
     const double triangle = 0.5 * cross(a, b);

@@ -25,7 +25,7 @@ namespace voussoir {
   const Vec3 in = -thickness * facet.area_vector().normalized();
   const int count = static_cast<int>(facet.vertices.size());
   std::vector<Vec3> vertices = facet.vertices;
-  for (const Vec3& v : facet.vertices) vertices.push_back(v + in);
+  for (const Vec3& v : facet.vertices) vertices.emplace_back(v + in);
   std::vector<std::vector<int>> faces(2);
   for (int k = 0; k < count; ++k) {
     const int next = (k + 1) % count;

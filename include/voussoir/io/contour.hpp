@@ -174,9 +174,10 @@ class ContourTracer {
   const int node_count = columns * rows;
   for (int j = 0; j + 1 < rows; ++j) {  // the centres follow the nodes
     for (int i = 0; i + 1 < columns; ++i) {
-      points.push_back((points[static_cast<std::size_t>(j * columns + i)] +
-                        points[static_cast<std::size_t>((j + 1) * columns + i + 1)]) /
-                       2);
+      const int low = j * columns + i, high = low + columns + 1;
+      const Vec2 centre =
+          (points[static_cast<std::size_t>(low)] + points[static_cast<std::size_t>(high)]) / 2;
+      points.push_back(centre);
       values.push_back(grid.value.block<2, 2>(i, j).mean());
     }
   }

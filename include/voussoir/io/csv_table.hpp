@@ -25,7 +25,7 @@ class CsvTable {
   /// @param significant_digits  of every real number; 0: as many as needed to read back the same
   /// bits
   /// @throws InvalidInput  no columns, or one without a name
-  explicit CsvTable(std::vector<std::string> columns, int significant_digits = 0)
+  explicit CsvTable(const std::vector<std::string>& columns, int significant_digits = 0)
       : column_count_(columns.size()), significant_digits_(significant_digits) {
     if (columns.empty()) throw InvalidInput("CsvTable: at least one column is needed");
     for (const std::string& name : columns) {

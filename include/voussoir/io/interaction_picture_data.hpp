@@ -27,7 +27,7 @@ struct InteractionQuantity {
   }
   /// One unit for contours and points.
   [[nodiscard]] static InteractionQuantity in(std::string name, double scale, std::string unit) {
-    return {std::move(name), scale, unit, "", scale, unit};
+    return {std::move(name), scale, unit, "", scale, std::move(unit)};
   }
 };
 

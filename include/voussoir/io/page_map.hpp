@@ -101,7 +101,7 @@ class PageMap {
       const double depth_p = sign * p[axis] - limit, depth_q = sign * q[axis] - limit;
       if (depth_p >= 0) kept.push_back(p);
       if ((depth_p >= 0) != (depth_q >= 0)) {
-        kept.push_back(p + depth_p / (depth_p - depth_q) * (q - p));
+        kept.emplace_back(p + depth_p / (depth_p - depth_q) * (q - p));
       }
     }
     inside.swap(kept);

@@ -63,6 +63,7 @@ using SideOf = std::conditional_t<Dim == 2, Side, SpatialSide>;
 [[nodiscard]] inline ConvexPolyhedron as_block(const Domain<3>& domain) {
   // Corner k has the higher x, y, z where bits 0, 1, 2 of k are set.
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int k = 0; k < 8; ++k)
     corners.emplace_back((k & 1 ? domain.high : domain.low).x(),
                          (k & 2 ? domain.high : domain.low).y(),

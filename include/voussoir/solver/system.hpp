@@ -57,10 +57,10 @@ class System {
   using Shapes = std::vector<std::vector<Shape>>;
 
   System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness,
-         CoulombJoint interface_law)
+         const CoulombJoint& interface_law)
       : joints(joint_laws.all()),
         boundary({SmoothWall(boundary_stiffness)}),
-        interface({std::move(interface_law)}) {}
+        interface({interface_law}) {}
 
   Joints joints;        ///< rock on rock
   Boundary boundary;    ///< rock on the fixed edge of the domain

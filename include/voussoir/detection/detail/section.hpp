@@ -66,7 +66,7 @@ class Section {
       const double d = slope.dot(here) - offset, e = slope.dot(next) - offset;
       if (d <= 0) spare_.push_back(here);
       if ((d < 0 && e > 0) || (d > 0 && e < 0))
-        spare_.push_back(here + d / (d - e) * (next - here));
+        spare_.emplace_back(here + d / (d - e) * (next - here));
     }
     points_.swap(spare_);
   }

@@ -69,7 +69,7 @@ template <class Corner>
 [[nodiscard]] Vec3 doubled_area(std::size_t count, Corner&& corner) {
   Vec3 sum = Vec3::Zero();
   if (count < 3) return sum;
-  const Vec3 origin = corner(0);
+  const Vec3& origin = corner(0);
   Vec3 previous = corner(1) - origin;
   for (std::size_t k = 2; k < count; ++k) {
     const Vec3 next = corner(k) - origin;

@@ -49,7 +49,7 @@ inline void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
   double top = column.low.y();
   const double diagram_height = column.height() * (has_overview ? 0.36 : 0.47);
   const auto next_frame = [&](double height) {
-    const ViewRect frame{{column.low.x(), top}, {column.high.x(), top + height}};
+    ViewRect frame{{column.low.x(), top}, {column.high.x(), top + height}};
     top += height + 14;
     return frame;
   };
