@@ -27,6 +27,12 @@ install(
   FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   COMPONENT voussoir_headers)
+# voussoir::compiled goes along as sources: the project that links it compiles them, with its own
+# compiler and flags, and the package stays the same for every machine.
+install(
+  FILES ${voussoir_compiled_sources}
+  DESTINATION "${package_dir}/compiled"
+  COMPONENT voussoir_headers)
 if(TARGET voussoir_cli)
   install(TARGETS voussoir_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
                                        COMPONENT voussoir_program)

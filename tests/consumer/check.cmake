@@ -22,3 +22,6 @@ run("${CMAKE_COMMAND}"
     ${how})
 run("${CMAKE_COMMAND}" --build "${WORK}/build" --parallel 2)
 run("${WORK}/build/consumer")
+if(WAY STREQUAL "installed")
+  run("${WORK}/build/consumer_compiled")
+endif()
