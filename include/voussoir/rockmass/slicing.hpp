@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
@@ -134,8 +135,8 @@ class Slicer {
   using Shape = typename Geometry::Shape;
   using Trace = typename Geometry::Trace;
 
-  Slicer(const Domain<Geometry::dim>& domain, const BlockLimits& limits)
-      : domain_(domain), limits_(limits), tolerance_(domain.tolerance()) {
+  Slicer(const Domain<Geometry::dim>& domain, const BlockLimits& limits, StopCheck& stop)
+      : stop_(stop), domain_(domain), limits_(limits), tolerance_(domain.tolerance()) {
     domain.check();
     limits.check();
     for (int side = 0; side < 2 * Geometry::dim; ++side)
@@ -168,6 +169,7 @@ class Slicer {
         if (above) pending_.emplace_back(node.above, std::move(*above));
         if (below) pending_.emplace_back(node.below, std::move(*below));
       } else {
+        stop_();  // a long joint may reach every block there is
         used = cut_block(at, plane, index) || used;
       }
     }
@@ -184,6 +186,7 @@ class Slicer {
     // In the order of the tree neighbours in space are neighbours in memory.
     std::vector<std::size_t> stack{0};
     while (!stack.empty()) {
+      stop_();
       const Node& node = nodes_[stack.back()];
       stack.pop_back();
       if (node.block < 0) {
@@ -198,7 +201,7 @@ class Slicer {
     }
     mass.slicing.blocks_too_long = static_cast<std::size_t>(
         std::count_if(excess_.begin(), excess_.end(), [](double excess) { return excess > 0; }));
-    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_);
+    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_, stop_);
     return mass;
   }
 
@@ -248,6 +251,7 @@ class Slicer {
 
   static constexpr double same_length = 1e-9;
 
+  StopCheck& stop_;
   Domain<Geometry::dim> domain_;
   BlockLimits limits_;
   double tolerance_;
@@ -267,20 +271,26 @@ class Slicer {
 /// its extent reaches, unless a child would break the limits (see BlockLimits, for domains that
 /// break them as well).
 ///
+/// @param progress  told how many of the joints are through, asked whether to go on
 /// @throws InvalidInput  domain or limits out of range, a joint that is not finite
+/// @throws Stopped
 /// @cost   about 10 microseconds per block in the plane, 5 in space (`slice<Spatial>`); linear
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 2.1 (rock slicing).
 template <class Geometry = Planar>
 [[nodiscard]] RockMass<Geometry> slice(const Domain<Geometry::dim>& domain,
                                        const std::vector<JointOf<Geometry::dim>>& joints,
-                                       const BlockLimits& limits) {
-  detail::Slicer<Geometry> slicer(domain, limits);
+                                       const BlockLimits& limits, const Progress& progress = {}) {
+  StopCheck stop(progress);
+  detail::Slicer<Geometry> slicer(domain, limits, stop);
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (!detail::is_finite(joints[k].trace))
       throw InvalidInput("joint " + std::to_string(k) + " of set " + std::to_string(joints[k].set) +
                          ": every coordinate must be finite");
-  for (std::size_t k = 0; k < joints.size(); ++k) slicer.cut_by(joints[k], static_cast<int>(k));
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    stop(static_cast<double>(k) / static_cast<double>(joints.size()));
+    slicer.cut_by(joints[k], static_cast<int>(k));
+  }
   return slicer.finish(joints);
 }
 

@@ -47,13 +47,16 @@ class Solver {
   /// Puts the rock in its in-situ state.
   /// @param points  of every contact; with `centre` a block that touches others in one facet alone
   ///                can turn freely, which `TwoLevel` does not accept
+  /// @param progress  asked now and then whether to go on
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
+  /// @throws Stopped
   Solver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
-         ContactPoints points = ContactPoints::gauss)
-      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points) {}
+         ContactPoints points = ContactPoints::gauss, const Progress& progress = {})
+      : Solver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points,
+               progress) {}
   /// The same with laws of their own for some joint sets.
   Solver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-         ContactPoints points = ContactPoints::gauss)
+         ContactPoints points = ContactPoints::gauss, const Progress& progress = {})
       : mass_(std::move(mass)),
         joint_laws_(std::move(joint_laws)),
         in_situ_(in_situ),
@@ -61,7 +64,7 @@ class Solver {
         system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
     in_situ_.check();
     if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
-    build();
+    build(progress);
   }
 
   /// The models this solver is made of, by name.
@@ -70,12 +73,15 @@ class Solver {
   /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
   /// goes on acting until a stage takes it away.
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]
+  /// @param progress        asked now and then whether to go on
   /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
-  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074) {
+  /// @throws Stopped        the solver is then of no more use
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074,
+                const Progress& progress = {}) {
     if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
-    mass_ = carve(std::move(mass_), opening, smallest_piece);
+    mass_ = carve(std::move(mass_), opening, smallest_piece, progress);
     system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
-    build();
+    build(progress);
     Eigen::VectorXd f;
     system_.forces(system_.displacement, f);
     system_.wall_load = -f;
@@ -268,9 +274,20 @@ class Solver {
     return points;
   }
 
-  void build() {
+  /// The initial contacts; a detector may be asked to stop, but need not know how.
+  [[nodiscard]] static auto contacts_of(const RockMass<Geometry>& mass, const Progress& progress) {
+    if constexpr (requires { Parts::Detector::find(mass, progress); }) {
+      return Parts::Detector::find(mass, progress);
+    } else {
+      return Parts::Detector::find(mass);
+    }
+  }
+
+  void build(const Progress& progress) {
+    StopCheck stop(progress);
     measures_.clear();
     for (const Body<Geometry>& body : mass_.bodies) {
+      stop();
       const auto& p = body.properties;
       const double weight = in_situ_.density * in_situ_.gravity * p.measure;
       const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
@@ -281,13 +298,15 @@ class Solver {
     const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
     measures_.push_back(0.0);
     const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
-    for (const auto& c : Parts::Detector::find(mass_)) {
+    for (const auto& c : contacts_of(mass_, progress)) {
+      stop();
       const auto points = points_on(c.facet);
       const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
       system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
                          points, law);
     }
     for (const auto& f : boundary_facets(mass_)) {
+      stop();
       const auto points = points_on(f.facet);
       if (f.side == SideOf<dim>::top) {
         const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
@@ -300,11 +319,15 @@ class Solver {
       }
     }
     auto shapes = std::make_shared<typename SystemType::Shapes>();
-    for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
+    for (const Body<Geometry>& body : mass_.bodies) {
+      stop();
+      shapes->push_back(body.parts);
+    }
     shapes->push_back(edge_slabs(mass_.domain));
     system_.shapes = std::move(shapes);
     system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
     const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
+      stop();
       const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
       return in_situ_.stress<dim>(mass_.domain.depth(point));
     };
