@@ -10,6 +10,8 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <system_error>
+#include <voussoir/rockmass/trace_coverage.hpp>
 
 namespace voussoir::program {
 
@@ -56,20 +58,24 @@ struct Excavated {
   Tunnel tunnel;
   SimplePolygon opening;
   double in_situ_unbalance;
+  std::vector<std::string> warnings;
 };
 
-Excavated excavate(const Input& input) {
+Excavated excavate(const Input& input, const Report& report) {
+  const Progress progress = [&](double fraction) { return report("blocks", fraction); };
   const SimplePolygon opening = opening_of(input);
-  Tunnel tunnel(rock_of(input), laws_of(input),
+  GeneratedRock rock = rock_of(input, progress);
+  Tunnel tunnel(std::move(rock.mass), laws_of(input),
                 {.density = input.rock.density,
                  .k0 = input.stress.K0,
                  .surcharge = input.stress.surcharge,
-                 .gravity = input.model.gravity});
+                 .gravity = input.model.gravity},
+                ContactPoints::gauss, progress);
   Eigen::VectorXd f;
   tunnel.system().forces(tunnel.system().displacement, f);
   const double unbalance = tunnel.system().unbalance_over_weight(f);
-  tunnel.excavate(opening, input.blocks.min_wall_area);
-  return {std::move(tunnel), opening, unbalance};
+  tunnel.excavate(opening, input.blocks.min_wall_area, progress);
+  return {std::move(tunnel), opening, unbalance, std::move(rock.warnings)};
 }
 
 std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
@@ -156,8 +162,78 @@ std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimpleP
   return results;
 }
 
+/// Mapped joints as the input's file has them.
+std::vector<Joint> mapped_joints(const Input& input, const Domain<2>& domain,
+                                 const Progress& progress, std::vector<std::string>& warnings) {
+  const std::string name = input.joints_file.string();
+  const std::string accepted =
+      "\n   = accepted: the name of a file of traces, relative to the input file";
+  std::error_code error;
+  const auto kind = std::filesystem::status(input.joints_file, error).type();
+  // A device or a pipe may never end, and to open one may take for ever.
+  if (kind != std::filesystem::file_type::regular &&
+      std::filesystem::exists(input.joints_file, error))
+    throw InvalidInput("joints.file: cannot read " + name + ": it is not a regular file" +
+                       accepted);
+  std::ifstream file(input.joints_file, std::ios::binary);
+  if (!file) throw InvalidInput("joints.file: cannot read " + name + accepted);
+  TraceFileLimits limits;
+  limits.sets = static_cast<int>(input.joint_sets.size());
+  std::vector<Joint> traces = read_traces(file, name, domain.site_origin, limits, progress);
+  const TraceCoverage coverage = trace_coverage(traces, domain);
+  if (2 * coverage.inside < coverage.count) {
+    const std::string text =
+        "joints.file: " + name + ": " + coverage_text(coverage, domain, "model.origin");
+    if (coverage.inside == 0) throw InvalidInput(text);
+    warnings.push_back(text);
+  }
+  return traces;
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+/// What became of the joints: how often one went into a block, and why a cut was not made.
+std::string slicing_text(const SlicingReport& slicing, const Input& input) {
+  std::string text = counted(slicing.joints, "joint") + ", of which " +
+                     std::to_string(slicing.joints - slicing.outside_joints) +
+                     " reach into the domain: " + counted(slicing.cuts, "cut") + " made, " +
+                     std::to_string(slicing.refused_too_small) +
+                     " refused for a part smaller than blocks.min_inscribed_radius = " +
+                     format_quantity(input.blocks.min_inscribed_radius, dimension::length) + ", " +
+                     std::to_string(slicing.refused_too_long) + " for a part longer than " +
+                     "blocks.max_elongation = " + number(input.blocks.max_elongation);
+  if (slicing.coincident > 0)
+    text += ", " + std::to_string(slicing.coincident) + " merged with an existing joint";
+  return text;
+}
+
+/// No result without its rock: joints asked for and not used are said.
+void check_slicing(const Input& input, const SlicingReport& slicing,
+                   std::vector<std::string>& warnings) {
+  const bool asked = !input.joint_sets.empty() || !input.joints_file.empty();
+  if (!asked) return;
+  const std::string text = slicing_text(slicing, input);
+  if (slicing.joints == slicing.outside_joints) {
+    warnings.push_back("the rock is one block without joints, though there are joint sets: " +
+                       text);
+  } else if (slicing.cuts == 0) {
+    throw InvalidInput("no joint cuts the rock, which stays one block: " + text +
+                       "\n   = accepted: limits in [blocks] that let joints cut");
+  } else if (2 * slicing.refused_too_long > slicing.offered_cuts() ||
+             50 * slicing.cuts < slicing.offered_cuts()) {
+    // Far more cuts than blocks are refused for size in any dense network: that is its saturation.
+    warnings.push_back("most joints leave no trace in the rock: " + text);
+  }
+  if (slicing.blocks_too_long > 0)
+    warnings.push_back(
+        counted(slicing.blocks_too_long, "block") + " longer than blocks.max_elongation = " +
+        number(input.blocks.max_elongation) + ", as the domain is: no joint cut them shorter");
+}
+
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = run.warnings;
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
   if (mass.slicing.coincident > 0)
@@ -235,7 +311,7 @@ SimplePolygon opening_of(const Input& input) {
   throw std::logic_error("unknown tunnel shape");
 }
 
-RockMass<Planar> rock_of(const Input& input) {
+GeneratedRock rock_of(const Input& input, const Progress& progress) {
   const Domain<2> domain = domain_of(input);
   std::vector<JointSet> sets;
   for (const JointSetInput& s : input.joint_sets)
@@ -243,27 +319,35 @@ RockMass<Planar> rock_of(const Input& input) {
                     s.dip_direction == DipDirection::east ? voussoir::DipDirection::east
                                                           : voussoir::DipDirection::west,
                     s.sd, s.intensity.value_or(0.0), s.spacing.value_or(0.0), s.extent});
+  GeneratedRock rock;
   std::vector<Joint> joints;
-  if (!input.joints_file.empty()) {
-    // Mapped joints come first: what was seen takes precedence over what was drawn at random.
-    std::ifstream file(input.joints_file, std::ios::binary);
-    if (!file || std::filesystem::is_directory(input.joints_file))
-      throw InvalidInput(
-          "joints.file: cannot read " + input.joints_file.string() +
-          "\n   = accepted: the name of a file of traces, relative to the input file");
-    joints = read_traces(file, input.joints_file.string(), domain.site_origin);
-  }
-  const auto random = joint_network(sets, domain, input.model.seed);
+  // Mapped joints come first: what was seen takes precedence over what was drawn at random.
+  if (!input.joints_file.empty()) joints = mapped_joints(input, domain, progress, rock.warnings);
+  const auto random = joint_network(sets, domain, input.model.seed, progress);
   joints.insert(joints.end(), random.begin(), random.end());
-  return slice(domain, joints, {input.blocks.min_inscribed_radius, input.blocks.max_elongation});
+  const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
+  if (!input.joints_file.empty()) {
+    // What the sets alone come to was checked when the input was read.
+    const double blocks = estimated_blocks(joints, domain, limits.min_inscribed_radius);
+    if (blocks > largest_count || static_cast<double>(joints.size()) > largest_count)
+      throw InvalidInput(
+          "joints.file: with " + input.joints_file.string() + " the rock has " +
+          counted(joints.size(), "joint") + " and would come to about " + number(blocks, "%.0f") +
+          " blocks\n   = accepted: at most 1000000 of either in the domain: a smaller "
+          "domain, fewer joints, or a larger blocks.min_inscribed_radius");
+  }
+  rock.mass = slice(domain, joints, limits, progress);
+  check_slicing(input, rock.mass.slicing, rock.warnings);
+  return rock;
 }
 
 RunResult run_tunnel(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
-  Excavated excavated = excavate(input);
+  Excavated excavated = excavate(input, report);
   RunResult run{std::move(excavated.tunnel), excavated.opening, {}, {}, {}, 0, {}, 0, 0};
+  run.warnings = std::move(excavated.warnings);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
@@ -283,7 +367,7 @@ DiagramResult run_diagram(const Input& input, unsigned threads, const Report& re
   const auto start = std::chrono::steady_clock::now();
   check_bolts(input, input.diagram->spacing);
   report("blocks", -1.0);
-  const Excavated excavated = excavate(input);
+  const Excavated excavated = excavate(input, report);
   const DiagramInput& axes = *input.diagram;
   const std::size_t count = axes.spacing.size() * axes.thickness.size();
   std::atomic<bool> go_on{true};
@@ -317,6 +401,7 @@ DiagramResult run_diagram(const Input& input, unsigned threads, const Report& re
     return point;
   };
   DiagramResult result;
+  result.warnings = excavated.warnings;
   result.blocks = excavated.tunnel.mass().bodies.size();
   result.points =
       interaction_diagram(axes.spacing.size(), axes.thickness.size(), threads, tunnel_at, done);

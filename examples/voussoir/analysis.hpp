@@ -38,7 +38,8 @@ struct RunResult {
 
 /// A finished interaction diagram.
 struct DiagramResult {
-  std::vector<DiagramPoint> points;  ///< spacing by spacing, thickness running faster
+  std::vector<std::string> warnings;  ///< about the rock
+  std::vector<DiagramPoint> points;   ///< spacing by spacing, thickness running faster
   std::size_t blocks = 0;
   double seconds = 0;
 };
@@ -49,15 +50,23 @@ using Report = std::function<bool(const std::string& what, double fraction)>;
 
 [[nodiscard]] SimplePolygon opening_of(const Input& input);
 
-/// Slices the rock of an input: random sets and mapped traces, together.
-/// @throws InvalidInput  the file of traces cannot be read
-[[nodiscard]] RockMass<Planar> rock_of(const Input& input);
+/// Rock, and what its maker must be told about it.
+struct GeneratedRock {
+  RockMass<Planar> mass;
+  std::vector<std::string> warnings;
+};
 
-/// @throws InvalidInput, NumericalFault
+/// Slices the rock of an input: random sets and mapped traces, together.
+/// @throws InvalidInput  the file of traces cannot be read or used, it makes too many blocks, or no
+///                       joint of those asked for cuts the rock
+/// @throws Stopped       `progress` said so
+[[nodiscard]] GeneratedRock rock_of(const Input& input, const Progress& progress = {});
+
+/// @throws InvalidInput, NumericalFault; Stopped if `report` said so while rock was made
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
 
 /// @pre    input.diagram
-/// @throws InvalidInput, NumericalFault
+/// @throws InvalidInput, NumericalFault, Stopped
 [[nodiscard]] DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report);
 
 }  // namespace voussoir::program

@@ -13,8 +13,6 @@ namespace voussoir::program {
 
 namespace {
 
-constexpr double largest_count = 1e6;  // of joints and of blocks: minutes and gigabytes beyond
-
 // Rounded as a quantity read from a text is, so that "90 deg" equals its bound.
 double degrees(double angle) { return angle * std::numbers::pi / 180; }
 

@@ -179,6 +179,9 @@ struct Input {
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
 };
 
+/// Of joints and of blocks: minutes and gigabytes beyond.
+inline constexpr double largest_count = 1e6;
+
 /// What the joint sets will come to, before anything is generated.
 struct SizeEstimate {
   double joints = 0;  ///< traces to be drawn
@@ -187,7 +190,7 @@ struct SizeEstimate {
 
 /// @return  joints = sum of intensity x area; blocks from the crossings of the sets, but no more
 ///          than the minimum inscribed radius lets there be (within a factor of two of generated
-///          masses). Joints of a file are not counted.
+///          masses). Joints of a file are counted when they are read, with the same limits.
 [[nodiscard]] SizeEstimate estimate_size(const Input& input);
 
 /// One thing that is wrong with an input, and where.

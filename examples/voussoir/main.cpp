@@ -369,6 +369,8 @@ int main(int argc, char** argv) {
   } catch (const InputErrors& errors) {
     std::cerr << errors.what() << "\n";
     return bad_input;
+  } catch (const voussoir::Stopped&) {
+    return say_interrupted();
   } catch (const voussoir::InvalidInput& error) {
     std::cerr << "error: " << error.what() << "\n";
     return bad_input;

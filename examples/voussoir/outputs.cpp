@@ -408,6 +408,7 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
     }
     out += "\n";
   }
+  for (const std::string& warning : diagram.warnings) out += "warning  " + warning + "\n";
   return out;
 }
 

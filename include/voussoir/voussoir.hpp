@@ -12,6 +12,7 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/literals.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/detection/analytic_centre.hpp>
@@ -27,6 +28,7 @@
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/explicit.hpp>
 #include <voussoir/solver/generation_stage.hpp>

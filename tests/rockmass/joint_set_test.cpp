@@ -71,17 +71,35 @@ TEST_SUITE("rockmass/joint_set") {
       CHECK(refusal(set) == "joint set bedding: " + rule);
     };
     const double nan = std::nan("");
-    for (const double dip : {-0.01, 1.6, nan})
-      refused([=](JointSet& s) { s.dip = dip; }, "dip must be 0 to 90 deg");
-    for (const double sd : {-1e-9, inf, nan})
-      refused([=](JointSet& s) { s.dip_deviation = sd; }, "deviation of the dip must be >= 0");
-    refused([](JointSet& s) { s.spacing = 1; }, "give either an intensity > 0 or a spacing > 0");
-    refused([](JointSet& s) { s.intensity = 0; }, "give either an intensity > 0 or a spacing > 0");
-    refused([=](JointSet& s) { s.intensity = nan; },
-            "give either an intensity > 0 or a spacing > 0");
-    refused([](JointSet& s) { s.intensity = inf; }, "intensity and spacing must be finite");
-    for (const double extent : {0.0, -1.0, nan})
-      refused([=](JointSet& s) { s.extent = extent; }, "extent must be > 0");
+    const std::string dips = " deg): must be 0 to 1.571 rad (0 to 90 deg)";
+    refused([](JointSet& s) { s.dip = -0.01; }, "dip = -0.01 rad (-0.573" + dips);
+    refused([](JointSet& s) { s.dip = 1.6; },
+            "dip = 1.6 rad (91.67" + dips + "; did you mean 1.6 * pi / 180?");
+    refused([](JointSet& s) { s.dip = 75; },
+            "dip = 75 rad (4297" + dips + "; did you mean 75 * pi / 180?");
+    refused([=](JointSet& s) { s.dip = nan; }, "dip = nan rad (nan" + dips);
+    const std::string deviations = " deg): must be 0 to 0.7854 rad (0 to 45 deg)";
+    refused([](JointSet& s) { s.dip_deviation = 2; },
+            "dip_deviation = 2 rad (114.6" + deviations + "; did you mean 2 * pi / 180?");
+    refused([](JointSet& s) { s.dip_deviation = -1; },
+            "dip_deviation = -1 rad (-57.3" + deviations);
+    for (const double sd : {-1e-9, inf, nan}) {
+      JointSet set = good;
+      set.dip_deviation = sd;
+      CHECK(refusal(set).find("dip_deviation = ") != std::string::npos);
+    }
+    const auto densities = [](const char* intensity, const char* spacing) {
+      return std::string("intensity = ") + intensity + " /m^2 and spacing = " + spacing + " m: ";
+    };
+    const std::string one = "one of the two must be > 0, the other 0";
+    refused([](JointSet& s) { s.spacing = 1; }, densities("1.000000", "1.000000") + one);
+    refused([](JointSet& s) { s.intensity = 0; }, densities("0.000000", "0.000000") + one);
+    refused([=](JointSet& s) { s.intensity = nan; }, densities("nan", "0.000000") + one);
+    refused([](JointSet& s) { s.intensity = inf; },
+            densities("inf", "0.000000") + "must be finite");
+    refused([](JointSet& s) { s.extent = 0; }, "extent = 0.000000 m: must be > 0");
+    refused([](JointSet& s) { s.extent = -1; }, "extent = -1.000000 m: must be > 0");
+    refused([=](JointSet& s) { s.extent = nan; }, "extent = nan m: must be > 0");
     JointSet vertical = good;
     vertical.dip = 90 * degree;
     CHECK(refusal(vertical) == "accepted");

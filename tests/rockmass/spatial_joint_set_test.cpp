@@ -87,17 +87,24 @@ TEST_SUITE("rockmass/spatial_joint_set") {
     };
     using Set = SpatialJointSet;
     const double nan = std::nan("");
-    refused([](Set& s) { s.dip = 100 * degree; }, "dip = 100.000000 must be 0 to 90 deg");
-    refused([](Set& s) { s.dip = -1 * degree; }, "dip = -1.000000 must be 0 to 90 deg");
-    refused([=](Set& s) { s.dip = nan; }, "dip = nan must be 0 to 90 deg");
-    refused([](Set& s) { s.dip_direction = 361 * degree; },
-            "dip_direction = 361.000000 must be 0 to 360 deg");
+    const std::string dips = " deg): must be 0 to 1.571 rad (0 to 90 deg)";
+    const std::string azimuths = " deg): must be 0 to 6.283 rad (0 to 360 deg)";
+    refused([](Set& s) { s.dip = 100 * degree; },
+            "dip = 1.745 rad (100" + dips + "; did you mean 1.745 * pi / 180?");
+    refused([](Set& s) { s.dip = 75; },
+            "dip = 75 rad (4297" + dips + "; did you mean 75 * pi / 180?");
+    refused([](Set& s) { s.dip = -1 * degree; }, "dip = -0.01745 rad (-1" + dips);
+    refused([=](Set& s) { s.dip = nan; }, "dip = nan rad (nan" + dips);
+    refused([](Set& s) { s.dip_direction = 120; },
+            "dip_direction = 120 rad (6875" + azimuths + "; did you mean 120 * pi / 180?");
     refused([](Set& s) { s.dip_direction = -90 * degree; },
-            "dip_direction = -90.000000 must be 0 to 360 deg");
-    refused([](Set& s) { s.dip_deviation = -0.5; },
-            "dip_deviation = -0.500000 must be >= 0 and finite");
+            "dip_direction = -1.571 rad (-90" + azimuths);
+    refused(
+        [](Set& s) { s.dip_deviation = 5; },
+        "dip_deviation = 5 rad (286.5 deg): must be 0 to 0.7854 rad (0 to 45 deg); did you mean "
+        "5 * pi / 180?");
     refused([](Set& s) { s.dip_direction_deviation = inf; },
-            "dip_direction_deviation = inf must be >= 0 and finite");
+            "dip_direction_deviation = inf rad (inf deg): must be 0 to 3.142 rad (0 to 180 deg)");
     refused([=](Set& s) { s.fisher_concentration = nan; },
             "fisher_concentration = nan must be >= 0 and finite");
     refused(

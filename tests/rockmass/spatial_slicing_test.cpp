@@ -360,9 +360,42 @@ TEST_SUITE("rockmass/spatial_slicing") {
     CHECK(at(0.5, {0.2500001, inf}) == 1);
     CHECK(at(0.5, {0.2499999, inf}) == 2);
     CHECK(at(3.5, {0.2500001, inf}) == 1);  // the other child counts as well
-    // The right part is 3.5 x 1 x 1: diagonal sqrt(14.25) over diameter 1 is 3.7749.
-    CHECK(at(0.5, {0, 3.774}) == 1);
-    CHECK(at(0.5, {0, 3.775}) == 2);
+    // The left part is 0.2 x 1 x 1: diagonal sqrt(2.04) over diameter 0.2 is 7.1414; the ground has
+    // sqrt(18).
+    CHECK(at(0.2, {0, 7.141}) == 1);
+    CHECK(at(0.2, {0, 7.142}) == 2);
+  }
+
+  TEST_CASE("a domain longer than the limit allows is cut like any other") {
+    const auto set = [](const char* name, double dip, double direction) {
+      return SpatialJointSet{.name = name,
+                             .dip = dip * degree,
+                             .dip_direction = direction * degree,
+                             .dip_deviation = 5 * degree,
+                             .count_per_volume = 0.5,
+                             .shape = DiscJoints{2}};
+    };
+    const std::vector sets{set("A", 80, 90), set("B", 85, 0), set("C", 5, 90)};
+    // Elongation 1.9 (within the limit), 18.9 and 9.5.
+    std::vector<double> densities;
+    for (const Vec3& size : {Vec3(12, 10, 10), Vec3(150, 8, 8), Vec3(20, 20, 3)}) {
+      CAPTURE(size.x());
+      const Domain<3> ground{-0.5 * size, 0.5 * size};
+      const auto mass = slice<Spatial>(ground, joint_network(sets, ground, 2), {0.25, 4});
+      const auto count = static_cast<double>(mass.bodies.size());
+      densities.push_back(count / ground.measure());
+      CHECK(std::abs(densities.back() / densities.front() - 1) < 0.1);
+      std::size_t too_long = 0;
+      for (const auto& body : mass.bodies)
+        too_long += detail::elongation(body.parts[0]) > 4 * (1 + 1e-12);
+      CHECK(too_long == mass.slicing.blocks_too_long);
+      CHECK(static_cast<double>(too_long) < 0.01 * count);
+      if (size.x() == 12) CHECK(too_long == 0);
+    }
+    // A plate of 8 x 8 x 1 (11.4) may be cut across, not split.
+    const Domain<3> plate{{0, 0, 0}, {8, 8, 1}};
+    CHECK(slice<Spatial>(plate, {upright(0, 4)}, {0, 5}).slicing.cuts == 1);
+    CHECK(slice<Spatial>(plate, {upright(2, 0.5)}, {0, 5}).slicing.refused_too_long == 1);
   }
 
   TEST_CASE("V / S <= inscribed radius <= 3 V / S; a tetrahedron and a slab reach the ends") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -34,6 +35,25 @@ class NumericalFault : public std::runtime_error {
 inline void require(bool holds, const char* name, double value, const char* range) {
   if (holds) return;
   throw InvalidInput(std::string(name) + " = " + std::to_string(value) + ": must be " + range);
+}
+
+/// Refuses an angle in radians outside low..high; the message has its value in degrees as well, and
+/// says so if it would be inside as a number of degrees, the commonest slip.
+/// @param name  with what it belongs to: "joint set J1: dip"
+inline void require_angle(const std::string& name, double angle, double low, double high) {
+  if (angle >= low && angle <= high) return;
+  constexpr double degree = 3.141592653589793 / 180;
+  const auto text = [](double value) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.4g", value);
+    return std::string(digits);
+  };
+  std::string message = name + " = " + text(angle) + " rad (" + text(angle / degree) +
+                        " deg): must be " + text(low) + " to " + text(high) + " rad (" +
+                        text(low / degree) + " to " + text(high / degree) + " deg)";
+  if (const double meant = angle * degree; meant >= low && meant <= high)
+    message += "; did you mean " + text(angle) + " * pi / 180?";
+  throw InvalidInput(message);
 }
 
 /// Runs `make`; if it refuses its data, the refusal says of what: "block 17: convex polygon: ...".

@@ -25,12 +25,19 @@ class ConvexPolygon {
   ConvexPolygon() = default;
 
   /// @param vertices  anticlockwise, first not repeated [m]
-  /// @param cuts      label of each face; as many as vertices
+  /// @param cuts      label of each face: for rock, its index in RockMass::cuts; as many as
+  /// vertices
   /// @throws InvalidInput  fewer than 3 vertices, a number that is not finite, a repeated vertex, a
   ///                       clockwise or non-convex corner, no area, an outline that crosses
   ///                       itself; the message names the vertex, the value and the rule
   ConvexPolygon(std::vector<Vec2> vertices, std::vector<int> cuts)
       : vertices_(std::move(vertices)), cuts_(std::move(cuts)) {
+    check();
+  }
+
+  /// The same with faces that no cut made; enough for all but `CutContacts`.
+  explicit ConvexPolygon(std::vector<Vec2> vertices)
+      : vertices_(std::move(vertices)), cuts_(vertices_.size(), no_cut) {
     check();
   }
 

@@ -38,7 +38,7 @@ class ConvexPolyhedron {
 
   /// @param vertices  each once [m]
   /// @param faces     vertices of each face by number, anticlockwise seen from outside
-  /// @param cuts      label of each face
+  /// @param cuts      label of each face: for rock, its index in RockMass::cuts
   /// @throws InvalidInput  fewer than 4 vertices or faces, a coordinate that is not finite, a
   ///                       vertex repeated or in no face, a face with fewer than 3 vertices, a
   ///                       wrong number or one twice, a face without area, not planar or not
@@ -59,6 +59,10 @@ class ConvexPolyhedron {
     }
     detail::SurfaceCheck(surface_).run();
   }
+
+  /// The same with faces that no cut made; enough for all but `CutContacts`.
+  ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces)
+      : ConvexPolyhedron(std::move(vertices), faces, std::vector<int>(faces.size(), no_cut)) {}
 
   /// Number of faces.
   [[nodiscard]] std::size_t size() const { return surface_.faces.size(); }

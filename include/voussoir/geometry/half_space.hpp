@@ -20,6 +20,9 @@ struct HalfSpace {
   }
 };
 
+/// The label of a face that no cut made: of shapes that do not come from slicing.
+inline constexpr int no_cut = -1;
+
 /// The half space left of the directed line from `a` to `b`.
 [[nodiscard]] inline HalfSpace<2> left_of(const Vec2& a, const Vec2& b) {
   return HalfSpace<2>::through(a, -perpendicular(b - a).normalized());

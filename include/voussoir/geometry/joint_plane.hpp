@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
@@ -38,12 +40,13 @@ struct JointPlane {
 /// @param normal  of any length > 0
 /// @throws InvalidInput  not finite, or a normal of no length
 [[nodiscard]] inline JointPlane unbounded_joint(const Vec3& point, const Vec3& normal) {
-  const double length = normal.norm();
+  const double length = repeatable::norm<3>(normal);
   if (!(is_finite(point) && std::isfinite(length) && length > 0))
     throw InvalidInput("joint plane through " + text_of<3>(point) +
                        " m: needs a finite point and a normal of length > 0, not " +
                        text_of<3>(normal));
-  return {HalfSpace<3>::through(point, normal / length), {}};
+  const Vec3 unit = normal / length;
+  return {{unit, repeatable::dot<3>(unit, point)}, {}};
 }
 
 /// Rectangle with the half sides `along` and `across`, which must be perpendicular [m]; its normal
@@ -51,7 +54,7 @@ struct JointPlane {
 /// @throws InvalidInput  not finite, no area, or sides that are not perpendicular
 [[nodiscard]] inline JointPlane joint_rectangle(const Vec3& centre, const Vec3& along,
                                                 const Vec3& across) {
-  JointPlane joint = unbounded_joint(centre, cross(along, across));
+  JointPlane joint = unbounded_joint(centre, repeatable::cross(along, across));
   if (!(std::abs(along.dot(across)) <= 1e-9 * along.norm() * across.norm()))
     throw InvalidInput("joint rectangle at " + text_of<3>(centre) +
                        " m: its sides must be perpendicular");
@@ -65,7 +68,7 @@ inline constexpr int disc_corners = 32;
 /// Circumscribed radius of that polygon over the radius of the disc: both have the same area.
 [[nodiscard]] inline double disc_reach() {
   const double step = 2 * std::numbers::pi / disc_corners;
-  return std::sqrt(step / std::sin(step));
+  return std::sqrt(step / repeatable::sine(step));
 }
 
 /// A disc as a regular polygon of the same area, so that the area of joints per volume is that of
@@ -78,12 +81,29 @@ inline constexpr int disc_corners = 32;
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InvalidInput("joint disc at " + text_of<3>(centre) + " m: diameter " +
                        std::to_string(diameter) + " m must be > 0 and finite");
-  const TangentBasis<3> axes = tangent_basis(joint.plane.normal);
+  using namespace repeatable;
+  // As tangent_basis does it.
+  const Vec3& n = joint.plane.normal;
+  const Vec3 s(2.0 / 7, 3.0 / 7, 6.0 / 7), u(6.0 / 7, 2.0 / 7, -3.0 / 7);
+  const Vec3 h = sum<3>(s, n);
+  const double squared = dot<3>(h, h);
+  Vec3 first = squared > 0 ? along<3>(u, -2 * dot<3>(h, u) / squared, h) : u;
+  first = along<3>(first, -dot<3>(n, first), n);
+  first /= norm<3>(first);
+  const Vec3 second = repeatable::cross(n, first);
+  static const std::array<Vec2, disc_corners> circle = [] {
+    std::array<Vec2, disc_corners> points;
+    for (int k = 0; k < disc_corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / disc_corners;
+      points[static_cast<std::size_t>(k)] = Vec2(cosine(angle), sine(angle));
+    }
+    return points;
+  }();
   const double radius = 0.5 * diameter * disc_reach();
-  for (int k = 0; k < disc_corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / disc_corners;
-    joint.corners.push_back(
-        centre + radius * (std::cos(angle) * column(axes, 0) + std::sin(angle) * column(axes, 1)));
+  joint.corners.reserve(circle.size());
+  for (const Vec2& at : circle) {
+    const Vec3 out = along<3>(scaled<3>(at.x(), first), at.y(), second);
+    joint.corners.push_back(along<3>(centre, radius, out));
   }
   return joint;
 }

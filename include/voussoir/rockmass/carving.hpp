@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -162,13 +163,15 @@ template <class Shape>
 /// @param smallest  area (2-D) or volume (3-D) below which a body at the wall is dropped [m^2],
 ///                  [m^3]
 /// @throws InvalidInput  the opening is not inside the domain, or nothing would be left
+/// @throws Stopped
 /// @cost  one bounding test per body; cuts near the outline only
 ///
 /// Source: the clump variant of Boon's block generator (construction joints). Removing whole blocks
 /// by their centroid leaves a ragged wall; making every piece a body leaves slivers that fall.
 template <class Geometry>
 [[nodiscard]] RockMass<Geometry> carve(RockMass<Geometry> mass,
-                                       const typename Geometry::Opening& opening, double smallest) {
+                                       const typename Geometry::Opening& opening, double smallest,
+                                       const Progress& progress = {}) {
   constexpr int dim = Geometry::dim;
   using Shape = typename Geometry::Shape;
   const Domain<dim>& domain = mass.domain;
@@ -181,7 +184,9 @@ template <class Geometry>
   CarvingReport& report = mass.carving;
   std::vector<Body<Geometry>> kept;
   kept.reserve(mass.bodies.size());
+  StopCheck stop(progress);
   for (Body<Geometry>& body : mass.bodies) {
+    stop();
     if (std::all_of(body.parts.begin(), body.parts.end(), [&](const Shape& part) {
           return detail::apart(part, box.first, box.second);
         })) {
@@ -232,7 +237,7 @@ template <class Geometry>
     }
   }
   if (kept.empty()) throw InvalidInput("opening: no rock is left around it");
-  weld(kept, tolerance);
+  weld(kept, tolerance, stop);
   mass.bodies = std::move(kept);
   mass.openings.push_back(opening);
   return mass;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
@@ -20,12 +21,16 @@ struct CutContacts {
   using role = roles::ContactDetector;
   static constexpr const char* name = "CutContacts";
 
+  /// @throws Stopped
   template <class Geometry>
-  [[nodiscard]] static std::vector<ContactFacet<Geometry>> find(const RockMass<Geometry>& mass) {
+  [[nodiscard]] static std::vector<ContactFacet<Geometry>> find(const RockMass<Geometry>& mass,
+                                                                const Progress& progress = {}) {
+    StopCheck stop(progress);
     const std::vector<detail::FaceRef> faces = detail::faces_by_cut(mass);
     std::vector<ContactFacet<Geometry>> contacts;
     contacts.reserve(faces.size() / 2);
     for (std::size_t i = 0; i < faces.size();) {
+      stop();
       std::size_t end = i;
       while (end < faces.size() && faces[end].cut == faces[i].cut) ++end;
       const std::size_t before = contacts.size();

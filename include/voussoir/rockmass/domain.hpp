@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
@@ -26,7 +27,7 @@ struct Domain {
 
   [[nodiscard]] Vec<Dim> size() const { return high - low; }
   [[nodiscard]] double measure() const { return product_of_entries(size()); }
-  [[nodiscard]] double diameter() const { return size().norm(); }
+  [[nodiscard]] double diameter() const { return repeatable::norm<Dim>(size()); }
   [[nodiscard]] double surface() const { return high[Dim - 1]; }
   [[nodiscard]] double depth(const Vec<Dim>& p) const { return surface() - p[Dim - 1]; }
 

@@ -23,7 +23,7 @@ namespace detail {
   return voussoir::is_finite(trace.start) && voussoir::is_finite(trace.end);
 }
 [[nodiscard]] inline bool is_finite(const JointPlane& trace) {
-  return trace.plane.normal.allFinite() && std::isfinite(trace.plane.offset) &&
+  return voussoir::is_finite(trace.plane.normal) && std::isfinite(trace.plane.offset) &&
          std::all_of(trace.corners.begin(), trace.corners.end(),
                      [](const Vec3& corner) { return voussoir::is_finite(corner); });
 }

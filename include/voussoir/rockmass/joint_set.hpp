@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/random.hpp>
+#include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/joint.hpp>
@@ -24,7 +26,7 @@ struct JointSet {
   std::string name;
   double dip;  ///< from the horizontal [rad], 0 to pi/2
   DipDirection dip_direction = DipDirection::east;
-  double dip_deviation = 0;  ///< standard deviation of the dip, normal [rad], >= 0
+  double dip_deviation = 0;  ///< standard deviation of the dip, normal [rad], 0 to pi/4
   double intensity = 0;      ///< joint centres per area [1/m^2]; 0: use `spacing`
   double spacing = 0;        ///< normal spacing [m]; 0: use `intensity`
   double extent = std::numeric_limits<double>::infinity();  ///< full length of a trace [m], > 0
@@ -32,15 +34,16 @@ struct JointSet {
   /// @throws InvalidInput  a value out of range, or not exactly one of intensity and spacing
   void check() const {
     const std::string of = "joint set " + name + ": ";
-    const auto rule = [&of](bool holds, const char* text) {
+    const auto rule = [&of](bool holds, const std::string& text) {
       if (!holds) throw InvalidInput(of + text);
     };
-    rule(dip >= 0 && dip <= 0.5 * std::numbers::pi, "dip must be 0 to 90 deg");
-    rule(dip_deviation >= 0 && std::isfinite(dip_deviation), "deviation of the dip must be >= 0");
-    rule((intensity > 0) != (spacing > 0), "give either an intensity > 0 or a spacing > 0");
-    rule(std::isfinite(intensity) && std::isfinite(spacing),
-         "intensity and spacing must be finite");
-    rule(extent > 0, "extent must be > 0");
+    require_angle(of + "dip", dip, 0, 0.5 * std::numbers::pi);
+    require_angle(of + "dip_deviation", dip_deviation, 0, 0.25 * std::numbers::pi);
+    const std::string both = "intensity = " + std::to_string(intensity) +
+                             " /m^2 and spacing = " + std::to_string(spacing) + " m: ";
+    rule((intensity > 0) != (spacing > 0), both + "one of the two must be > 0, the other 0");
+    rule(std::isfinite(intensity) && std::isfinite(spacing), both + "must be finite");
+    rule(extent > 0, "extent = " + std::to_string(extent) + " m: must be > 0");
   }
 };
 
@@ -48,7 +51,7 @@ namespace detail {
 
 /// Unit vector down the dip.
 [[nodiscard]] inline Vec2 dip_vector(double dip, DipDirection direction) {
-  const double x = std::cos(dip), y = -std::sin(dip);
+  const double x = repeatable::cosine(dip), y = -repeatable::sine(dip);
   return {direction == DipDirection::east ? x : -x, y};
 }
 
@@ -56,11 +59,12 @@ namespace detail {
 template <class Set, int Dim>
 [[nodiscard]] std::vector<JointOf<Dim>> shuffled_joints(const std::vector<Set>& sets,
                                                         const Domain<Dim>& domain,
-                                                        std::uint64_t seed) {
+                                                        std::uint64_t seed,
+                                                        const Progress& progress) {
   domain.check();
   std::vector<JointOf<Dim>> all;
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed);
+    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed, progress);
     all.insert(all.end(), joints.begin(), joints.end());
   }
   Random(seed, 0).shuffle(all);
@@ -75,23 +79,27 @@ template <class Set, int Dim>
 /// centres per area) centres are uniform over the domain and their number is the expected one,
 /// rounded. With a spacing and no end the joints are equidistant, with a random first one.
 [[nodiscard]] inline std::vector<Joint> generate(const JointSet& set, int index,
-                                                 const Domain<2>& domain, std::uint64_t seed) {
+                                                 const Domain<2>& domain, std::uint64_t seed,
+                                                 const Progress& progress = {}) {
+  using repeatable::along, repeatable::product;
   set.check();
+  StopCheck stop(progress);
   Random random(seed, static_cast<std::uint64_t>(index) + 1);
   const double half = 0.5 * std::fmin(set.extent, 2.1 * domain.diameter());
   std::vector<Joint> joints;
   const auto add = [&](const Vec2& centre) {
-    const Vec2 along =
-        detail::dip_vector(set.dip + set.dip_deviation * random.normal(), set.dip_direction);
-    joints.push_back({{centre - half * along, centre + half * along}, index});
+    stop();
+    const double dip = set.dip + product(set.dip_deviation, random.normal());
+    const Vec2 down = detail::dip_vector(dip, set.dip_direction);
+    joints.push_back({{along<2>(centre, -half, down), along<2>(centre, half, down)}, index});
   };
   if (set.spacing > 0 && std::isinf(set.extent)) {
     const Vec2 centre = 0.5 * (domain.low + domain.high);
     const Vec2 normal = perpendicular(detail::dip_vector(set.dip, set.dip_direction));
     const double reach = 0.5 * domain.diameter();
-    const double first = -reach + random.uniform() * set.spacing;
+    const double first = -reach + product(random.uniform(), set.spacing);
     const auto count = static_cast<int>(std::floor((reach - first) / set.spacing)) + 1;
-    for (int k = 0; k < count; ++k) add(centre + (first + k * set.spacing) * normal);
+    for (int k = 0; k < count; ++k) add(along<2>(centre, first + product(k, set.spacing), normal));
     return joints;
   }
   const double intensity = set.intensity > 0 ? set.intensity : 1.0 / (set.spacing * set.extent);
@@ -99,16 +107,22 @@ template <class Set, int Dim>
   joints.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double x = random.uniform(), y = random.uniform();
-    add(domain.low + scaled_by(domain.size(), Vec2(x, y)));
+    add(domain.low + Vec2(product(domain.size().x(), x), product(domain.size().y(), y)));
   }
   return joints;
 }
 
 /// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
 /// would use up the block sizes that the minimum allows.
+///
+/// The joints of a seed are the same to the last bit whatever compiler and flags (see
+/// repeatable.hpp).
+/// @param progress  asked now and then whether to go on
+/// @throws InvalidInput, Stopped
 [[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
-                                                      const Domain<2>& domain, std::uint64_t seed) {
-  return detail::shuffled_joints(sets, domain, seed);
+                                                      const Domain<2>& domain, std::uint64_t seed,
+                                                      const Progress& progress = {}) {
+  return detail::shuffled_joints(sets, domain, seed, progress);
 }
 
 }  // namespace voussoir

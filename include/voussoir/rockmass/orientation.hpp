@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -16,22 +17,24 @@ struct Orientation {
 
 /// Unit vector down the dip.
 [[nodiscard]] inline Vec3 dip_vector(const Orientation& plane) {
-  const double level = std::cos(plane.dip);
-  return {level * std::sin(plane.dip_direction), level * std::cos(plane.dip_direction),
-          -std::sin(plane.dip)};
+  using namespace repeatable;
+  const double level = cosine(plane.dip);
+  return {product(level, sine(plane.dip_direction)), product(level, cosine(plane.dip_direction)),
+          -sine(plane.dip)};
 }
 
 /// Unit vector along the strike, the plane falling to its right (right-hand rule): it is a quarter
 /// turn to the left of the dip direction, and cross(dip, strike) points upward.
 [[nodiscard]] inline Vec3 strike_vector(const Orientation& plane) {
-  return {-std::cos(plane.dip_direction), std::sin(plane.dip_direction), 0};
+  return {-repeatable::cosine(plane.dip_direction), repeatable::sine(plane.dip_direction), 0};
 }
 
 /// Unit normal that points upward: 30 deg towards 090 gives (sin 30, 0, cos 30).
 [[nodiscard]] inline Vec3 upward_normal(const Orientation& plane) {
-  const double level = std::sin(plane.dip);
-  return {level * std::sin(plane.dip_direction), level * std::cos(plane.dip_direction),
-          std::cos(plane.dip)};
+  using namespace repeatable;
+  const double level = sine(plane.dip);
+  return {product(level, sine(plane.dip_direction)), product(level, cosine(plane.dip_direction)),
+          cosine(plane.dip)};
 }
 
 /// Dip and dip direction of the plane with this normal, of either sense and any length > 0. A

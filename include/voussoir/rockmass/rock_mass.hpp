@@ -32,14 +32,21 @@ struct Body {
 
 /// What slicing did, for the report: nothing is dropped silently.
 struct SlicingReport {
-  std::size_t joints = 0;         ///< joints offered
-  std::size_t cuts = 0;           ///< blocks cut in two
-  std::size_t unused_joints = 0;  ///< joints that cut nothing
+  std::size_t joints = 0;          ///< joints offered
+  std::size_t cuts = 0;            ///< blocks cut in two
+  std::size_t unused_joints = 0;   ///< joints that cut nothing
+  std::size_t outside_joints = 0;  ///< of them, joints that do not reach the domain
   std::size_t coincident =
       0;  ///< cuts not made: the joint only touches the block, or runs along a face
   std::size_t refused_too_small = 0;  ///< cuts refused: a child's inscribed radius
   std::size_t refused_too_long = 0;   ///< cuts refused: a child's elongation
+  std::size_t blocks_too_long = 0;    ///< blocks beyond the elongation limit: the domain is, too
   std::size_t vanished_faces = 0;     ///< faces shorter (narrower) than the tolerance, welded away
+
+  /// Times that a joint went into a block, whatever became of it.
+  [[nodiscard]] std::size_t offered_cuts() const {
+    return cuts + coincident + refused_too_small + refused_too_long;
+  }
 };
 
 /// What carving an opening did.

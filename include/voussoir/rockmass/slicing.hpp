@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
@@ -18,6 +21,11 @@
 namespace voussoir {
 
 /// Which blocks may exist. A cut that would make a smaller or longer one is not made.
+///
+/// A block that is too long itself, as a wide or flat domain is, must still become blocks: it is
+/// cut where neither part is further beyond the limit in metres, nor has more of an elongation than
+/// the domain. Cuts that make it less long are so never refused for length. What remains too long
+/// in the end is counted.
 struct BlockLimits {
   double min_inscribed_radius = 0;  ///< [m], >= 0
   /// Longest diagonal / inscribed diameter [-], >= 2.
@@ -91,6 +99,19 @@ template <class Shape>
   return is_good(radius) ? Fit::good : Fit::too_long;
 }
 
+/// Longest diagonal / inscribed diameter [-].
+template <class Shape>
+[[nodiscard]] double elongation(const Shape& block) {
+  return block.diameter() / (2 * inscribed_ball(block).radius);
+}
+
+/// By how much the longest diagonal is longer than the limit lets it be [m]; 0 within the limit.
+template <class Shape>
+[[nodiscard]] double excess_length(const Shape& block, const BlockLimits& limits) {
+  if (!std::isfinite(limits.max_elongation)) return 0;
+  return std::max(0.0, block.diameter() - 2 * limits.max_elongation * inscribed_ball(block).radius);
+}
+
 /// The half space below (left of) a joint.
 [[nodiscard]] inline HalfSpace<2> side_of(const Segment& trace) {
   return left_of(trace.start, trace.end);
@@ -114,14 +135,16 @@ class Slicer {
   using Shape = typename Geometry::Shape;
   using Trace = typename Geometry::Trace;
 
-  Slicer(const Domain<Geometry::dim>& domain, const BlockLimits& limits)
-      : domain_(domain), limits_(limits), tolerance_(domain.tolerance()) {
+  Slicer(const Domain<Geometry::dim>& domain, const BlockLimits& limits, StopCheck& stop)
+      : stop_(stop), domain_(domain), limits_(limits), tolerance_(domain.tolerance()) {
     domain.check();
     limits.check();
     for (int side = 0; side < 2 * Geometry::dim; ++side)
       cuts_.push_back({Cut::Kind::boundary, side});
     nodes_.push_back({});
     blocks_.push_back(as_block(domain));
+    excess_.push_back(detail::excess_length(blocks_.front(), limits));
+    if (excess_.front() > 0) longest_ = elongation(blocks_.front());
     for (std::size_t face = 0; face < blocks_.front().size(); ++face)
       sides_.push_back(blocks_.front().half_space(face));
   }
@@ -134,6 +157,7 @@ class Slicer {
     std::optional<Trace> inside = bounded(joint.trace, domain_);
     for (const auto& side : sides_)
       if (inside) inside = voussoir::split(std::move(*inside), side, tolerance_).below;
+    if (!inside) ++report_.outside_joints;
     pending_.clear();
     if (inside) pending_.emplace_back(0, std::move(*inside));
     while (!pending_.empty()) {
@@ -145,6 +169,7 @@ class Slicer {
         if (above) pending_.emplace_back(node.above, std::move(*above));
         if (below) pending_.emplace_back(node.below, std::move(*below));
       } else {
+        stop_();  // a long joint may reach every block there is
         used = cut_block(at, plane, index) || used;
       }
     }
@@ -161,6 +186,7 @@ class Slicer {
     // In the order of the tree neighbours in space are neighbours in memory.
     std::vector<std::size_t> stack{0};
     while (!stack.empty()) {
+      stop_();
       const Node& node = nodes_[stack.back()];
       stack.pop_back();
       if (node.block < 0) {
@@ -173,7 +199,9 @@ class Slicer {
         mass.bodies.push_back(std::move(body));
       }
     }
-    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_);
+    mass.slicing.blocks_too_long = static_cast<std::size_t>(
+        std::count_if(excess_.begin(), excess_.end(), [](double excess) { return excess > 0; }));
+    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_, stop_);
     return mass;
   }
 
@@ -191,8 +219,17 @@ class Slicer {
       ++report_.coincident;
       return false;
     }
-    for (const Shape* part : {&parts->first, &parts->second}) {
-      const Fit fit = fits(*part, limits_);
+    std::array<double, 2> excess{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Shape& part = side == 0 ? parts->first : parts->second;
+      Fit fit = fits(part, limits_);
+      if (fit == Fit::too_long && excess_[block] > 0) {
+        excess[side] = excess_length(part, limits_);
+        // A part that keeps the longest diagonal is as long as the block: no rounding refuses it.
+        if (excess[side] <= excess_[block] * (1 + same_length) &&
+            elongation(part) <= longest_ * (1 + same_length))
+          fit = Fit::good;
+      }
       if (fit == Fit::too_small) ++report_.refused_too_small;
       if (fit == Fit::too_long) ++report_.refused_too_long;
       if (fit != Fit::good) return false;
@@ -205,16 +242,23 @@ class Slicer {
     nodes_[at] = {plane, nodes_.size(), nodes_.size() + 1, -1};
     nodes_.push_back(below);
     nodes_.push_back(above);
+    excess_[block] = excess[0];
+    excess_.push_back(excess[1]);
     blocks_[block] = std::move(parts->first);
     blocks_.push_back(std::move(parts->second));
     return true;
   }
 
+  static constexpr double same_length = 1e-9;
+
+  StopCheck& stop_;
   Domain<Geometry::dim> domain_;
   BlockLimits limits_;
   double tolerance_;
   std::vector<Node> nodes_;
   std::vector<Shape> blocks_;
+  std::vector<double> excess_;  ///< of each block: its length beyond the limit, 0 for most [m]
+  double longest_ = 0;          ///< elongation of the domain, where it is beyond the limit [-]
   std::vector<HalfSpace<Geometry::dim>> sides_;  ///< of the domain
   std::vector<Cut> cuts_;
   std::vector<std::pair<std::size_t, Trace>> pending_;
@@ -224,22 +268,29 @@ class Slicer {
 }  // namespace detail
 
 /// Slices the domain by the joints, in their order. A joint cuts right through every block that
-/// its extent reaches, unless a child would break the limits.
+/// its extent reaches, unless a child would break the limits (see BlockLimits, for domains that
+/// break them as well).
 ///
+/// @param progress  told how many of the joints are through, asked whether to go on
 /// @throws InvalidInput  domain or limits out of range, a joint that is not finite
+/// @throws Stopped
 /// @cost   about 10 microseconds per block in the plane, 5 in space (`slice<Spatial>`); linear
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 2.1 (rock slicing).
 template <class Geometry = Planar>
 [[nodiscard]] RockMass<Geometry> slice(const Domain<Geometry::dim>& domain,
                                        const std::vector<JointOf<Geometry::dim>>& joints,
-                                       const BlockLimits& limits) {
-  detail::Slicer<Geometry> slicer(domain, limits);
+                                       const BlockLimits& limits, const Progress& progress = {}) {
+  StopCheck stop(progress);
+  detail::Slicer<Geometry> slicer(domain, limits, stop);
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (!detail::is_finite(joints[k].trace))
       throw InvalidInput("joint " + std::to_string(k) + " of set " + std::to_string(joints[k].set) +
                          ": every coordinate must be finite");
-  for (std::size_t k = 0; k < joints.size(); ++k) slicer.cut_by(joints[k], static_cast<int>(k));
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    stop(static_cast<double>(k) / static_cast<double>(joints.size()));
+    slicer.cut_by(joints[k], static_cast<int>(k));
+  }
   return slicer.finish(joints);
 }
 

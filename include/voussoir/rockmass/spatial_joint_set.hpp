@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/random.hpp>
+#include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/joint.hpp>
@@ -42,8 +43,8 @@ struct SpatialJointSet {
   double dip;            ///< mean, from the horizontal [rad], 0 to pi/2
   double dip_direction;  ///< mean, azimuth clockwise from North (y) [rad], 0 to 2 pi
 
-  double dip_deviation = 0;            ///< standard deviation, normal [rad], >= 0
-  double dip_direction_deviation = 0;  ///< standard deviation, normal [rad], >= 0
+  double dip_deviation = 0;            ///< standard deviation, normal [rad], 0 to pi/4
+  double dip_direction_deviation = 0;  ///< standard deviation, normal [rad], 0 to pi
   double fisher_concentration = 0;     ///< kappa of Fisher's distribution [-], > 0; 0: none
 
   double spacing = 0;           ///< along the mean normal [m], > 0
@@ -70,56 +71,96 @@ namespace detail {
   if (const auto* disc = std::get_if<DiscJoints>(&set.shape))
     return 0.5 * disc->diameter * disc_reach();
   const auto& sides = std::get<RectangularJoints>(set.shape);
-  return 0.5 * std::hypot(sides.strike_length, sides.dip_length);
+  return 0.5 * repeatable::norm<2>(Vec2(sides.strike_length, sides.dip_length));
 }
 
-/// A random orientation about the mean of the set. The numbers drawn are the same on every
-/// platform; the sine, cosine and logarithm are the mathematical library's, so that the last digit
-/// may not be.
+/// The directions of a plane in space.
+struct PlaneFrame {
+  Vec3 normal;  ///< upward
+  Vec3 down;    ///< down the dip
+  Vec3 strike;  ///< level, the plane falling to its right
+};
+[[nodiscard]] inline PlaneFrame frame_of(const Orientation& plane) {
+  return {upward_normal(plane), dip_vector(plane), strike_vector(plane)};
+}
+
+/// A random orientation about the mean of the set, the same on every platform to the last bit.
 ///
 /// Fisher's distribution has density ~ exp(kappa cos theta) sin theta in the angle theta from the
 /// mean normal; its distribution function is inverted (Fisher, Lewis & Embleton 1987, section
 /// 3.6.2), written so that neither a small nor a large kappa cancels.
-[[nodiscard]] inline Orientation random_orientation(const SpatialJointSet& set, Random& random) {
-  const Orientation mean{set.dip, set.dip_direction};
+[[nodiscard]] inline PlaneFrame random_frame(const SpatialJointSet& set, Random& random) {
+  using namespace repeatable;
+  Orientation plane{set.dip, set.dip_direction};
   if (!(set.fisher_concentration > 0)) {
-    Orientation plane = mean;
-    if (set.dip_deviation > 0) plane.dip += set.dip_deviation * random.normal();
+    if (set.dip_deviation > 0) plane.dip += product(set.dip_deviation, random.normal());
     if (set.dip_direction_deviation > 0)
-      plane.dip_direction += set.dip_direction_deviation * random.normal();
-    return plane;
+      plane.dip_direction += product(set.dip_direction_deviation, random.normal());
+    return frame_of(plane);
   }
+  const PlaneFrame mean = frame_of(plane);
   const double kappa = set.fisher_concentration;
-  const double versine = -std::log1p(random.uniform() * std::expm1(-2 * kappa)) / kappa;
-  const double sine = std::sqrt(std::max(0.0, versine * (2 - versine)));
+  const double versine =
+      -repeatable::log1p(product(random.uniform(), repeatable::expm1(-2 * kappa))) / kappa;
+  const double radius = std::sqrt(std::max(0.0, product(versine, 2 - versine)));
   const double azimuth = 2 * std::numbers::pi * random.uniform();
-  const Vec3 normal =
-      (1 - versine) * upward_normal(mean) +
-      sine * (std::cos(azimuth) * dip_vector(mean) + std::sin(azimuth) * strike_vector(mean));
-  return orientation_of(normal);
+  const Vec3 level = along<3>(scaled<3>(cosine(azimuth), mean.down), sine(azimuth), mean.strike);
+  Vec3 normal = along<3>(scaled<3>(1 - versine, mean.normal), radius, level);
+  if (normal.z() < 0) normal = -normal;
+  normal /= norm<3>(normal);
+  const double slope = norm<2>(Vec2(normal.x(), normal.y()));  // the sine of the dip
+  if (!(slope > 0)) return frame_of({0, 0});
+  const double east = normal.x() / slope, north = normal.y() / slope;
+  return {
+      normal, {product(normal.z(), east), product(normal.z(), north), -slope}, {-north, east, 0}};
 }
 
 /// A joint of the set's shape about `centre`.
 [[nodiscard]] inline JointPlane joint_at(const SpatialJointSet& set, const Vec3& centre,
-                                         const Orientation& plane) {
-  const Vec3 normal = upward_normal(plane);
+                                         const PlaneFrame& plane) {
+  using repeatable::scaled;
   if (const auto* disc = std::get_if<DiscJoints>(&set.shape))
-    return joint_disc(centre, normal, disc->diameter);
+    return joint_disc(centre, plane.normal, disc->diameter);
   if (const auto* sides = std::get_if<RectangularJoints>(&set.shape))
-    return joint_rectangle(centre, 0.5 * sides->dip_length * dip_vector(plane),
-                           0.5 * sides->strike_length * strike_vector(plane));
-  return unbounded_joint(centre, normal);
+    return joint_rectangle(centre, scaled<3>(0.5 * sides->dip_length, plane.down),
+                           scaled<3>(0.5 * sides->strike_length, plane.strike));
+  return unbounded_joint(centre, plane.normal);
 }
 
-/// True if some of the joint lies inside the domain.
+/// True if some of the joint lies inside the domain, further than the tolerance.
 [[nodiscard]] inline bool reaches(const JointPlane& joint, const Domain<3>& domain) {
-  const Vec3 centre = 0.5 * (domain.low + domain.high);
-  std::optional<JointPlane> inside = covering(joint, centre, domain.diameter());
+  using namespace repeatable;
+  const double tolerance = domain.tolerance();
+  if (joint.is_unbounded()) {
+    const Vec3 centre = 0.5 * (domain.low + domain.high), half = 0.5 * domain.size();
+    const double distance = dot<3>(joint.plane.normal, centre) - joint.plane.offset;
+    return std::abs(distance) < dot<3>(magnitudes(joint.plane.normal), half) - tolerance;
+  }
+  // Clipped by one side of the domain after the other.
+  std::vector<Vec3> corners = joint.corners, inside;
   for (int axis = 0; axis < 3; ++axis)
-    for (const HalfSpace<3>& side : {HalfSpace<3>{axis_vector<3>(axis), domain.high[axis]},
-                                     HalfSpace<3>{-axis_vector<3>(axis), -domain.low[axis]}})
-      if (inside) inside = split(std::move(*inside), side, domain.tolerance()).below;
-  return inside.has_value();
+    for (const bool low : {true, false}) {
+      const auto beyond = [&](const Vec3& p) {
+        const double d = low ? domain.low[axis] - p[axis] : p[axis] - domain.high[axis];
+        return std::abs(d) <= tolerance ? 0.0 : d;
+      };
+      inside.clear();
+      bool any = false;
+      const Vec3* from = &corners.back();
+      double here = beyond(*from);
+      for (const Vec3& to : corners) {
+        const double there = beyond(to);
+        if ((here < 0 && there > 0) || (here > 0 && there < 0))
+          inside.push_back(along<3>(*from, here / (here - there), to - *from));
+        if (there <= 0) inside.push_back(to);
+        any = any || there < 0;
+        from = &to;
+        here = there;
+      }
+      if (!any) return false;
+      corners.swap(inside);
+    }
+  return true;
 }
 
 }  // namespace detail
@@ -130,15 +171,17 @@ inline void SpatialJointSet::check() const {
       throw InvalidInput("joint set " + name + ": " + what + " = " + std::to_string(value) +
                          " must be " + text);
   };
-  constexpr double pi = std::numbers::pi, degrees = 180 / pi;
-  rule(dip >= 0 && dip <= 0.5 * pi, "dip", dip * degrees, "0 to 90 deg");
-  rule(dip_direction >= 0 && dip_direction <= 2 * pi, "dip_direction", dip_direction * degrees,
-       "0 to 360 deg");
+  constexpr double pi = std::numbers::pi;
+  const auto angle = [this](const char* what, double value, double most) {
+    require_angle("joint set " + name + ": " + what, value, 0, most);
+  };
+  angle("dip", dip, 0.5 * pi);
+  angle("dip_direction", dip_direction, 2 * pi);
+  angle("dip_deviation", dip_deviation, 0.25 * pi);
+  angle("dip_direction_deviation", dip_direction_deviation, pi);
   const auto not_negative = [&rule](const char* what, double value) {
     rule(value >= 0 && std::isfinite(value), what, value, ">= 0 and finite");
   };
-  not_negative("dip_deviation", dip_deviation);
-  not_negative("dip_direction_deviation", dip_direction_deviation);
   not_negative("fisher_concentration", fisher_concentration);
   rule(!(fisher_concentration > 0 && (dip_deviation > 0 || dip_direction_deviation > 0)),
        "fisher_concentration", fisher_concentration,
@@ -175,16 +218,21 @@ inline void SpatialJointSet::check() const {
 /// independently of each other (uniform along the mean normal) if P32 is.
 ///
 /// @param index  of the set: its stream of random numbers, and the label of its joints
+/// @param progress  asked now and then whether to go on
 /// @throws InvalidInput  see SpatialJointSet::check
+/// @throws Stopped
 ///
 /// Source: Dershowitz & Herda (1992), Interpretation of fracture spacing and intensity (P30, P32).
 [[nodiscard]] inline std::vector<SpatialJoint> generate(const SpatialJointSet& set, int index,
-                                                        const Domain<3>& domain,
-                                                        std::uint64_t seed) {
+                                                        const Domain<3>& domain, std::uint64_t seed,
+                                                        const Progress& progress = {}) {
+  using repeatable::along, repeatable::product;
   set.check();
+  StopCheck stop(progress);
   Random random(seed, static_cast<std::uint64_t>(index) + 1);
   std::vector<SpatialJoint> joints;
-  const auto add = [&](const Vec3& centre, const Orientation& plane) {
+  const auto add = [&](const Vec3& centre, const detail::PlaneFrame& plane) {
+    stop();
     JointPlane joint = detail::joint_at(set, centre, plane);
     if (detail::reaches(joint, domain)) joints.push_back({std::move(joint), index});
   };
@@ -193,17 +241,18 @@ inline void SpatialJointSet::check() const {
     const double reach = 0.5 * domain.diameter();
     if (set.spacing > 0) {
       const Vec3 normal = upward_normal({set.dip, set.dip_direction});
-      const double first = -reach + random.uniform() * set.spacing;
+      const double first = -reach + product(random.uniform(), set.spacing);
       const auto count = static_cast<int>(std::floor((reach - first) / set.spacing)) + 1;
       for (int k = 0; k < count; ++k)
-        add(centre + (first + k * set.spacing) * normal, detail::random_orientation(set, random));
+        add(along<3>(centre, first + product(k, set.spacing), normal),
+            detail::random_frame(set, random));
     } else {
       // A plane at a uniform offset within the reach has on average the area volume / (2 reach),
       // whatever its orientation.
       const auto count = static_cast<int>(std::llround(set.area_per_volume * 2 * reach));
       for (int k = 0; k < count; ++k) {
-        const Orientation plane = detail::random_orientation(set, random);
-        add(centre + reach * (2 * random.uniform() - 1) * upward_normal(plane), plane);
+        const detail::PlaneFrame plane = detail::random_frame(set, random);
+        add(along<3>(centre, product(reach, 2 * random.uniform() - 1), plane.normal), plane);
       }
     }
     return joints;
@@ -214,10 +263,11 @@ inline void SpatialJointSet::check() const {
                                 : 1 / (set.spacing * detail::joint_area(set));
   const Vec3 reach = all_entries<3>(detail::joint_reach(set));
   const Vec3 low = domain.low - reach, size = domain.size() + 2 * reach;
-  const auto count = static_cast<std::size_t>(std::llround(per_volume * size.prod()));
+  const auto count = static_cast<std::size_t>(std::llround(per_volume * product_of_entries(size)));
   for (std::size_t k = 0; k < count; ++k) {
     const double x = random.uniform(), y = random.uniform(), z = random.uniform();
-    add(low + scaled_by(size, Vec3(x, y, z)), detail::random_orientation(set, random));
+    add(low + Vec3(product(size.x(), x), product(size.y(), y), product(size.z(), z)),
+        detail::random_frame(set, random));
   }
   return joints;
 }
@@ -225,8 +275,9 @@ inline void SpatialJointSet::check() const {
 /// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
 /// would use up the block sizes that the minimum allows.
 [[nodiscard]] inline std::vector<SpatialJoint> joint_network(
-    const std::vector<SpatialJointSet>& sets, const Domain<3>& domain, std::uint64_t seed) {
-  return detail::shuffled_joints(sets, domain, seed);
+    const std::vector<SpatialJointSet>& sets, const Domain<3>& domain, std::uint64_t seed,
+    const Progress& progress = {}) {
+  return detail::shuffled_joints(sets, domain, seed, progress);
 }
 
 }  // namespace voussoir

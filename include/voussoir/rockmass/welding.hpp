@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
@@ -69,17 +70,25 @@ class VertexWelder {
 using Welder = VertexWelder<2>;
 
 /// Welds all vertices of some bodies.
+/// @throws Stopped  with the bodies partly welded
 /// @return  faces that vanished because their vertices became one (or, in 3-D, two)
 template <class Geometry>
-std::size_t weld(std::vector<Body<Geometry>>& bodies, double tolerance) {
+std::size_t weld(std::vector<Body<Geometry>>& bodies, double tolerance, StopCheck& stop) {
   VertexWelder<Geometry::dim> welder(tolerance);
   std::size_t vertices = 0, vanished = 0;
   for (const auto& body : bodies)
     for (const auto& part : body.parts) vertices += part.vertices().size();
   welder.reserve(vertices);
-  for (auto& body : bodies)
+  for (auto& body : bodies) {
+    stop();
     for (auto& part : body.parts) vanished += part.move_vertices(welder);
+  }
   return vanished;
+}
+template <class Geometry>
+std::size_t weld(std::vector<Body<Geometry>>& bodies, double tolerance) {
+  StopCheck never{Progress()};
+  return weld(bodies, tolerance, never);
 }
 
 }  // namespace voussoir

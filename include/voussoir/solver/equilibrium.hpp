@@ -2,11 +2,11 @@
 #pragma once
 
 #include <concepts>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
 
 namespace voussoir {
@@ -69,10 +69,6 @@ struct EquilibriumReport {
   int broken_bolts = 0;       ///< bolt springs that ruptured
   bool stopped = false;       ///< the caller asked to stop
 };
-
-/// Called now and then: a fraction between 0 and 1 of the work done, or a negative number where it
-/// cannot be known; returns false to stop the search (verdict undecided).
-using Progress = std::function<bool(double fraction)>;
 
 /// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.
 struct SearchContext {

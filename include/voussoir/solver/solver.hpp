@@ -41,20 +41,25 @@ class ComposedSolver {
   /// Puts the rock in its in-situ state.
   /// @param points  of every contact; with `centre` a block that touches others in one facet alone
   ///                can turn freely, which `TwoLevel` does not accept
+  /// @param progress  asked now and then whether to go on
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` out of range
+  /// @throws Stopped
   ComposedSolver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
-                 ContactPoints points = ContactPoints::gauss)
-      : ComposedSolver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ,
-                       points) {}
+                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {})
+      : ComposedSolver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points,
+                       progress) {}
   /// The same with laws of their own for some joint sets.
   ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-                 ContactPoints points = ContactPoints::gauss);
+                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {});
 
   /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
   /// goes on acting until a stage takes it away.
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]
+  /// @param progress        asked now and then whether to go on
   /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
-  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074);
+  /// @throws Stopped        the solver is then of no more use
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074,
+                const Progress& progress = {});
 
   /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
   /// present position of the rock, free of force but for its pretension.
@@ -139,7 +144,16 @@ class ComposedSolver {
 
   [[nodiscard]] std::vector<FacetPoint<dim>> points_on(const typename Geometry::Facet& facet) const;
 
-  void build();
+  /// The initial contacts; a detector may be asked to stop, but need not know how.
+  [[nodiscard]] static auto contacts_of(const RockMass<Geometry>& mass, const Progress& progress) {
+    if constexpr (requires { Detector::find(mass, progress); }) {
+      return Detector::find(mass, progress);
+    } else {
+      return Detector::find(mass);
+    }
+  }
+
+  void build(const Progress& progress);
 
   /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
   /// acting as a load.
@@ -203,7 +217,7 @@ template <class Geometry, class Detector, class JointLaw, class Anchors, class B
           class Lining, class Method>
 ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
     RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-    ContactPoints points)
+    ContactPoints points, const Progress& progress)
     : mass_(std::move(mass)),
       joint_laws_(std::move(joint_laws)),
       in_situ_(in_situ),
@@ -211,17 +225,17 @@ ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::
       system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
   in_situ_.check();
   if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
-  build();
+  build(progress);
 }
 
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
           class Lining, class Method>
 void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::excavate(
-    const typename Geometry::Opening& opening, double smallest_piece) {
+    const typename Geometry::Opening& opening, double smallest_piece, const Progress& progress) {
   if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
-  mass_ = carve(std::move(mass_), opening, smallest_piece);
+  mass_ = carve(std::move(mass_), opening, smallest_piece, progress);
   system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
-  build();
+  build(progress);
   Eigen::VectorXd f;
   system_.forces(system_.displacement, f);
   system_.wall_load = -f;
@@ -358,9 +372,12 @@ auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
 
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
           class Lining, class Method>
-void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::build() {
+void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::build(
+    const Progress& progress) {
+  StopCheck stop(progress);
   measures_.clear();
   for (const Body<Geometry>& body : mass_.bodies) {
+    stop();
     const auto& p = body.properties;
     const double weight = in_situ_.density * in_situ_.gravity * p.measure;
     const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
@@ -371,13 +388,15 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
   const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
   measures_.push_back(0.0);
   const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
-  for (const auto& c : Detector::find(mass_)) {
+  for (const auto& c : contacts_of(mass_, progress)) {
+    stop();
     const auto points = points_on(c.facet);
     const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
     system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
                        points, law);
   }
   for (const auto& f : boundary_facets(mass_)) {
+    stop();
     const auto points = points_on(f.facet);
     if (f.side == SideOf<dim>::top) {
       const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
@@ -390,11 +409,15 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
     }
   }
   auto shapes = std::make_shared<typename SystemType::Shapes>();
-  for (const Body<Geometry>& body : mass_.bodies) shapes->push_back(body.parts);
+  for (const Body<Geometry>& body : mass_.bodies) {
+    stop();
+    shapes->push_back(body.parts);
+  }
   shapes->push_back(edge_slabs(mass_.domain));
   system_.shapes = std::move(shapes);
   system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
   const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
+    stop();
     const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
     return in_situ_.stress<dim>(mass_.domain.depth(point));
   };

@@ -65,7 +65,7 @@ class SurfaceCheck {
     }
     // A billionth of the size: coordinates written with ten digits pass, and no joint is so thin.
     // Far from the origin the coordinates themselves are rounded to more than that.
-    const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    const double farthest = largest_entry(larger_of(magnitudes(low), magnitudes(high)));
     tolerance_ = 1e-9 * (high - low).norm() + 8 * std::numeric_limits<double>::epsilon() * farthest;
     for (std::size_t v = 0; v < vertices.size(); ++v)
       for (std::size_t w = 0; w < v; ++w)

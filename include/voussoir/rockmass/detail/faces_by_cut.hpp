@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <numeric>
+#include <string>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir::detail {
@@ -14,13 +16,23 @@ struct FaceRef {
 };
 
 /// All faces, ordered by the cut that made them; those of one cut as the bodies come.
+/// @throws InvalidInput  a face without a cut, as shapes have that were not sliced
 template <class Geometry>
 [[nodiscard]] std::vector<FaceRef> faces_by_cut(const RockMass<Geometry>& mass) {
   std::vector<std::size_t> next(mass.cuts.size() + 1, 0);  // where the next face of a cut goes
-  for (const auto& body : mass.bodies)
-    for (const auto& part : body.parts)
-      for (std::size_t k = 0; k < part.size(); ++k)
-        ++next[static_cast<std::size_t>(part.cut(k)) + 1];
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    for (const auto& part : mass.bodies[b].parts)
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const auto cut = static_cast<std::size_t>(part.cut(k));  // no_cut is the largest of all
+        if (cut >= mass.cuts.size())
+          throw InvalidInput("contacts from cuts: body " + std::to_string(b) + ", face " +
+                             std::to_string(k) + " has the cut label " +
+                             std::to_string(part.cut(k)) + ": must be 0 to " +
+                             std::to_string(mass.cuts.size()) +
+                             " - 1, as sliced rock has; search contacts of other shapes "
+                             "(FaceContacts)");
+        ++next[cut + 1];
+      }
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<FaceRef> faces(next.back());
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+
+namespace voussoir {
+
+/// Called now and then during long work: a fraction between 0 and 1 of the work done, or a negative
+/// number where it cannot be known; returns false to stop. Work that has a result to show for
+/// itself ends early and says so (equilibrium: verdict undecided); work of which a part is useless,
+/// as the making of rock is, throws `Stopped`.
+using Progress = std::function<bool(double fraction)>;
+
+/// Work was given up because its Progress said so. Nothing of it is left.
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("stopped on request") {}
+};
+
+/// Asks a Progress whether to go on, from a loop of many short turns: every few milliseconds,
+/// whatever a turn costs (up to some tenths of a millisecond), and never if there is none to ask.
+class StopCheck {
+ public:
+  /// @param progress  must outlive this; none: nothing is ever asked
+  explicit StopCheck(const Progress& progress) : progress_(progress ? &progress : nullptr) {}
+
+  /// One turn of the loop. @throws Stopped
+  void operator()(double fraction = -1) {
+    if (progress_ == nullptr || ++turns_ % turns_per_look != 0) return;
+    const auto now = Clock::now();
+    if (now - last_ < pause) return;
+    last_ = now;
+    if (!(*progress_)(fraction)) throw Stopped();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr unsigned turns_per_look = 32;
+  static constexpr std::chrono::milliseconds pause{10};
+  const Progress* progress_;
+  unsigned turns_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace voussoir

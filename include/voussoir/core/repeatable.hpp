@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <voussoir/core/vec.hpp>
+
+/// Arithmetic of which every bit is the same whatever compiler, flags and mathematical library a
+/// program is built with. What is drawn at random is computed with it: the rock of a seed is that
+/// rock everywhere. IEEE double precision, rounding to nearest, no -ffast-math.
+///
+/// Two things spoil that in plain code. A compiler may fuse a product and a sum into one operation
+/// that rounds once (-march=native with GCC's default -ffp-contract=fast); here a product is an
+/// explicit `std::fma(a, b, 0)`, which is rounded and can be fused with nothing. And the last digit
+/// of sin or log is the library's choice, or the compiler's where it knows the argument; here they
+/// are sums of IEEE operations in twice the digits (pairs of doubles), rounded at the end.
+namespace voussoir::repeatable {
+
+/// a b, rounded. (-0 becomes +0.)
+[[nodiscard]] inline double product(double a, double b) { return std::fma(a, b, 0.0); }
+
+template <int Dim>
+[[nodiscard]] Vec<Dim> scaled(double factor, const Vec<Dim>& v) {
+  Vec<Dim> result;
+  for (int k = 0; k < Dim; ++k) result[k] = product(factor, v[k]);
+  return result;
+}
+template <int Dim>
+[[nodiscard]] Vec<Dim> sum(const Vec<Dim>& a, const Vec<Dim>& b) {
+  Vec<Dim> result;
+  for (int k = 0; k < Dim; ++k) result[k] = a[k] + b[k];
+  return result;
+}
+/// origin + factor * v
+template <int Dim>
+[[nodiscard]] Vec<Dim> along(const Vec<Dim>& origin, double factor, const Vec<Dim>& v) {
+  return sum<Dim>(origin, scaled<Dim>(factor, v));
+}
+/// Added up from the last component on.
+template <int Dim>
+[[nodiscard]] double dot(const Vec<Dim>& a, const Vec<Dim>& b) {
+  double result = product(a[Dim - 1], b[Dim - 1]);
+  for (int k = Dim - 2; k >= 0; --k) result = product(a[k], b[k]) + result;
+  return result;
+}
+template <int Dim>
+[[nodiscard]] double norm(const Vec<Dim>& v) {
+  return std::sqrt(dot<Dim>(v, v));
+}
+[[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {product(a.y(), b.z()) - product(a.z(), b.y()),
+          product(a.z(), b.x()) - product(a.x(), b.z()),
+          product(a.x(), b.y()) - product(a.y(), b.x())};
+}
+
+namespace detail {
+
+/// high + low, |low| at most half a unit in the last place of high: 106 digits.
+/// Source: Dekker (1971), A floating-point technique for extending the available precision.
+struct Pair {
+  double high, low;
+};
+
+[[nodiscard]] inline Pair exact_sum(double a, double b) {
+  const double s = a + b, part = s - a;
+  return {s, (a - (s - part)) + (b - part)};
+}
+[[nodiscard]] inline Pair exact_product(double a, double b) {
+  const double p = product(a, b);
+  return {p, std::fma(a, b, -p)};
+}
+[[nodiscard]] inline Pair operator+(const Pair& a, const Pair& b) {
+  const Pair high = exact_sum(a.high, b.high), low = exact_sum(a.low, b.low);
+  const Pair first = exact_sum(high.high, high.low + low.high);
+  return exact_sum(first.high, first.low + low.low);
+}
+[[nodiscard]] inline Pair operator-(const Pair& a) { return {-a.high, -a.low}; }
+[[nodiscard]] inline Pair operator*(const Pair& a, const Pair& b) {
+  const Pair p = exact_product(a.high, b.high);
+  return exact_sum(p.high, p.low + (product(a.high, b.low) + product(a.low, b.high)));
+}
+[[nodiscard]] inline Pair operator/(const Pair& a, const Pair& b) {
+  const double q = a.high / b.high;
+  const Pair rest = a + -(b * Pair{q, 0});
+  return exact_sum(q, rest.high / b.high);
+}
+
+/// pi / 2 and ln 2 in three doubles.
+inline constexpr double quarter_turn[3] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54,
+                                           -0x1.f1976b7ed8fbcp-110};
+inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56,
+                                       0x1.7b57a079a1934p-111};
+
+/// x - count * (a constant in three doubles). @pre |count| < 2^20
+[[nodiscard]] inline Pair reduced(double x, double count, const double (&constant)[3]) {
+  const Pair first = exact_product(-count, constant[0]);
+  const Pair second = exact_product(-count, constant[1]);
+  Pair rest = exact_sum(x, first.high) + Pair{first.low, 0};
+  rest = rest + second;
+  return rest + Pair{product(-count, constant[2]), 0};
+}
+
+/// The sine and the cosine of r, |r| <= pi / 4, by Taylor's series.
+[[nodiscard]] inline Pair sine_series(const Pair& r) {
+  const Pair minus_square = -(r * r);
+  Pair sum{1, 0};
+  for (int n = 26; n >= 2; n -= 2)
+    sum = Pair{1, 0} + minus_square * sum / Pair{static_cast<double>(n * (n + 1)), 0};
+  return r * sum;
+}
+[[nodiscard]] inline Pair cosine_series(const Pair& r) {
+  const Pair minus_square = -(r * r);
+  Pair sum{1, 0};
+  for (int n = 25; n >= 1; n -= 2)
+    sum = Pair{1, 0} + minus_square * sum / Pair{static_cast<double>(n * (n + 1)), 0};
+  return sum;
+}
+
+/// sin(x + quarters * pi / 2)
+[[nodiscard]] inline double shifted_sine(double x, int quarters) {
+  const double count = std::floor(product(x, 2 / std::numbers::pi) + 0.5);
+  const Pair rest = reduced(x, count, quarter_turn);
+  const auto turns = static_cast<long long>(count) + quarters;
+  const Pair value = (turns & 1) != 0 ? cosine_series(rest) : sine_series(rest);
+  return (turns & 2) != 0 ? -value.high : value.high;
+}
+
+}  // namespace detail
+
+/// @pre |x| < 1e5
+[[nodiscard]] inline double sine(double x) { return detail::shifted_sine(x, 0); }
+/// @pre |x| < 1e5
+[[nodiscard]] inline double cosine(double x) { return detail::shifted_sine(x, 1); }
+
+/// e^x - 1 for x <= 0, exact where x is small.
+[[nodiscard]] inline double expm1(double x) {
+  using detail::Pair;
+  if (x < -100) return -1;  // to rounding
+  const double count = std::floor(product(x, 1 / detail::log_of_2[0]) + 0.5);
+  const Pair rest = detail::reduced(x, count, detail::log_of_2);
+  Pair sum{1, 0};
+  for (int n = 22; n >= 2; --n) sum = Pair{1, 0} + rest * sum / Pair{static_cast<double>(n), 0};
+  sum = rest * sum;
+  const double scale = std::ldexp(1.0, static_cast<int>(count));
+  return (detail::exact_sum(scale, -1) + Pair{product(scale, sum.high), product(scale, sum.low)})
+      .high;
+}
+
+/// log(1 + x) for -1 < x <= 0, exact where x is small.
+[[nodiscard]] inline double log1p(double x) {
+  using detail::Pair;
+  Pair argument = detail::exact_sum(1, x), beyond{x, 0};  // 1 + x, and what it has beyond 1
+  int count = 0;
+  while (product(argument.high, std::ldexp(1.0, -count)) < 0.70710678) --count;
+  if (count != 0) {
+    const double scale = std::ldexp(1.0, -count);
+    beyond = detail::exact_sum(product(scale, argument.high), -1) +
+             Pair{product(scale, argument.low), 0};
+  }
+  // log(1 + y) = 2 artanh z, z = y / (2 + y), |z| < 0.18
+  const Pair z = beyond / (Pair{2, 0} + beyond), square = z * z;
+  Pair sum{0, 0};
+  for (int n = 45; n >= 1; n -= 2)
+    sum = Pair{1, 0} / Pair{static_cast<double>(n), 0} + square * sum;
+  const Pair log = Pair{2, 0} * z * sum;
+  const double k = count;
+  return (log + detail::exact_product(k, detail::log_of_2[0]) +
+          detail::exact_product(k, detail::log_of_2[1]))
+      .high;
+}
+
+}  // namespace voussoir::repeatable

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/half_space.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/rockmass/domain.hpp>
+#include <voussoir/rockmass/joint.hpp>
+
+namespace voussoir {
+
+/// The part of a trace that lies in the domain, if any.
+[[nodiscard]] inline std::optional<Segment> inside_of(const Domain<2>& domain,
+                                                      const Segment& trace) {
+  std::optional<Segment> inside = trace;
+  for (int axis = 0; axis < 2; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      if (!inside) return inside;
+      const HalfSpace<2> side{sign * Vec2::Unit(axis),
+                              sign > 0 ? domain.high[axis] : -domain.low[axis]};
+      inside = split(*inside, side, domain.tolerance()).below;
+    }
+  return inside;
+}
+
+/// How mapped traces lie to the ground that is modelled.
+struct TraceCoverage {
+  std::size_t count = 0;   ///< of traces
+  std::size_t inside = 0;  ///< of them, those that reach into the domain
+  Vec2 low, high;          ///< extent of all traces, on the site grid [m]
+};
+
+/// @pre  at least one trace
+[[nodiscard]] inline TraceCoverage trace_coverage(const std::vector<Joint>& traces,
+                                                  const Domain<2>& domain) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  TraceCoverage found{traces.size(), 0, Vec2(inf, inf), Vec2(-inf, -inf)};
+  for (const Joint& joint : traces) {
+    found.inside += inside_of(domain, joint.trace).has_value();
+    for (const Vec2& end : {joint.trace.start, joint.trace.end})
+      for (int axis = 0; axis < 2; ++axis) {
+        const double at = end[axis] + domain.site_origin[axis];
+        found.low[axis] = std::min(found.low[axis], at);
+        found.high[axis] = std::max(found.high[axis], at);
+      }
+  }
+  return found;
+}
+
+/// Says how many traces reach the domain, where both lie, and what is probably wrong: the unit of
+/// the coordinates, or the site coordinates of the model's origin.
+/// @param origin_name  what the user calls the latter
+[[nodiscard]] inline std::string coverage_text(const TraceCoverage& found, const Domain<2>& domain,
+                                               const std::string& origin_name) {
+  const Vec2 low = domain.low + domain.site_origin, high = domain.high + domain.site_origin;
+  const auto meets = [&](const Vec2& a, const Vec2& b) {
+    return a.x() < high.x() && b.x() > low.x() && a.y() < high.y() && b.y() > low.y();
+  };
+  const double span = std::max(found.high.x() - found.low.x(), found.high.y() - found.low.y());
+  std::string cause;
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  for (const Unit& unit : {Unit{"millimetres", 1e-3}, Unit{"centimetres", 1e-2},
+                           Unit{"feet", 0.3048}, Unit{"kilometres", 1e3}}) {
+    // As large as the domain in that unit, and lying on it; a thousand times as large is no map.
+    const double size = unit.metres * span / domain.diameter();
+    if (cause.empty() && (found.inside == 0 || unit.metres == 1e-3) && size > 0.1 && size < 10 &&
+        meets(unit.metres * found.low, unit.metres * found.high))
+      cause = std::string("coordinates in ") + unit.name + ", where metres are read";
+  }
+  if (cause.empty() && span > 100 * domain.diameter())
+    cause = "coordinates that are not in metres, or a map of a far larger area";
+  if (cause.empty())
+    cause = origin_name + ", the place of the model on the site grid, which is " +
+            text_of<2>(domain.site_origin) + " m: the middle of the traces is " +
+            text_of<2>(Vec2(0.5 * (found.low + found.high))) + " m";
+  return std::to_string(found.inside) + " of " + std::to_string(found.count) +
+         (found.count == 1 ? " trace reaches" : " traces reach") +
+         " into the domain: on the site grid the traces lie within " + text_of<2>(found.low) +
+         " and " + text_of<2>(found.high) + " m, the domain within " + text_of<2>(low) + " and " +
+         text_of<2>(high) + " m; probable cause: " + cause;
+}
+
+/// How many blocks joints will cut, before any is cut: one for each, and one for each crossing of
+/// two, but no more than blocks of the smallest inscribed circle have room. Within a factor of two
+/// for networks in which joints do not end in whole rock; three joints through one point count as
+/// three crossings, where they make two.
+///
+/// @cost  linear in the joints: crossings are not looked for one by one but taken from the length
+///        and the direction of what runs through each of 24 x 24 cells
+[[nodiscard]] inline double estimated_blocks(const std::vector<Joint>& joints,
+                                             const Domain<2>& domain, double min_inscribed_radius) {
+  constexpr int cells = 24, directions = 90;
+  std::vector<double> lengths(std::size_t{cells} * cells * directions, 0.0);
+  double blocks = 1;
+  std::vector<double> at;
+  for (const Joint& joint : joints) {
+    const auto inside = inside_of(domain, joint.trace);
+    if (!inside) continue;
+    ++blocks;
+    const Vec2 run = inside->end - inside->start, size = domain.size();
+    double angle = std::atan2(run.y(), run.x()) / std::numbers::pi;
+    angle -= std::floor(angle);  // a line has no sense: 0 to 1 is half a turn
+    const auto direction = static_cast<std::size_t>(angle * directions) % directions;
+    at.assign({0.0, 1.0});  // where it passes from cell to cell
+    for (int axis = 0; axis < 2; ++axis) {
+      if (run[axis] == 0) continue;
+      const double from = (inside->start[axis] - domain.low[axis]) / size[axis] * cells;
+      const double to = (inside->end[axis] - domain.low[axis]) / size[axis] * cells;
+      for (double k = std::floor(std::min(from, to)) + 1; k < std::max(from, to); ++k)
+        at.push_back((k - from) / (to - from));
+    }
+    std::sort(at.begin(), at.end());
+    for (std::size_t k = 1; k < at.size(); ++k) {
+      const Vec2 middle = inside->start + 0.5 * (at[k - 1] + at[k]) * run;
+      std::array<std::size_t, 2> cell{};
+      for (int axis = 0; axis < 2; ++axis)
+        cell[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(
+            std::clamp((middle[axis] - domain.low[axis]) / size[axis] * cells, 0.0, cells - 1.0));
+      lengths[(cell[1] * cells + cell[0]) * directions + direction] +=
+          (at[k] - at[k - 1]) * run.norm();
+    }
+  }
+  const double cell_area = domain.measure() / (cells * cells);
+  for (std::size_t cell = 0; cell < std::size_t{cells} * cells; ++cell) {
+    const double* of = &lengths[cell * directions];
+    for (std::size_t i = 0; i < directions; ++i)
+      for (std::size_t j = 0; of[i] > 0 && j < i; ++j)
+        if (of[j] > 0)
+          blocks += of[i] * of[j] / cell_area *
+                    std::sin(std::numbers::pi * static_cast<double>(i - j) / directions);
+  }
+  // A grid of squares has one block to 4 r^2.
+  return std::min(blocks, 0.25 * domain.measure() / (min_inscribed_radius * min_inscribed_radius));
+}
+
+}  // namespace voussoir

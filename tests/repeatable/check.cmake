@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# The joints of a seed are the same to the last bit with every compiler and set of flags: joints.cpp
+# is compiled with several of both, and all must print the line below. Whoever changes what is drawn
+# from a seed changes the line, and says "results change" in CHANGELOG.md.
+#
+#   cmake -DCOMPILER=... -DOPTIONS=<file of include folders> -DSOURCE=... -DWORK=... -P check.cmake
+cmake_minimum_required(VERSION 3.25)
+set(expected "2-D 14911 77495dd4164cdd76, 3-D 8018 b4b3623161c82ab4")
+
+set(compilers "${COMPILER}")
+foreach(name g++ clang++)
+  find_program(found_${name} ${name})
+  if(found_${name})
+    list(APPEND compilers "${found_${name}}")
+  endif()
+endforeach()
+list(TRANSFORM compilers STRIP)
+list(REMOVE_DUPLICATES compilers)
+file(MAKE_DIRECTORY "${WORK}")
+
+foreach(compiler IN LISTS compilers)
+  foreach(flags "-O0" "-O2 -ffp-contract=off" "-O3 -march=native -ffp-contract=fast")
+    separate_arguments(list UNIX_COMMAND "${flags}")
+    execute_process(
+      COMMAND "${compiler}" -std=c++20 ${list} "@${OPTIONS}" "${SOURCE}" -o "${WORK}/joints"
+      RESULT_VARIABLE status ERROR_VARIABLE errors)
+    if(NOT status EQUAL 0)
+      message(FATAL_ERROR "${compiler} ${flags} does not compile ${SOURCE}:\n${errors}")
+    endif()
+    execute_process(COMMAND "${WORK}/joints" OUTPUT_VARIABLE line OUTPUT_STRIP_TRAILING_WHITESPACE)
+    message(STATUS "${compiler} ${flags}: ${line}")
+    if(NOT line STREQUAL expected)
+      message(FATAL_ERROR "${compiler} ${flags} draws other joints:\n  ${line}\nexpected\n  ${expected}")
+    endif()
+  endforeach()
+endforeach()
