@@ -77,7 +77,7 @@ inline constexpr int disc_corners = 32;
   JointPlane joint = unbounded_joint(centre, normal);
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InvalidInput("joint disc at " + text_of<3>(centre) + " m: diameter " +
-                       std::to_string(diameter) + " m must be > 0 and finite");
+                       message_number(diameter) + " m must be > 0 and finite");
   const TangentBasis<3> axes = tangent_basis(joint.plane.normal);
   const double radius = 0.5 * diameter * disc_reach();
   for (int k = 0; k < disc_corners; ++k) {
