@@ -219,10 +219,33 @@ TEST_SUITE("contact/coulomb_joint") {
     CHECK(refusal({kn, ks, phi}).empty());
     CHECK(refusal({kn, ks, 0}).empty());
     for (const double bad : {nan, infinite, 0.0, -1.0}) {
-      CHECK(refusal({bad, ks, phi}).starts_with("joint_normal_stiffness = " + std::to_string(bad)));
-      CHECK(refusal({kn, bad, phi}).starts_with("joint_shear_stiffness = " + std::to_string(bad)));
+      CHECK(refusal({bad, ks, phi})
+                .starts_with("joint_normal_stiffness = " + message_number(bad) + ": must be"));
+      CHECK(refusal({kn, bad, phi})
+                .starts_with("joint_shear_stiffness = " + message_number(bad) + ": must be"));
     }
     for (const double bad : {nan, infinite, -1e-9, 90 * degree, 2.0, 35.0})
-      CHECK(refusal({kn, ks, bad}).starts_with("friction_angle = " + std::to_string(bad)));
+      CHECK(
+          refusal({kn, ks, bad}).starts_with("friction_angle = " + message_number(bad) + " rad ("));
+  }
+
+  TEST_CASE("GPa/m given for Pa/m and degrees for radians are refused with what was meant") {
+    CHECK(
+        refusal({5, 0.5, 0.6}) ==
+        "joint_normal_stiffness = 5 Pa/m: must be >= 1000 Pa/m; did you mean 5 GPa/m = 5e9 Pa/m?");
+    CHECK(refusal({5e9, 0.5, 0.6}) ==
+          "joint_shear_stiffness = 0.5 Pa/m: must be >= 1000 Pa/m; did you mean 0.5 GPa/m = 5e8 "
+          "Pa/m?");
+    CHECK(refusal({5e9, 5e8, 35}) ==
+          "friction_angle = 35 rad (2005.35 deg): must be >= 0 and < pi/2 rad; did you mean 35 deg "
+          "= 0.610865 rad?");
+    CHECK(refusal({5e9, 5e8, -0.1}) ==
+          "friction_angle = -0.1 rad (-5.72958 deg): must be >= 0 and < pi/2 rad");
+    CHECK(refusal({1000, 1000, 0.6}).empty());
+    CHECK_THROWS_AS(CoulombJoint({999, 1000, 0.6}), InvalidInput);
+    // Without units anything positive goes, and nothing else.
+    CHECK(CoulombJoint({5, 0.5, 0.6}, any_units).joint_normal_stiffness() == 5);
+    CHECK_THROWS_AS(CoulombJoint({0, 1, 0}, any_units), InvalidInput);
+    CHECK_THROWS_AS(CoulombJoint({1, 1, 35}, any_units), InvalidInput);
   }
 }

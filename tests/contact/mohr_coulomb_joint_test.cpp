@@ -139,7 +139,7 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
                                             .friction_angle = 0.6,
                                             .cohesion = 1e5,
                                             .tensile_strength = 2e5}),
-                         "tensile_strength = 200000.000000: must be >= 0 Pa and <= cohesion / "
+                         "tensile_strength = 200000: must be >= 0 Pa and <= cohesion / "
                          "tan(phi)",
                          InvalidInput);
     CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, -1}), InvalidInput);

@@ -77,14 +77,13 @@ TEST_SUITE("geometry/convex_polygon") {
     CHECK(contains(refusal({{0, 0}, {1.5, 0}, {1.5, 0}, {1, 1}}), "it is at (1.5, 0) m"));
     // From along -y to along +x is a turn to the left by 90 degrees, so from -y to -x one right.
     CHECK(contains(refusal({{0, 2}, {0, 0}, {-1, 0}, {-1, 3}}),
-                   "vertex 1 is a non-convex or clockwise corner, the outline turns by -90.000000 "
+                   "vertex 1 is a non-convex or clockwise corner, the outline turns by -90 "
                    "degrees where it must turn left, by 0 or more: it is at (0, 0) m"));
     // There and back again: turns of 180 degrees on a line.
-    CHECK(contains(refusal({{0, 0}, {1, 0}, {0.5, 0}}),
-                   "encloses an area of 0.000000 m^2, must be > 0"));
+    CHECK(contains(refusal({{0, 0}, {1, 0}, {0.5, 0}}), "encloses an area of 0 m^2, must be > 0"));
     const std::vector<Vec2> corners = voussoir_test::regular(5, 1);
     CHECK(contains(refusal({corners[0], corners[2], corners[4], corners[1], corners[3]}),
-                   "it turns by 720.000000 degrees in all, must be 360"));
+                   "it turns by 720 degrees in all, must be 360"));
     std::string text;
     try {
       (void)naming("block 17", [] { return polygon({{0, 0}, {1, 0}}); });

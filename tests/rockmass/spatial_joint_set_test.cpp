@@ -112,32 +112,31 @@ TEST_SUITE("rockmass/spatial_joint_set") {
           s.fisher_concentration = 50;
           s.dip_deviation = 0.1;
         },
-        "fisher_concentration = 50.000000 must be 0 where deviations of dip or dip direction are "
+        "fisher_concentration = 50 must be 0 where deviations of dip or dip direction are "
         "given: one kind of scatter");
     const std::string one = ": exactly one must be > 0";
     refused([](Set& s) { s.count_per_volume = 0; },
-            "spacing = 0.000000, area_per_volume = 0.000000, count_per_volume = 0.000000" + one);
+            "spacing = 0, area_per_volume = 0, count_per_volume = 0" + one);
     refused([](Set& s) { s.spacing = 2; },
-            "spacing = 2.000000, area_per_volume = 0.000000, count_per_volume = 1.000000" + one);
+            "spacing = 2, area_per_volume = 0, count_per_volume = 1" + one);
     refused([](Set& s) { s.spacing = s.area_per_volume = 1; },
-            "spacing = 1.000000, area_per_volume = 1.000000, count_per_volume = 1.000000" + one);
-    refused([](Set& s) { s.area_per_volume = -3; },
-            "area_per_volume = -3.000000 must be >= 0 and finite");
+            "spacing = 1, area_per_volume = 1, count_per_volume = 1" + one);
+    refused([](Set& s) { s.area_per_volume = -3; }, "area_per_volume = -3 must be >= 0 and finite");
     refused([](Set& s) { s.spacing = inf; }, "spacing = inf must be >= 0 and finite");
-    refused([](Set& s) { s.shape = DiscJoints{0}; }, "diameter = 0.000000 must be > 0 and finite");
+    refused([](Set& s) { s.shape = DiscJoints{0}; }, "diameter = 0 must be > 0 and finite");
     refused([=](Set& s) { s.shape = DiscJoints{nan}; }, "diameter = nan must be > 0 and finite");
     refused(
         [](Set& s) {
           s.shape = RectangularJoints{-1, 2};
         },
-        "strike_length = -1.000000 must be > 0 and finite");
+        "strike_length = -1 must be > 0 and finite");
     refused(
         [](Set& s) {
           s.shape = RectangularJoints{1, inf};
         },
         "dip_length = inf must be > 0 and finite");
     refused([](Set& s) { s.shape = PersistentJoints{}; },
-            "count_per_volume = 1.000000 must be 0 for joints without end, which have no centre: "
+            "count_per_volume = 1 must be 0 for joints without end, which have no centre: "
             "give spacing or area_per_volume");
     CHECK_THROWS_AS((void)joint_network({discs()}, {{0, 0, 0}, {1, 0, 1}}, 1), InvalidInput);
   }

@@ -19,7 +19,7 @@ constexpr double stiffness = 3e6;
 
 /// Two bodies joined by one spring along x through both centres, free in space.
 Masses two_masses() {
-  Masses system(CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0}));
+  Masses system(CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units));
   system.add_body({Vec2(0, 0), 1, 1, true});
   system.add_body({Vec2(1, 0), 1, 1, true});
   system.bolt_laws.push_back(

@@ -32,7 +32,7 @@ constexpr double kn = 5e9, ks = 5e8, density = 2700, gravity = 9.81;
 class Scene {
  public:
   explicit Scene(double friction_angle)
-      : system(CoulombJoint({kn, ks, friction_angle}), kn, CoulombJoint({1, 1, 0})) {}
+      : system(CoulombJoint({kn, ks, friction_angle}), kn, CoulombJoint({1, 1, 0}, any_units)) {}
 
   int block(Vec2 low, Vec2 high, bool movable, bool is_wall = false) {
     const ConvexPolygon shape = as_block(Domain<2>{low, high});
@@ -180,7 +180,7 @@ TEST_SUITE("solver/finite_displacement") {
   }
 
   TEST_CASE("a system without shapes says so") {
-    Plane system(CoulombJoint({kn, ks, 0.5}), kn, CoulombJoint({1, 1, 0}));
+    Plane system(CoulombJoint({kn, ks, 0.5}), kn, CoulombJoint({1, 1, 0}, any_units));
     system.add_body({Vec2::Zero(), 1, 1, true});
     CHECK_THROWS_WITH_AS(find_contacts_again(system, 0.02),
                          "find_contacts_again: the system does not know the shapes of its bodies",

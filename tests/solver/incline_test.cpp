@@ -32,7 +32,7 @@ const std::vector<double> measures{0, width* height};
 
 /// Body 0 is the fixed plane, body 1 a block of 1.0 m x 0.2 m on it. Nothing has moved yet.
 Incline block_on_plane(double slope, double friction_angle) {
-  Incline system(CoulombJoint({kn, ks, friction_angle}), kn, CoulombJoint({1, 1, 0}));
+  Incline system(CoulombJoint({kn, ks, friction_angle}), kn, CoulombJoint({1, 1, 0}, any_units));
   system.add_body({Vec2(0, -1), 1e6, 1, false});
   system.add_body(
       {Vec2(0, 0.5 * height), weight, std::sqrt((width * width + height * height) / 12), true});

@@ -206,7 +206,8 @@ TEST_SUITE("solver/system") {
     // It pulls along the line of the displaced anchors, so blocks shifted without turning must be
     // taken at their shifted centres; at the reference positions F times the shear would be left.
     Wall wall(bar(), 30 * degree, 0, true);
-    PlaneSystem<AxialBolt> bare(CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0}));
+    PlaneSystem<AxialBolt> bare(CoulombJoint({1, 1, 0}, any_units), 1,
+                                CoulombJoint({1, 1, 0}, any_units));
     for (int b = 0; b < 3; ++b) bare.add_body(wall.system.body(b));
     bare.bolt_laws = wall.system.bolt_laws;
     bare.bolts = wall.system.bolts;
@@ -317,7 +318,8 @@ TEST_SUITE("solver/system") {
 
   TEST_CASE("three springs in series pull with a third of K_a") {
     const double stiffness = 0.2e9, load = 1e5;
-    PlaneSystem<AxialBolt> chain(CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0}));
+    PlaneSystem<AxialBolt> chain(CoulombJoint({1, 1, 0}, any_units), 1,
+                                 CoulombJoint({1, 1, 0}, any_units));
     for (int b = 0; b < 4; ++b) chain.add_body({Vec2(0.5 * b, 0), 1, 1, b > 0});
     chain.bolt_laws.push_back(AxialBolt({.axial_stiffness = stiffness}));
     for (int b = 0; b < 3; ++b) {
@@ -448,7 +450,8 @@ TEST_SUITE("solver/system") {
   }
 
   TEST_CASE("how far lining nodes move is not how far the rock moves") {
-    PlaneSystem<AxialBolt> system(CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0}));
+    PlaneSystem<AxialBolt> system(CoulombJoint({1, 1, 0}, any_units), 1,
+                                  CoulombJoint({1, 1, 0}, any_units));
     const int block = system.add_body({Vec2(0, 0), 1e4, 0.3, true});
     const int node = system.add_body({Vec2(1, 0), 0, 0.3, true, false});
     Eigen::VectorXd u = Eigen::VectorXd::Zero(6);

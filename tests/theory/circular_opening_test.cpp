@@ -105,8 +105,8 @@ TEST_SUITE("theory/circular_opening") {
     CHECK_THROWS_AS(kirsch(a, {pressure, -0.1}, g1, 8, 0), InvalidInput);
     CHECK_THROWS_AS(kirsch(a, {pressure, 1}, g1, 8, nan), InvalidInput);
     CHECK_THROWS_WITH_AS(kirsch(a, {pressure, 1}, {3.85e8, 0.5}, 8, 0),
-                         "Poisson's ratio nu = 0.500000: must be > -1 and < 0.5", InvalidInput);
+                         "Poisson's ratio nu = 0.5: must be > -1 and < 0.5", InvalidInput);
     CHECK_THROWS_WITH_AS(kirsch(a, {pressure, 1}, {-1, 0.2}, 8, 0),
-                         "shear modulus G = -1.000000: must be > 0 Pa", InvalidInput);
+                         "shear modulus G = -1: must be > 0 Pa", InvalidInput);
   }
 }

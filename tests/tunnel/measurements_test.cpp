@@ -64,7 +64,7 @@ struct RingAlone {
   }
 
   LiningSection section;
-  SystemType bodies{CoulombJoint({1, 1, 0}), 1, CoulombJoint({1, 1, 0})};
+  SystemType bodies{CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units)};
 };
 
 LiningSection shotcrete() { return LiningSection::rectangular(0.1, 25e9); }
@@ -130,7 +130,7 @@ TEST_SUITE("tunnel/measurements") {
     //   P = K_L l (u0 - u),  N = P / (2 sin(pi/n)),  u = N R cos(pi/n) / (E A)
     const double modulus = 1e9, came_in = 2e-3;
     const LiningSection section = shotcrete();
-    System<Planar, CoulombJoint, AxialBolt> system(CoulombJoint({1, 1, 0}), 1,
+    System<Planar, CoulombJoint, AxialBolt> system(CoulombJoint({1, 1, 0}, any_units), 1,
                                                    CoulombJoint({modulus, modulus, 30 * degree}));
     const auto vertex = [](int k) { return RingAlone::position(k); };
     for (int k = 0; k < count; ++k)

@@ -24,10 +24,10 @@ class AxialBolt {
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
 
   struct Params {
-    double axial_stiffness;            ///< K_a, across one joint [N/m], > 0
-    double pretension = 0;             ///< T0 [N], >= 0
-    double yield_force = unlimited;    ///< [N], > pretension
-    double rupture_force = unlimited;  ///< [N], > pretension; below the yield force: brittle
+    double axial_stiffness;            ///< K_a, across one joint [N/m], >= 1e3
+    double pretension = 0;             ///< T0 [N], 0 or >= 1e3
+    double yield_force = unlimited;    ///< [N], > pretension and >= 1e3
+    double rupture_force = unlimited;  ///< [N], as above; below the yield force: brittle
     double hardening_ratio = 0.02;     ///< stiffness after / before yield [-], 0 <= ratio < 1
     bool carries_compression = false;  ///< then without limit: it yields in tension only
   };
@@ -37,7 +37,15 @@ class AxialBolt {
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
-  explicit AxialBolt(const Params& params) : params_(params) {
+  explicit AxialBolt(const Params& params) : AxialBolt(params, any_units) {
+    require_plausible(params.axial_stiffness, "axial_stiffness", "N/m", 1e3, "MN/m", 1e6);
+    if (params.pretension > 0)
+      require_plausible(params.pretension, "pretension", "N", 1e3, "kN", 1e3);
+    require_plausible(params.yield_force, "yield_force", "N", 1e3, "kN", 1e3);
+    require_plausible(params.rupture_force, "rupture_force", "N", 1e3, "kN", 1e3);
+  }
+  /// The same for values that are not in SI units: > 0, pretension >= 0.
+  AxialBolt(const Params& params, AnyUnits) : params_(params) {
     require(params.axial_stiffness > 0 && std::isfinite(params.axial_stiffness), "axial_stiffness",
             params.axial_stiffness, "> 0 N/m");
     require(params.pretension >= 0 && std::isfinite(params.pretension), "pretension",

@@ -25,16 +25,19 @@ class AxialShearBolt {
 
   struct Params {
     AxialBolt::Params axial;
-    double shear_stiffness;  ///< K_s, across one joint [N/m], >= 0
+    double shear_stiffness;  ///< K_s, across one joint [N/m], 0 or >= 1e3
   };
   using State = AxialBolt::State;
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
   explicit AxialShearBolt(const Params& params)
-      : axial_(params.axial), shear_stiffness_(params.shear_stiffness) {
-    require(shear_stiffness_ >= 0 && std::isfinite(shear_stiffness_), "shear_stiffness",
-            shear_stiffness_, ">= 0 N/m");
+      : AxialShearBolt(AxialBolt(params.axial), params.shear_stiffness) {
+    if (shear_stiffness_ > 0)
+      require_plausible(shear_stiffness_, "shear_stiffness", "N/m", 1e3, "MN/m", 1e6);
   }
+  /// The same for values that are not in SI units.
+  AxialShearBolt(const Params& params, AnyUnits)
+      : AxialShearBolt(AxialBolt(params.axial, any_units), params.shear_stiffness) {}
 
   template <int Dim>
   [[nodiscard]] BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
@@ -52,6 +55,12 @@ class AxialShearBolt {
   }
 
  private:
+  AxialShearBolt(const AxialBolt& axial, double shear_stiffness)
+      : axial_(axial), shear_stiffness_(shear_stiffness) {
+    require(shear_stiffness_ >= 0 && std::isfinite(shear_stiffness_), "shear_stiffness",
+            shear_stiffness_, ">= 0 N/m");
+  }
+
   template <int Dim>
   [[nodiscard]] static Vec<Dim> across(const BoltSpan<Dim>& span) {
     return span.jump - span.axis.dot(span.jump) * span.axis;

@@ -28,6 +28,11 @@ struct BoltForce {
 
 template <class Law, int Dim>
 concept HasBoltState = std::default_initializable<typename Law::State>;
+/// A `State` that is a template, as that of a contact law is.
+template <class Law, int Dim>
+concept HasTemplateState = requires {
+  typename Law::template State<Dim>;
+};
 template <class Law, int Dim>
 concept HasBoltForce = requires(const Law law, const BoltSpan<Dim>& span,
                                 const typename Law::State& state) {
@@ -50,13 +55,22 @@ concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
 /// the bolt broke, so that equilibrium must be sought anew; `stiffness` [N/m] is that of `pull`,
 /// symmetric, not negative, and bounds the tangent stiffness near the initial span.
 ///
+/// A `State` with a `plastic_extension` [m] tells `bolt_forces` which bolts have yielded.
+///
 /// Models: AxialBolt, AxialShearBolt.
 template <class Law, int Dim>
-concept BoltLaw = Fills<Law, roles::BoltLaw> && std::copyable<Law> && HasBoltState<Law, Dim> &&
+concept BoltLaw =
+    Fills<Law, roles::BoltLaw> && HasName<Law> && std::copyable<Law> && HasBoltState<Law, Dim> &&
     HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
 
 template <class Law, int Dim>
 consteval bool explain_bolt_law() {
+  static_assert(Fills<Law, roles::BoltLaw>,
+                "bolt law: add `using role = voussoir::roles::BoltLaw`");
+  static_assert(HasName<Law>, "bolt law: add `static constexpr const char* name` for the log");
+  static_assert(std::copyable<Law>, "bolt law: must be copyable");
+  static_assert(!HasTemplateState<Law, Dim>,
+                "bolt law: `State` must be no template: `struct State`");
   static_assert(HasBoltState<Law, Dim>,
                 "bolt law: add `struct State` for what a bolt remembers at a joint");
   static_assert(HasBoltForce<Law, Dim>,

@@ -36,13 +36,13 @@ class BartonBandisJoint {
 
   struct Params {
     double roughness;                ///< JRC of the sample [-], 0 to 20
-    double wall_strength;            ///< JCS of the sample [Pa], > 0
+    double wall_strength;            ///< JCS of the sample [Pa], >= 1e4
     double residual_friction_angle;  ///< phi_r [rad], > 0 and < pi/2
-    double initial_stiffness;        ///< K_ni [Pa/m], > 0
+    double initial_stiffness;        ///< K_ni [Pa/m], >= 1e3
     double maximum_closure;          ///< V_m [m], > 0
     double sample_length = 0.1;      ///< L_0 [m], > 0
     double joint_length = 0.1;       ///< L_n [m], >= L_0
-    double largest_stress = 5e6;     ///< up to which the closure curve is followed [Pa], > 0
+    double largest_stress = 5e6;     ///< up to which the closure curve is followed [Pa], >= 1e3
   };
 
   /// K_ni and V_m of a joint under its first loads, from JRC, JCS and the strength of the rock.
@@ -76,12 +76,19 @@ class BartonBandisJoint {
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
-  explicit BartonBandisJoint(const Params& params) : p_(params) {
+  explicit BartonBandisJoint(const Params& params) : BartonBandisJoint(params, any_units) {
+    require_plausible(p_.wall_strength, "JCS", "Pa", 1e4, "MPa", 1e6);
+    require_plausible(p_.initial_stiffness, "K_ni", "Pa/m", 1e3, "GPa/m", 1e9);
+    require_plausible(p_.largest_stress, "largest_stress", "Pa", 1e3, "MPa", 1e6);
+  }
+  /// The same for values that are not in SI units: all > 0.
+  BartonBandisJoint(const Params& params, AnyUnits) : p_(params) {
     require(p_.roughness >= 0 && p_.roughness <= 20, "JRC", p_.roughness, ">= 0 and <= 20");
     require(p_.wall_strength > 0 && std::isfinite(p_.wall_strength), "JCS", p_.wall_strength,
             "> 0 Pa");
-    require(p_.residual_friction_angle > 0 && p_.residual_friction_angle < 0.5 * std::numbers::pi,
-            "residual_friction_angle", p_.residual_friction_angle, "> 0 and < pi/2 rad");
+    require_angle(
+        p_.residual_friction_angle > 0 && p_.residual_friction_angle < 0.5 * std::numbers::pi,
+        "residual_friction_angle", p_.residual_friction_angle, "> 0 and < pi/2 rad");
     require(p_.initial_stiffness > 0 && std::isfinite(p_.initial_stiffness), "K_ni",
             p_.initial_stiffness, "> 0 Pa/m");
     require(p_.maximum_closure > 0 && std::isfinite(p_.maximum_closure), "V_m", p_.maximum_closure,

@@ -28,11 +28,11 @@ class BurgersJoint {
   static constexpr const char* name = "BurgersJoint";
 
   struct Params {
-    double joint_normal_stiffness;  ///< k_n [Pa/m], > 0
-    double joint_shear_stiffness;   ///< k_s [Pa/m], > 0
+    double joint_normal_stiffness;  ///< k_n [Pa/m], >= 1e3
+    double joint_shear_stiffness;   ///< k_s [Pa/m], >= 1e3
     double friction_angle;          ///< phi [rad], 0 <= phi < pi/2
     double maxwell_viscosity;       ///< eta_M [Pa s/m], > 0; infinity: no steady creep
-    double kelvin_stiffness = std::numeric_limits<double>::infinity();  ///< k_K [Pa/m], > 0
+    double kelvin_stiffness = std::numeric_limits<double>::infinity();  ///< k_K [Pa/m], >= 1e3
     double kelvin_viscosity = std::numeric_limits<double>::infinity();  ///< eta_K [Pa s/m], > 0
   };
 
@@ -44,13 +44,15 @@ class BurgersJoint {
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
   explicit BurgersJoint(const Params& params)
-      : p_(params),
-        joint_(
-            {params.joint_normal_stiffness, params.joint_shear_stiffness, params.friction_angle}) {
-    require(p_.maxwell_viscosity > 0, "maxwell_viscosity", p_.maxwell_viscosity, "> 0 Pa s/m");
-    require(p_.kelvin_stiffness > 0, "kelvin_stiffness", p_.kelvin_stiffness, "> 0 Pa/m");
-    require(p_.kelvin_viscosity > 0, "kelvin_viscosity", p_.kelvin_viscosity, "> 0 Pa s/m");
+      : BurgersJoint(params, CoulombJoint({params.joint_normal_stiffness,
+                                           params.joint_shear_stiffness, params.friction_angle})) {
+    require_plausible(p_.kelvin_stiffness, "kelvin_stiffness", "Pa/m", 1e3, "GPa/m", 1e9);
   }
+  /// The same for values that are not in SI units: stiffnesses > 0.
+  BurgersJoint(const Params& params, AnyUnits)
+      : BurgersJoint(params, CoulombJoint({params.joint_normal_stiffness,
+                                           params.joint_shear_stiffness, params.friction_angle},
+                                          any_units)) {}
 
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
@@ -91,6 +93,12 @@ class BurgersJoint {
   [[nodiscard]] double joint_shear_stiffness() const { return p_.joint_shear_stiffness; }
 
  private:
+  BurgersJoint(const Params& params, const CoulombJoint& joint) : p_(params), joint_(joint) {
+    require(p_.maxwell_viscosity > 0, "maxwell_viscosity", p_.maxwell_viscosity, "> 0 Pa s/m");
+    require(p_.kelvin_stiffness > 0, "kelvin_stiffness", p_.kelvin_stiffness, "> 0 Pa/m");
+    require(p_.kelvin_viscosity > 0, "kelvin_viscosity", p_.kelvin_viscosity, "> 0 Pa s/m");
+  }
+
   Params p_;
   CoulombJoint joint_;
 };

@@ -27,8 +27,8 @@ class CoulombJoint {
   static constexpr const char* name = "CoulombJoint";
 
   struct Params {
-    double joint_normal_stiffness;  ///< k_n [Pa/m], > 0
-    double joint_shear_stiffness;   ///< k_s [Pa/m], > 0
+    double joint_normal_stiffness;  ///< k_n [Pa/m], >= 1e3
+    double joint_shear_stiffness;   ///< k_s [Pa/m], >= 1e3
     double friction_angle;          ///< phi [rad], 0 <= phi < pi/2
   };
 
@@ -39,14 +39,21 @@ class CoulombJoint {
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
-  explicit CoulombJoint(const Params& params)
+  explicit CoulombJoint(const Params& params) : CoulombJoint(params, any_units) {
+    require_plausible(params.joint_normal_stiffness, "joint_normal_stiffness", "Pa/m", 1e3, "GPa/m",
+                      1e9);
+    require_plausible(params.joint_shear_stiffness, "joint_shear_stiffness", "Pa/m", 1e3, "GPa/m",
+                      1e9);
+  }
+  /// The same for values that are not in SI units: stiffnesses > 0.
+  CoulombJoint(const Params& params, AnyUnits)
       : params_(params), friction_coefficient_(std::tan(params.friction_angle)) {
     require(params.joint_normal_stiffness > 0 && std::isfinite(params.joint_normal_stiffness),
             "joint_normal_stiffness", params.joint_normal_stiffness, "> 0 Pa/m");
     require(params.joint_shear_stiffness > 0 && std::isfinite(params.joint_shear_stiffness),
             "joint_shear_stiffness", params.joint_shear_stiffness, "> 0 Pa/m");
-    require(params.friction_angle >= 0 && params.friction_angle < 0.5 * std::numbers::pi,
-            "friction_angle", params.friction_angle, ">= 0 and < pi/2 rad");
+    require_angle(params.friction_angle >= 0 && params.friction_angle < 0.5 * std::numbers::pi,
+                  "friction_angle", params.friction_angle, ">= 0 and < pi/2 rad");
   }
 
   template <int Dim>

@@ -32,11 +32,11 @@ class MohrCoulombJoint {
   static constexpr const char* name = "MohrCoulombJoint";
 
   struct Params {
-    double joint_normal_stiffness;        ///< k_n [Pa/m], > 0
-    double joint_shear_stiffness;         ///< k_s [Pa/m], > 0
+    double joint_normal_stiffness;        ///< k_n [Pa/m], >= 1e3
+    double joint_shear_stiffness;         ///< k_s [Pa/m], >= 1e3
     double friction_angle;                ///< phi [rad], 0 <= phi < pi/2
-    double cohesion = 0;                  ///< c [Pa], >= 0
-    double tensile_strength = 0;          ///< sigma_t [Pa], 0 <= sigma_t <= c / tan(phi)
+    double cohesion = 0;                  ///< c [Pa], 0 or >= 100
+    double tensile_strength = 0;          ///< sigma_t [Pa], 0 or >= 100, <= c / tan(phi)
     double dilation_angle = 0;            ///< psi [rad], 0 <= psi <= phi
     double dilation_limit = 0;            ///< Q_max, slip after which it ends [m], >= 0
     double residual_friction_angle = -1;  ///< after failure [rad], 0 to phi; -1: phi
@@ -52,25 +52,35 @@ class MohrCoulombJoint {
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
-  explicit MohrCoulombJoint(const Params& params) : p_(params) {
+  explicit MohrCoulombJoint(const Params& params) : MohrCoulombJoint(params, any_units) {
+    require_plausible(p_.joint_normal_stiffness, "joint_normal_stiffness", "Pa/m", 1e3, "GPa/m",
+                      1e9);
+    require_plausible(p_.joint_shear_stiffness, "joint_shear_stiffness", "Pa/m", 1e3, "GPa/m", 1e9);
+    if (p_.cohesion > 0) require_plausible(p_.cohesion, "cohesion", "Pa", 100, "MPa", 1e6);
+    if (p_.tensile_strength > 0)
+      require_plausible(p_.tensile_strength, "tensile_strength", "Pa", 100, "MPa", 1e6);
+  }
+  /// The same for values that are not in SI units: stiffnesses > 0, strengths >= 0.
+  MohrCoulombJoint(const Params& params, AnyUnits) : p_(params) {
     if (p_.residual_friction_angle == -1) p_.residual_friction_angle = p_.friction_angle;
     constexpr double right = 0.5 * std::numbers::pi;
     require(p_.joint_normal_stiffness > 0 && std::isfinite(p_.joint_normal_stiffness),
             "joint_normal_stiffness", p_.joint_normal_stiffness, "> 0 Pa/m");
     require(p_.joint_shear_stiffness > 0 && std::isfinite(p_.joint_shear_stiffness),
             "joint_shear_stiffness", p_.joint_shear_stiffness, "> 0 Pa/m");
-    require(p_.friction_angle >= 0 && p_.friction_angle < right, "friction_angle",
-            p_.friction_angle, ">= 0 and < pi/2 rad");
+    require_angle(p_.friction_angle >= 0 && p_.friction_angle < right, "friction_angle",
+                  p_.friction_angle, ">= 0 and < pi/2 rad");
     require(p_.cohesion >= 0 && std::isfinite(p_.cohesion), "cohesion", p_.cohesion, ">= 0 Pa");
     require(p_.tensile_strength >= 0 &&
                 p_.tensile_strength * std::tan(p_.friction_angle) <= p_.cohesion * (1 + 1e-12),
             "tensile_strength", p_.tensile_strength, ">= 0 Pa and <= cohesion / tan(phi)");
-    require(p_.dilation_angle >= 0 && p_.dilation_angle <= p_.friction_angle, "dilation_angle",
-            p_.dilation_angle, ">= 0 and <= friction_angle");
+    require_angle(p_.dilation_angle >= 0 && p_.dilation_angle <= p_.friction_angle,
+                  "dilation_angle", p_.dilation_angle, ">= 0 and <= friction_angle");
     require(p_.dilation_limit >= 0 && std::isfinite(p_.dilation_limit), "dilation_limit",
             p_.dilation_limit, ">= 0 m");
-    require(p_.residual_friction_angle >= 0 && p_.residual_friction_angle <= p_.friction_angle,
-            "residual_friction_angle", p_.residual_friction_angle, ">= 0 and <= friction_angle");
+    require_angle(
+        p_.residual_friction_angle >= 0 && p_.residual_friction_angle <= p_.friction_angle,
+        "residual_friction_angle", p_.residual_friction_angle, ">= 0 and <= friction_angle");
     require(p_.residual_cohesion >= 0 && p_.residual_cohesion <= p_.cohesion, "residual_cohesion",
             p_.residual_cohesion, ">= 0 and <= cohesion");
     tan_dilation_ = p_.dilation_limit > 0 ? std::tan(p_.dilation_angle) : 0;

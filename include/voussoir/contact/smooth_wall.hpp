@@ -13,6 +13,7 @@ namespace voussoir {
 /// Source: Boon, Houlsby & Utili (2015), section 2.1: side segments are fixed before excavation.
 class SmoothWall {
  public:
+  using role = roles::ContactLaw;
   static constexpr const char* name = "SmoothWall";
   template <int Dim>
   struct State {};

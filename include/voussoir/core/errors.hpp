@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <voussoir/core/message_number.hpp>
 
 /// On in tests and debug builds: a broken invariant of the toolkit itself, never a user's mistake.
 #if defined(VOUSSOIR_ASSERTIONS) || !defined(NDEBUG)
@@ -34,7 +35,38 @@ class NumericalFault : public std::runtime_error {
 /// pass the condition that must hold.
 inline void require(bool holds, const char* name, double value, const char* range) {
   if (holds) return;
-  throw InvalidInput(std::string(name) + " = " + std::to_string(value) + ": must be " + range);
+  throw InvalidInput(std::string(name) + " = " + message_number(value) + ": must be " + range);
+}
+
+/// Tells a law that its values are without units, or in others than SI: `CoulombJoint({1, 1, 0},
+/// any_units)`. Values too small to be meant in SI units are then taken too.
+struct AnyUnits {};
+inline constexpr AnyUnits any_units{};
+
+/// Refuses a quantity so small that it was surely meant in a larger unit: 5 for 5 GPa/m. For
+/// quantities that are > 0 already; who has no units says `any_units` to the law.
+/// @param unit    of the value, "Pa/m"
+/// @param least   the smallest that is plausible
+/// @param meant   the larger unit, "GPa/m", and how many of `unit` it is
+inline void require_plausible(double value, const char* name, const char* unit, double least,
+                              const char* meant, double factor) {
+  if (value >= least) return;
+  throw InvalidInput(std::string(name) + " = " + message_number(value) + " " + unit +
+                     ": must be >= " + message_number(least) + " " + unit + "; did you mean " +
+                     message_number(value) + " " + meant + " = " + message_number(factor * value) +
+                     " " + unit + "?");
+}
+
+/// Refuses an angle outside its range, and says what it is in degrees: radians are wanted.
+inline void require_angle(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  constexpr double degree = 3.14159265358979323846 / 180;
+  std::string text = std::string(name) + " = " + message_number(value) + " rad (" +
+                     message_number(value / degree) + " deg): must be " + range;
+  if (value >= 2 && value <= 360)
+    text += "; did you mean " + message_number(value) + " deg = " + message_number(value * degree) +
+            " rad?";
+  throw InvalidInput(text);
 }
 
 /// Refuses an angle in radians outside low..high; the message has its value in degrees as well, and

@@ -39,4 +39,10 @@ concept Fills = requires {
 }
 &&std::same_as<typename Policy::role, Role>;
 
+/// The policy has a name, for the first line of a log.
+template <class Policy>
+concept HasName = requires {
+  { Policy::name } -> std::convertible_to<const char*>;
+};
+
 }  // namespace voussoir

@@ -26,11 +26,15 @@ concept HasInitialContacts = requires(const Mass& mass) {
 ///
 /// Models: CutContacts (rockmass/cut_contacts.hpp), FaceContacts.
 template <class Detector, class Mass, class Geometry>
-concept ContactDetector =
-    Fills<Detector, roles::ContactDetector> && HasInitialContacts<Detector, Mass, Geometry>;
+concept ContactDetector = Fills<Detector, roles::ContactDetector> && HasName<Detector> &&
+    HasInitialContacts<Detector, Mass, Geometry>;
 
 template <class Detector, class Mass, class Geometry>
 consteval bool explain_contact_detector() {
+  static_assert(Fills<Detector, roles::ContactDetector>,
+                "contact detector: add `using role = voussoir::roles::ContactDetector`");
+  static_assert(HasName<Detector>,
+                "contact detector: add `static constexpr const char* name` for the log");
   static_assert(HasInitialContacts<Detector, Mass, Geometry>,
                 "contact detector: add `static std::vector<ContactFacet<Geometry>> find(const "
                 "RockMass<Geometry>&)`");

@@ -152,17 +152,17 @@ class ConvexPolygon {
       const double turn = std::atan2(cross(u, v), u.dot(v));
       if (!(cross(u, v) >= 0))
         fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
-                         std::to_string(turn * 180 / 3.141592653589793) +
+                         message_number(turn * 180 / 3.141592653589793) +
                          " degrees where it must turn left, by 0 or more");
       turning += turn;
     }
     // Every corner turns left; a star polygon does so too, but turns more than once.
     if (!(doubled_area > 0))
       throw InvalidInput("convex polygon: encloses an area of " +
-                         std::to_string(0.5 * doubled_area) + " m^2, must be > 0");
+                         message_number(0.5 * doubled_area) + " m^2, must be > 0");
     if (!(std::abs(turning - 6.283185307179586) <= 1e-6))
       throw InvalidInput("convex polygon: the outline crosses itself: it turns by " +
-                         std::to_string(turning * 180 / 3.141592653589793) +
+                         message_number(turning * 180 / 3.141592653589793) +
                          " degrees in all, must be 360");
   }
 

@@ -80,7 +80,7 @@ inline constexpr int disc_corners = 32;
   JointPlane joint = unbounded_joint(centre, normal);
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InvalidInput("joint disc at " + text_of<3>(centre) + " m: diameter " +
-                       std::to_string(diameter) + " m must be > 0 and finite");
+                       message_number(diameter) + " m must be > 0 and finite");
   using namespace repeatable;
   // As tangent_basis does it.
   const Vec3& n = joint.plane.normal;

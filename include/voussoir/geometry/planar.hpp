@@ -4,6 +4,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
+#include <voussoir/geometry/geometry_model.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
@@ -25,5 +26,7 @@ struct Planar {
   using Line = Segment;           ///< a bolt, a scanline
   using Opening = SimplePolygon;  ///< outline of an excavation
 };
+
+static_assert(GeometryModel<Planar>);
 
 }  // namespace voussoir

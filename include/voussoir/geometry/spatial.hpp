@@ -4,6 +4,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
+#include <voussoir/geometry/geometry_model.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/spatial_facet.hpp>
@@ -27,5 +28,7 @@ struct Spatial {
   using Line = SpatialLine;          ///< a bolt, a scanline
   using Opening = PrismaticOpening;  ///< what an excavation takes out
 };
+
+static_assert(GeometryModel<Spatial>);
 
 }  // namespace voussoir

@@ -19,13 +19,20 @@ struct LiningSection {
   double torsional_stiffness = 0;        ///< in space: G J [N m^2]
 
   /// A rectangular section: shotcrete or concrete of thickness t, one metre wide, kappa = 5/6.
-  /// @param young_modulus  E [Pa], > 0;  @param poisson_ratio  -1 < nu < 0.5
+  /// @param thickness      [m], > 0 and <= 10
+  /// @param young_modulus  E [Pa], >= 1e6;  @param poisson_ratio  -1 < nu < 0.5
   /// @throws InvalidInput  a value out of range
   [[nodiscard]] static LiningSection rectangular(double thickness, double young_modulus,
                                                  double poisson_ratio = 0.2) {
     require(thickness > 0 && std::isfinite(thickness), "lining thickness", thickness, "> 0 m");
     require(young_modulus > 0 && std::isfinite(young_modulus), "lining modulus", young_modulus,
             "> 0 Pa");
+    // Values without units: give the members of the section themselves.
+    if (thickness > 10)
+      throw InvalidInput("lining thickness = " + message_number(thickness) +
+                         " m: must be <= 10 m; did you mean " + message_number(thickness) +
+                         " mm = " + message_number(1e-3 * thickness) + " m?");
+    require_plausible(young_modulus, "lining modulus", "Pa", 1e6, "GPa", 1e9);
     require(poisson_ratio > -1 && poisson_ratio < 0.5, "lining Poisson ratio", poisson_ratio,
             "> -1 and < 0.5");
     return {young_modulus * thickness, young_modulus * thickness * thickness * thickness / 12,
@@ -69,10 +76,13 @@ concept HasElementStiffness = requires(const LiningSection& section, double leng
 ///
 /// Models: EulerBernoulliBeam, TimoshenkoBeam, PinnedBar, BondedChain.
 template <class Lining, int Dof>
-concept LiningModel = Fills<Lining, roles::Lining> && HasElementStiffness<Lining, Dof>;
+concept LiningModel =
+    Fills<Lining, roles::Lining> && HasName<Lining> && HasElementStiffness<Lining, Dof>;
 
 template <class Lining, int Dof>
 consteval bool explain_lining_model() {
+  static_assert(Fills<Lining, roles::Lining>, "lining: add `using role = voussoir::roles::Lining`");
+  static_assert(HasName<Lining>, "lining: add `static constexpr const char* name` for the log");
   static_assert(HasElementStiffness<Lining, Dof>,
                 "lining: add `template <int Dof> static ElementMatrix<Dof> stiffness(const "
                 "LiningSection&, double length)`");

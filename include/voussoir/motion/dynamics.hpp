@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -196,7 +197,7 @@ class Dynamics : public MovingBodies<Dim> {
     while (end - time_ > 1e-12 * std::max(time, step_)) {
       const double step = choose_step();
       const int steps = static_cast<int>(std::min(std::ceil((end - time_) / step - 1e-9), 1e9));
-      const int batch = std::min(steps, sizes_.steps_in_batch(bodies_, settings_, step));
+      const int batch = std::min(steps, settings_.check_every);
       // A last step of another length would spoil the order of the scheme: all are shortened.
       run_batch(batch, batch == steps ? (end - time_) / steps : step);
     }
@@ -207,9 +208,7 @@ class Dynamics : public MovingBodies<Dim> {
     require(count >= 0, "steps to advance", count, ">= 0");
     while (count > 0) {
       const double step = choose_step();
-      const int batch = std::min(count, sizes_.steps_in_batch(bodies_, settings_, step));
-      run_batch(batch, step);
-      count -= batch;
+      count -= run_batch(std::min(count, settings_.check_every), step);
     }
   }
 
@@ -329,26 +328,51 @@ class Dynamics : public MovingBodies<Dim> {
     if (stable_step_ == 0) stable_step_ = longest_step();
     if (settings_.time_step > stable_step_)
       throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
-                           detail::short_number(settings_.time_step) +
+                           message_number(settings_.time_step, 3) +
                            " s that was asked for is longer than the stable one of " +
-                           detail::short_number(stable_step_) +
+                           message_number(stable_step_, 3) +
                            " s; leave time_step at 0 to have it chosen");
     step_ = settings_.time_step > 0 ? settings_.time_step : settings_.safety * stable_step_;
     if (!std::isfinite(step_)) step_ = 1e-3;  // nothing touches
+    if (!settings_.find_contacts || shapes_.size() < 2) return step_;
+    // Within one step nothing is looked for: what is apart must not come to overlap in it.
+    begin();
+    const double longest = sizes_.longest_step(bodies_, acting_);
+    if (settings_.time_step > longest)
+      throw NumericalFault(
+          "dynamics: step " + std::to_string(steps_) + ": in the time step of " +
+          message_number(settings_.time_step, 3) +
+          " s that was asked for a body moves more than a quarter of the reach of " +
+          "contacts of " + message_number(sizes_.reach, 3) +
+          " m, and may pass into another unseen; leave time_step at 0, or give " +
+          "<= " + message_number(longest, 3) + " s");
+    if (longest > 0) step_ = std::min(step_, longest);
     return step_;
   }
 
-  void run_batch(int count, double step) {
+  /// Makes `count` steps, or fewer: contacts are looked for again before a body can have moved
+  /// further than they are listed for. The way is summed up step by step, with the speeds there
+  /// are: what gravity, loads or a blow give to a body within the batch counts.
+  /// @return  the number of steps made
+  int run_batch(int count, double step) {
     step_ = step;
     sums_.assign(team_->size(), {});
+    const double limit =
+        settings_.find_contacts ? sizes_.travel_limit() : std::numeric_limits<double>::infinity();
+    int made = 0;
     team_->run([&](unsigned member) {
       if (!fresh_) freshen(member);
       Sums& sums = sums_[member];
       const auto bodies = team_->share(bodies_.size(), member);
+      double way = 0;  // of the fastest body of each step: the same for all members
       for (int k = 0; k < count; ++k) {
+        sums.fastest = 0;
         for (std::size_t b = bodies.first; b < bodies.last; ++b)
           if (bodies_[b].movable()) start(b, step, sums);
         team_->meet();
+        double fastest = 0;
+        for (const Sums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
+        way += step * fastest;
         respond(member, sums.lost);
         sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
         for (std::size_t b = bodies.first; b < bodies.last; ++b)
@@ -356,16 +380,20 @@ class Dynamics : public MovingBodies<Dim> {
             settle(b);
             finish(b, step, sums);
           }
+        if (member == 0) made = k + 1;
+        // In the next step bodies may be faster.
+        if (way + 1.5 * step * fastest > limit) break;
       }
     });
     fresh_ = true;
     for (const Sums& sums : sums_) sums.add_to(audit_);
-    steps_ += count;
-    time_ += count * step;
+    steps_ += made;
+    time_ += made * step;
     for (Body& body : bodies_)
       if (body.movable()) body.straighten();
     if (steps_ - checked_ >= settings_.check_every) check();
     if (settings_.find_contacts) find_contacts();
+    return made;
   }
 
   /// A member's share of what contacts and supports do to the bodies where they are; all of it is
@@ -402,6 +430,7 @@ class Dynamics : public MovingBodies<Dim> {
     acting_[b].kick(bodies_[b], step);
     acting_[b].add_work(bodies_[b], step, settings_.gravity, applied(b), sums.work);
     bodies_[b].drift(step);
+    sums.fastest = std::max(sums.fastest, bodies_[b].fastest_point());
   }
   /// Forces at the new place.
   void settle(std::size_t b) {

@@ -22,6 +22,7 @@ struct alignas(64) MemberSums {
   Dissipation lost;      ///< `viscosity` only within a step
   double viscosity = 0;  ///< [J]
   StepWork work;
+  double fastest = 0;  ///< no point of its bodies is faster in the present step [m/s]
 
   void add_to(EnergyAudit& audit) const {
     audit.friction += lost.friction;
@@ -50,6 +51,10 @@ class HalfStep {
     acceleration_ = total.force / body.mass;
   }
 
+  /// No point of the body gets faster at a higher rate, from what acts on it now [m/s^2].
+  [[nodiscard]] double fastest_gain(const MovingBody<Dim>& body) const {
+    return acceleration_.norm() + torque_.cwiseQuotient(body.inertia).norm() * body.radius;
+  }
   /// Half a step of velocity.
   void kick(MovingBody<Dim>& body, double step) const {
     body.velocity += 0.5 * step * acceleration_;

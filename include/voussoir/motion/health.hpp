@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
+#include <voussoir/core/message_number.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/motion/moving_bodies.hpp>
 
 namespace voussoir::detail {
-
-[[nodiscard]] inline std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// What is wrong with a dynamic run, in words that name the block, the place, the likely cause and
 /// the remedy; nothing if it is sound.
@@ -44,10 +38,11 @@ class Health {
                " is not a number; a load or velocity given is not, or a law of contact or bolt "
                "returned none";
       if (speed > speed_limit_)
-        return name_of(b) + " moves at " + short_number(speed) +
+        return name_of(b) + " moves at " + message_number(speed, 3) +
                " m/s, faster than anything here can fall or was thrown at first (limit " +
-               short_number(speed_limit_) + " m/s); it was given this velocity, or the step of " +
-               short_number(step) + " s is too long: raise speed_limit or lower the safety factor";
+               message_number(speed_limit_, 3) +
+               " m/s); it was given this velocity, or the step of " + message_number(step, 3) +
+               " s is too long: raise speed_limit or lower the safety factor";
     }
     std::string text;
     network.each([&](const auto& group, const auto& c) {
@@ -63,9 +58,9 @@ class Health {
             -group.motion_of(group.points()[static_cast<std::size_t>(i)], at).opening;
         if (!(overlap > overlap_limit_ * size)) continue;
         text =
-            name_of(ib) + " overlaps " + name_of(ia) + " by " + short_number(1e3 * overlap) +
-            " mm, more than " + short_number(100 * overlap_limit_) + " % of its radius of " +
-            short_number(size) +
+            name_of(ib) + " overlaps " + name_of(ia) + " by " + message_number(1e3 * overlap, 3) +
+            " mm, more than " + message_number(100 * overlap_limit_, 3) + " % of its radius of " +
+            message_number(size, 3) +
             " m; the joint is too soft for what presses on it (raise joint_normal_stiffness), or "
             "the blocks overlapped from the beginning";
         return;

@@ -49,6 +49,16 @@ struct MovingBody {
   [[nodiscard]] double kinetic_energy() const {
     return 0.5 * (mass * velocity.squaredNorm() + momentum.dot(spin()));
   }
+  /// No point of the body is faster [m/s].
+  [[nodiscard]] double fastest_point() const {
+    double linear = 0, angular = 0;
+    for (int k = 0; k < Dim; ++k) linear += velocity[k] * velocity[k];
+    for (int k = 0; k < spin_count<Dim>; ++k) {
+      const double rate = momentum[k] / inertia[k];
+      angular += rate * rate;
+    }
+    return std::sqrt(linear) + std::sqrt(angular) * radius;
+  }
   /// A spin or moment from the world's axes to the body's, and back; in the plane there is one.
   [[nodiscard]] Spin<Dim> to_body(const Spin<Dim>& v) const {
     if constexpr (Dim == 2)

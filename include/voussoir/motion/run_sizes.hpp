@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 #include <voussoir/core/errors.hpp>
@@ -46,18 +47,27 @@ struct RunSizes {
     return sizes;
   }
 
-  /// Steps that can be made before contacts must be looked at again.
-  template <int Dim>
-  [[nodiscard]] int steps_in_batch(const std::vector<MovingBody<Dim>>& bodies,
-                                   const DynamicsSettings& settings, double step) const {
-    if (!settings.find_contacts) return settings.check_every;
-    double fastest = settings.gravity * step;
-    for (const MovingBody<Dim>& body : bodies)
-      if (body.movable())
-        fastest = std::max(fastest, body.velocity.norm() + body.spin().norm() * body.radius);
-    // Both bodies of a pair move, and may get faster.
-    const double steps = 0.5 * std::min(refresh, 0.5 * reach) / (fastest * step);
-    return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(settings.check_every)));
+  /// How far a body may move between two looks at the contacts [m]. Both bodies of a pair move: a
+  /// pair that was further apart than `reach` when it was last asked about is asked again after
+  /// half the reach at the latest, hence before it can touch.
+  [[nodiscard]] double travel_limit() const { return 0.5 * std::min(refresh, 0.5 * reach); }
+
+  /// The longest step in which no body moves further than a quarter of the reach, from its present
+  /// speed and acceleration [s]; infinite where nothing moves.
+  /// @param acting  what acts on each body, up to date
+  template <int Dim, class Acting>
+  [[nodiscard]] double longest_step(const std::vector<MovingBody<Dim>>& bodies,
+                                    const std::vector<Acting>& acting) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (!bodies[b].movable()) continue;
+      const double speed = bodies[b].fastest_point(), gain = acting[b].fastest_gain(bodies[b]);
+      const double way = 0.25 * reach;
+      // speed t + gain t^2 / 2 = way; 0 / 0 where it is at rest and stays there
+      const double time = 2 * way / (speed + std::sqrt(speed * speed + 2 * gain * way));
+      if (time < least) least = time;
+    }
+    return least;
   }
 };
 

@@ -93,7 +93,7 @@ inline void check_inside(const PrismaticOpening& opening, const Domain<3>& domai
           "opening: its section touches or leaves the domain at x, z = " + text_of<2>(v) + " m");
   if (!(opening.to() > domain.low.y() && opening.from() < domain.high.y()))
     throw InvalidInput("opening: it lies beside the domain, which reaches from " +
-                       std::to_string(domain.low.y()) + " to " + std::to_string(domain.high.y()) +
+                       message_number(domain.low.y()) + " to " + message_number(domain.high.y()) +
                        " m along y");
 }
 

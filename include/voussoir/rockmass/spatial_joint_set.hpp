@@ -168,7 +168,7 @@ struct PlaneFrame {
 inline void SpatialJointSet::check() const {
   const auto rule = [this](bool holds, const char* what, double value, const char* text) {
     if (!holds)
-      throw InvalidInput("joint set " + name + ": " + what + " = " + std::to_string(value) +
+      throw InvalidInput("joint set " + name + ": " + what + " = " + message_number(value) +
                          " must be " + text);
   };
   constexpr double pi = std::numbers::pi;
@@ -190,9 +190,9 @@ inline void SpatialJointSet::check() const {
   not_negative("area_per_volume", area_per_volume);
   not_negative("count_per_volume", count_per_volume);
   if ((spacing > 0) + (area_per_volume > 0) + (count_per_volume > 0) != 1)
-    throw InvalidInput("joint set " + name + ": spacing = " + std::to_string(spacing) +
-                       ", area_per_volume = " + std::to_string(area_per_volume) +
-                       ", count_per_volume = " + std::to_string(count_per_volume) +
+    throw InvalidInput("joint set " + name + ": spacing = " + message_number(spacing) +
+                       ", area_per_volume = " + message_number(area_per_volume) +
+                       ", count_per_volume = " + message_number(count_per_volume) +
                        ": exactly one must be > 0");
   const auto length = [&rule](const char* what, double value) {
     rule(value > 0 && std::isfinite(value), what, value, "> 0 and finite");

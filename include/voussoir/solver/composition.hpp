@@ -8,6 +8,7 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/detection/contact_detector.hpp>
+#include <voussoir/geometry/geometry_model.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -37,6 +38,31 @@ inline constexpr bool fills_some_role =
     Fills<Policy, roles::ContactLaw> || Fills<Policy, roles::BoltAnchors> ||
     Fills<Policy, roles::BoltLaw> || Fills<Policy, roles::Lining> ||
     Fills<Policy, roles::Equilibrium>;
+
+/// A policy with the parts of one role that declares another would be asked for the parts of that.
+template <class Policy, class Geometry>
+consteval bool explain_declared_role() {
+  constexpr int dim = Geometry::dim, dof = Geometry::dof;
+  static_assert(!(HasContactState<Policy, dim> && HasContactForce<Policy, dim>) ||
+                    Fills<Policy, roles::ContactLaw>,
+                "Solver: a policy has the parts of a contact law and declares another role; give "
+                "it `using role = voussoir::roles::ContactLaw`");
+  static_assert(
+      !(HasBoltState<Policy, dim> && HasBoltForce<Policy, dim>) || Fills<Policy, roles::BoltLaw>,
+      "Solver: a policy has the parts of a bolt law and declares another role; give it "
+      "`using role = voussoir::roles::BoltLaw`");
+  static_assert(!HasAnchorDistances<Policy> || Fills<Policy, roles::BoltAnchors>,
+                "Solver: a policy has the parts of bolt anchors and declares another role; give it "
+                "`using role = voussoir::roles::BoltAnchors`");
+  static_assert(!HasElementStiffness<Policy, dof> || Fills<Policy, roles::Lining>,
+                "Solver: a policy has the parts of a lining and declares another role; give it "
+                "`using role = voussoir::roles::Lining`");
+  static_assert(!HasInitialContacts<Policy, RockMass<Geometry>, Geometry> ||
+                    Fills<Policy, roles::ContactDetector>,
+                "Solver: a policy has the parts of a contact detector and declares another role; "
+                "give it `using role = voussoir::roles::ContactDetector`");
+  return true;
+}
 
 template <class Role, class... Policies>
 inline constexpr int fillers = (0 + ... + (Fills<Policies, Role> ? 1 : 0));
@@ -79,6 +105,8 @@ struct Composition {
   using Lining = typename detail::Pick<roles::Lining, EulerBernoulliBeam, Policies...>::type;
   using Method = typename detail::Pick<roles::Equilibrium, TwoLevel, Policies...>::type;
 
+  static_assert(explain_geometry<Geometry>());
+  static_assert((detail::explain_declared_role<Policies, Geometry>() && ...));
   static_assert(explain_contact_detector<Detector, RockMass<Geometry>, Geometry>());
   static_assert(explain_contact_law<JointLaw, Geometry::dim>());
   static_assert(explain_bolt_anchors<Anchors>());

@@ -116,10 +116,9 @@ template <class JointLaw>
     rock.unbalance = run.unbalance_over_weight();
     if (rock.unbalance < how.unbalance) break;
     if (run.time() > how.longest)
-      throw NumericalFault("generation stage: after " + detail::short_number(run.time()) +
-                           " s a block is out of balance by " +
-                           detail::short_number(rock.unbalance) + " of its weight, more than " +
-                           detail::short_number(how.unbalance));
+      throw NumericalFault("generation stage: after " + message_number(run.time(), 3) +
+                           " s a block is out of balance by " + message_number(rock.unbalance, 3) +
+                           " of its weight, more than " + message_number(how.unbalance, 3));
   }
   return rock;
 }

@@ -50,7 +50,8 @@ struct Press {
         const Detector&)
       : system(joint_law, params.wall_stiffness_ratio * joint_law.joint_normal_stiffness(),
                CoulombJoint(
-                   {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0})),
+                   {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0},
+                   any_units)),
         wall_stiffness(params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()) {
     for (const auto& body : mass.bodies) {
       // What a body out of balance is held against: the force of the stresses that are meant.

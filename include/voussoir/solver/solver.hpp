@@ -37,6 +37,10 @@ class ComposedSolver {
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
   static_assert(explain_equilibrium_method<Method, SystemType>());
+  static_assert(
+      ((!HasEquilibriumSearch<Policies, SystemType> || Fills<Policies, roles::Equilibrium>)&&...),
+      "Solver: a policy has the parts of an equilibrium method and declares another role; "
+      "give it `using role = voussoir::roles::Equilibrium`");
 
   /// Puts the rock in its in-situ state.
   /// @param points  of every contact; with `centre` a block that touches others in one facet alone
@@ -139,7 +143,7 @@ class ComposedSolver {
   /// A stand-in until a lining is installed: there are no contacts that could use it.
   [[nodiscard]] static CoulombJoint free_interface() {
     return CoulombJoint(
-        {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0});
+        {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0}, any_units);
   }
 
   [[nodiscard]] std::vector<FacetPoint<dim>> points_on(const typename Geometry::Facet& facet) const;

@@ -20,7 +20,7 @@ class Sample {
     for (std::size_t k = 0; k < values_.size(); ++k)
       if (!std::isfinite(values_[k]))
         throw InvalidInput("sample: value " + std::to_string(k) + " is " +
-                           std::to_string(values_[k]) + "; accepted: finite values");
+                           message_number(values_[k]) + "; accepted: finite values");
     // Two passes about the mean: sums of squares lose the digits of a large mean.
     for (const double x : values_) mean_ += x / static_cast<double>(values_.size());
     for (const double x : values_) squares_ += (x - mean_) * (x - mean_);

@@ -77,7 +77,8 @@ struct CrossingForce {
   double position;   ///< from the head [m]
   double force;      ///< tension positive, of one bolt [N]
   double extension;  ///< of the distance between the anchors since installation [m]
-  bool yielded, ruptured;
+  bool yielded;      ///< false where the law's `State` has no `plastic_extension`
+  bool ruptured;
 };
 
 /// In the order of bolts and, along each, from head to tip.
@@ -92,8 +93,11 @@ template <class Solver>
     const double initial = span.initial.norm();
     const double extension =
         initial > 0 ? (span.initial + span.motion).norm() - initial : span.axis.dot(span.motion);
+    bool yielded = false;  // of a law that says so
+    if constexpr (requires { spring.state.plastic_extension > 0; })
+      yielded = spring.state.plastic_extension > 0;
     forces.push_back({spring.bolt, spring.position, law.force(span, spring.state).axial, extension,
-                      spring.state.plastic_extension > 0, spring.broken});
+                      yielded, spring.broken});
   }
   return forces;
 }

@@ -1,0 +1,34 @@
+// expect: Solver: a policy has the parts of a bolt law and declares another role
+// SPDX-License-Identifier: MIT
+// The role copied from another type.
+#include <voussoir/solver/composition.hpp>
+
+namespace {
+
+using namespace voussoir;
+
+struct Bolt {
+  using role = roles::ContactLaw;
+  static constexpr const char* name = "Bolt";
+  struct State {
+    bool broken = false;
+  };
+  template <int Dim>
+  BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
+    if (state.broken) return {};
+    return {span.motion, span.motion.norm()};
+  }
+  template <int Dim>
+  bool commit(const BoltSpan<Dim>& span, State& state) const {
+    state.broken = state.broken || span.motion.norm() > 1;
+    return state.broken;
+  }
+  template <int Dim>
+  Stress<Dim> stiffness(const BoltSpan<Dim>&) const {
+    return Stress<Dim>::Identity();
+  }
+};
+
+}  // namespace
+
+template struct voussoir::Composition<Bolt>;
