@@ -53,7 +53,7 @@ class HalfStep {
 
   /// No point of the body gets faster at a higher rate, from what acts on it now [m/s^2].
   [[nodiscard]] double fastest_gain(const MovingBody<Dim>& body) const {
-    return acceleration_.norm() + torque_.cwiseQuotient(body.inertia).norm() * body.radius;
+    return acceleration_.norm() + quotients(torque_, body.inertia).norm() * body.radius;
   }
   /// Half a step of velocity.
   void kick(MovingBody<Dim>& body, double step) const {

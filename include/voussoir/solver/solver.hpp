@@ -36,11 +36,6 @@ class ComposedSolver {
   using SystemType = System<Geometry, JointLaw, BoltLaw>;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
-  static_assert(explain_equilibrium_method<Method, SystemType>());
-  static_assert(
-      ((!HasEquilibriumSearch<Policies, SystemType> || Fills<Policies, roles::Equilibrium>)&&...),
-      "Solver: a policy has the parts of an equilibrium method and declares another role; "
-      "give it `using role = voussoir::roles::Equilibrium`");
 
   /// Puts the rock in its in-situ state.
   /// @param points  of every contact; with `centre` a block that touches others in one facet alone
@@ -208,10 +203,12 @@ class Solver : public detail::Composed<Composition<Policies...>> {
  public:
   using Parts = Composition<Policies...>;
   using detail::Composed<Parts>::ComposedSolver;
+  using SystemType = typename detail::Composed<Parts>::SystemType;
+  static_assert(explain_equilibrium_method<typename Parts::Method, SystemType>());
   static_assert(
-      explain_equilibrium_method<
-          typename Parts::Method,
-          System<typename Parts::Geometry, typename Parts::JointLaw, typename Parts::BoltLaw>>());
+      ((!HasEquilibriumSearch<Policies, SystemType> || Fills<Policies, roles::Equilibrium>)&&...),
+      "Solver: a policy has the parts of an equilibrium method and declares another role; "
+      "give it `using role = voussoir::roles::Equilibrium`");
 
   /// The models this solver is made of, by name.
   [[nodiscard]] static std::string composition() { return Parts::describe(); }
