@@ -2,29 +2,29 @@
 // A 10 m tunnel in jointed rock, bolted and lined: how far does the crown come in, and does it
 // stand? The elastic crown of the unsupported hole in a medium of these moduli moves about 3 mm.
 #include <cstdio>
-#include <numbers>
 #include <voussoir/voussoir.hpp>
 using namespace voussoir;
+using namespace voussoir::literals;  // 75_deg, 5_GPa_per_m: SI units and radians inside
 
 // The physics, chosen once; roles left out keep their default.
 using Tunnel = Solver<Planar, CoulombJoint, LorigAnchors, EulerBernoulliBeam>;
 
 int main() {
-  constexpr double deg = std::numbers::pi / 180;
-  const auto opening = circular_opening(10);
-  const auto ground = domain_around(opening, 70, 20, 30);  // width, cover, below [m]
-  const std::vector sets = {JointSet{"J1", 75 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                            JointSet{"J2", 25 * deg, DipDirection::east, 1 * deg, 1, 0, 1},
-                            JointSet{"J3", 25 * deg, DipDirection::west, 1 * deg, 1, 0, 1}};
-  const auto rock = slice(ground, joint_network(sets, ground, 1), {0.25, 5});
+  const auto opening = circular_opening(10_m);
+  const auto ground = domain_around(opening, 70_m, 20_m, 30_m);  // width, cover, below [m]
+  const std::vector sets = {JointSet{"J1", 75_deg, DipDirection::east, 1_deg, 1_per_m2, 0, 1_m},
+                            JointSet{"J2", 25_deg, DipDirection::east, 1_deg, 1_per_m2, 0, 1_m},
+                            JointSet{"J3", 25_deg, DipDirection::west, 1_deg, 1_per_m2, 0, 1_m}};
+  const auto rock = slice(ground, joint_network(sets, ground, 1), {25_cm, 5});
 
-  Tunnel tunnel(rock, CoulombJoint({5e9, 5e8, 35 * deg}), {.density = 2700, .k0 = 1});
+  Tunnel tunnel(rock, CoulombJoint({5_GPa_per_m, 0.5_GPa_per_m, 35_deg}),
+                {.density = 2700_kg_per_m3, .k0 = 1});
   tunnel.excavate(opening);
-  const AxialBolt bolt({.axial_stiffness = 2e8, .rupture_force = 5e5});
-  for (const auto& bar : bolt_bars({.length = 4, .angular_spacing = 15 * deg}, opening))
+  const AxialBolt bolt({.axial_stiffness = 0.2_GN_per_m, .rupture_force = 500_kN});
+  for (const auto& bar : bolt_bars({.length = 4_m, .angular_spacing = 15_deg}, opening))
     tunnel.install_bolt(bar, bolt);
-  tunnel.install_lining(lining_frame(tunnel.mass(), {}), LiningSection::rectangular(0.1, 25e9),
-                        CoulombJoint({1e9, 1e9, 30 * deg}));
+  tunnel.install_lining(lining_frame(tunnel.mass(), {}), LiningSection::rectangular(10_cm, 25_GPa),
+                        CoulombJoint({1_GPa_per_m, 1_GPa_per_m, 30_deg}));
   const auto result = tunnel.equilibrium();
 
   const double crown = 1e3 * convergence(tunnel).crown;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -142,14 +143,30 @@ inline void say_collapsed(Plot& plot, Study& study,
                 [&](const Outcome& a, const Outcome& b) { return quantity(b) / quantity(a); });
 }
 
+/// Two numbers closer than this part of them differ by roundings and searches, not by the rock.
+inline constexpr double same_number = 1e-9;
+/// A block that moves less than this has not moved: a millionth of what the stress of the ground
+/// closes a joint by [m].
+inline constexpr double no_motion = 1e-6 * ground_pressure / normal_stiffness;
+
+/// PF-009: blocks stay where they are with the angle of friction that the stress needs, and move
+/// with less. Not testable where they do not move with less either.
+/// @param enough, short_of  how far they move with the angle needed, with four fifths of it [m]
+[[nodiscard]] inline Agreement needed_friction_agrees(double enough, double short_of) {
+  if (!(short_of > no_motion)) return Agreement::not_testable;
+  return agrees_if(enough < std::max(no_motion, 1e-3 * short_of));
+}
+
 /// Whether the means go up (or down) along the axis; equal steps count as going.
-[[nodiscard]] inline bool rises(const std::vector<Measured>& values, double tolerance = 0) {
+[[nodiscard]] inline bool rises(const std::vector<Measured>& values,
+                                double tolerance = same_number) {
   for (std::size_t k = 0; k + 1 < values.size(); ++k)
     if (!(values[k + 1].mean() >= values[k].mean() - tolerance * std::abs(values[k].mean())))
       return false;
   return true;
 }
-[[nodiscard]] inline bool falls(const std::vector<Measured>& values, double tolerance = 0) {
+[[nodiscard]] inline bool falls(const std::vector<Measured>& values,
+                                double tolerance = same_number) {
   for (std::size_t k = 0; k + 1 < values.size(); ++k)
     if (!(values[k + 1].mean() <= values[k].mean() + tolerance * std::abs(values[k].mean())))
       return false;

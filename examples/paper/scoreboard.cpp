@@ -41,7 +41,10 @@ std::string second_column(const Finding& f) {
 
 std::string cause(const Finding& f) {
   if (f.agreement == Agreement::agrees) return "";
-  return f.why.empty() ? "Not looked into: it agrees with the samples of docs/paper." : f.why;
+  return f.why.empty()
+             ? "The cause has not been looked into; on the samples of docs/paper the claim "
+               "holds."
+             : f.why;
 }
 
 std::vector<Score> scores(const std::vector<Section>& sections) {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <numbers>
 #include <system_error>
+#include <voussoir/core/units.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 
 namespace voussoir::program {

@@ -85,6 +85,22 @@ TEST_SUITE("program/paper") {
     CHECK_THROWS_WITH_AS((void)scores(sections), doctest::Contains("PF-104"), std::logic_error);
   }
 
+  TEST_CASE("what differs by rounding does not differ, and a cause is given where it was found") {
+    // The ground closes a joint by 662 kPa / 5 GPa/m = 0.13 mm; a millionth is 0.13 nm.
+    CHECK(needed_friction_agrees(3e-18, 164e-9) == Agreement::agrees);
+    CHECK(needed_friction_agrees(2.4e-12, 1e-9) == Agreement::agrees);
+    CHECK(needed_friction_agrees(5e-10, 1e-9) == Agreement::differs);
+    CHECK(needed_friction_agrees(2.4e-12, 2.4e-12) == Agreement::not_testable);
+    const auto measured = [](double value) { return Measured{.values = {value}}; };
+    CHECK(rises({measured(2), measured(2 - 1e-12), measured(3)}));
+    CHECK_FALSE(rises({measured(2), measured(2 - 1e-6), measured(3)}));
+    CHECK(falls({measured(2), measured(2 + 1e-12)}));
+    const Finding bare{"PF-009", Agreement::differs, "", "", ""};
+    CHECK(cause(bare).find("has not been looked into") != std::string::npos);
+    const Finding explained{"PF-009", Agreement::differs, "", "because", ""};
+    CHECK(cause(explained) == "because");
+  }
+
   TEST_CASE("measured over samples: what collapsed or fell is counted and said") {
     Measured m;
     Outcome stands, collapses;

@@ -306,7 +306,7 @@ TEST_SUITE("program/run") {
     };
     for (const Case& given : {
              Case{"x1,y1,x2,y2\n0,1,0,9\n-5,3,5,3\n", 1},        // along x = 0, past (0, 3)
-             Case{"-3,0,3,6\r\n\r\n3,0,-3,6,1\r\n", 1},          // from one wedge into the opposite
+             Case{"-3,0,3,6\r\n\r\n3,0,-3,6\r\n", 1},            // from one wedge into the opposite
              Case{"# one joint\n-5,-5,5,-5\n", 0},               // far below
              Case{"-5,2.5,5,2.5\n-5,3,5,3\n-5,3.5,5,3.5\n", 3},  // three beds
          }) {
