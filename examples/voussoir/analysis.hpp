@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,9 +15,15 @@ namespace voussoir::program {
 /// A stage and what came of it.
 struct StageResult {
   std::string name;
-  double wall_traction;  ///< part of the in-situ traction left when it ended; stable: as asked [-]
+  double wall_traction;        ///< residual: part of the in-situ traction left when it ended [-]
+  double wall_traction_asked;  ///< at its end; reached unless the stage ended before [-]
   EquilibriumReport report;
   Convergence convergence;  ///< at its end [m]
+
+  /// False where blocks fell or the search ended while the wall was still being unloaded.
+  [[nodiscard]] bool fully_unloaded() const {
+    return std::abs(wall_traction - wall_traction_asked) < 1e-9;
+  }
 };
 
 /// A finished run.
@@ -31,7 +38,8 @@ struct RunResult {
   double generation_seconds = 0, equilibrium_seconds = 0;
 
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
-  /// That of the last stage; a stage that does not end stable ends the run.
+  /// That of the last stage; a stage that does not end stable ends the run. In words:
+  /// `to_string(verdict(), fallen_measure())`.
   [[nodiscard]] Verdict verdict() const { return last().verdict; }
   [[nodiscard]] double fallen_measure() const;  ///< over all stages [m^2]
 };
@@ -40,6 +48,7 @@ struct RunResult {
 struct DiagramResult {
   std::vector<DiagramPoint> points;  ///< spacing by spacing, thickness running faster
   std::size_t blocks = 0;
+  std::vector<std::string> warnings;
   double seconds = 0;
 };
 
@@ -53,11 +62,11 @@ using Report = std::function<bool(const std::string& what, double fraction)>;
 /// @throws InvalidInput  the file of traces cannot be read
 [[nodiscard]] RockMass<Planar> rock_of(const Input& input);
 
-/// @throws InvalidInput, NumericalFault
+/// @throws InvalidInput, NumericalFault  the latter names the values of the input that are unusual
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
 
 /// @pre    input.diagram
-/// @throws InvalidInput, NumericalFault
+/// @throws InvalidInput, NumericalFault  as above
 [[nodiscard]] DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report);
 
 }  // namespace voussoir::program
