@@ -57,7 +57,7 @@ void write_pictures(const Cavern& cavern, const std::string& name,
   view.header.title = "Tunnel in jointed rock, three dimensions";
   view.header.key_numbers = {
       {"blocks", std::to_string(cavern.system().movable_bodies().size())},
-      {"verdict", to_string(report.verdict)},
+      {"verdict", to_string(report)},
       {"error estimate", readable_text(100 * report.error_estimate, 2) + " %"},
       {"crown", readable_text(1e3 * crown(cavern)) + " mm"}};
   VtuGrid grid;
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
       "%s\n%zu blocks, %d bolt crossings; unsupported: %s, crown %.2f mm; supported: %s, "
       "crown %.2f mm, error estimate %.2g\n",
       Cavern::composition().c_str(), supported.system().movable_bodies().size(), crossings,
-      to_string(without.verdict), 1e3 * crown(bare), to_string(with.verdict),
+      to_string(without), 1e3 * crown(bare), to_string(with),
       1e3 * crown(supported), with.error_estimate);
   if (argc > 1) write_pictures(supported, argv[1], with);
   const bool is_exact = std::abs(removed / expected - 1) < 1e-9;

@@ -4,14 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <iostream>
 #include <string>
 #include <thread>
 #include <vector>
-#include <voussoir/io/atomic_file.hpp>
 
 #include "plotting.hpp"
+#include "run_folder.hpp"
 #include "scoreboard.hpp"
 
 namespace voussoir::paper {
@@ -43,6 +42,7 @@ int run_program(int argc, char** argv, const char* name, Analysis analysis) {
   CLI11_PARSE(app, argc, argv);
   try {
     check_gnuplot();
+    voussoir::program::RunFolder outputs(out);
     Study study(samples, threads);
     const Section section = analysis(study);
     std::cout << section.title << " (" << section.source() << ")\n\n";
@@ -71,10 +71,9 @@ int run_program(int argc, char** argv, const char* name, Analysis analysis) {
       if (const std::string why = cause(f); !why.empty())
         std::cout << "  why:      " << why << "\n";
     }
-    const auto files = plot_files({section}, drawn({section}));
-    std::filesystem::create_directories(out);
-    OutputSet outputs;
-    for (const auto& [file, text] : files) outputs.add(std::filesystem::path(out) / file, text);
+    const std::string id = voussoir::program::RunId("paper").add(samples).text();
+    for (const auto& [file, text] : plot_files({section}, drawn({section})))
+      outputs.add(file, text, id);
     outputs.publish();
     return 0;
   } catch (const std::exception& error) {

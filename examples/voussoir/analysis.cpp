@@ -152,7 +152,7 @@ std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimpleP
     if (stage.install_bolts && spacing) bolts = install_bolts(tunnel, input, *spacing, opening);
     if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
     const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
-    StageResult result{stage.name, stage.wall_traction, {}, {}};
+    StageResult result{stage.name, stage.wall_traction, stage.wall_traction, {}, {}};
     result.report = tunnel.equilibrium(stage.wall_traction, method_of(input),
                                        acceptance_of(input, opening), progress);
     result.wall_traction = tunnel.system().wall_fraction;
@@ -233,8 +233,16 @@ void check_slicing(const Input& input, const SlicingReport& slicing,
         number(input.blocks.max_elongation) + ", as the domain is: no joint cut them shorter");
 }
 
+std::vector<std::string> warnings_of_undecided(const Input& input) {
+  std::vector<std::string> warnings = unusual_values(input);
+  for (std::string& warning : warnings) warning = "undecided, and " + warning;
+  return warnings;
+}
+
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   std::vector<std::string> warnings = run.warnings;
+  if (run.verdict() == Verdict::undecided)
+    for (const std::string& text : warnings_of_undecided(input)) warnings.push_back(text);
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
   if (mass.slicing.coincident > 0)
@@ -342,7 +350,21 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   return rock;
 }
 
-RunResult run_tunnel(const Input& input, const Report& report) {
+namespace {
+
+/// Adds to a numerical fault which keys of the input are likely to blame.
+template <class Compute>
+auto naming_unusual_values(const Input& input, Compute&& compute) {
+  try {
+    return compute();
+  } catch (const NumericalFault& fault) {
+    std::string text = fault.what();
+    for (const std::string& value : unusual_values(input)) text += "\n   = " + value;
+    throw NumericalFault(text);
+  }
+}
+
+RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
@@ -364,7 +386,7 @@ RunResult run_tunnel(const Input& input, const Report& report) {
   return run;
 }
 
-DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report) {
+DiagramResult computed_diagram(const Input& input, unsigned threads, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   check_bolts(input, input.diagram->spacing);
   report("blocks", -1.0);
@@ -407,7 +429,22 @@ DiagramResult run_diagram(const Input& input, unsigned threads, const Report& re
   result.points =
       interaction_diagram(axes.spacing.size(), axes.thickness.size(), threads, tunnel_at, done);
   result.seconds = seconds_since(start);
+  for (const DiagramPoint& point : result.points)
+    if (point.report.verdict == Verdict::undecided) {
+      for (const std::string& text : warnings_of_undecided(input)) result.warnings.push_back(text);
+      break;
+    }
   return result;
+}
+
+}  // namespace
+
+RunResult run_tunnel(const Input& input, const Report& report) {
+  return naming_unusual_values(input, [&] { return computed_run(input, report); });
+}
+
+DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report) {
+  return naming_unusual_values(input, [&] { return computed_diagram(input, threads, report); });
 }
 
 }  // namespace voussoir::program

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,9 +15,15 @@ namespace voussoir::program {
 /// A stage and what came of it.
 struct StageResult {
   std::string name;
-  double wall_traction;  ///< part of the in-situ traction left when it ended; stable: as asked [-]
+  double wall_traction;        ///< residual: part of the in-situ traction left when it ended [-]
+  double wall_traction_asked;  ///< at its end; reached unless the stage ended before [-]
   EquilibriumReport report;
   Convergence convergence;  ///< at its end [m]
+
+  /// False where blocks fell or the search ended while the wall was still being unloaded.
+  [[nodiscard]] bool fully_unloaded() const {
+    return std::abs(wall_traction - wall_traction_asked) < 1e-9;
+  }
 };
 
 /// A finished run.
@@ -31,14 +38,15 @@ struct RunResult {
   double generation_seconds = 0, equilibrium_seconds = 0;
 
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
-  /// That of the last stage; a stage that does not end stable ends the run.
+  /// That of the last stage; a stage that does not end stable ends the run. In words:
+  /// `to_string(verdict(), fallen_measure())`.
   [[nodiscard]] Verdict verdict() const { return last().verdict; }
   [[nodiscard]] double fallen_measure() const;  ///< over all stages [m^2]
 };
 
 /// A finished interaction diagram.
 struct DiagramResult {
-  std::vector<std::string> warnings;  ///< about the rock
+  std::vector<std::string> warnings;  ///< about the rock, and values that are unusual
   std::vector<DiagramPoint> points;   ///< spacing by spacing, thickness running faster
   std::size_t blocks = 0;
   double seconds = 0;
@@ -62,11 +70,12 @@ struct GeneratedRock {
 /// @throws Stopped       `progress` said so
 [[nodiscard]] GeneratedRock rock_of(const Input& input, const Progress& progress = {});
 
-/// @throws InvalidInput, NumericalFault; Stopped if `report` said so while rock was made
+/// @throws InvalidInput, NumericalFault  the latter names the values of the input that are unusual
+/// @throws Stopped       `report` said so while rock was made
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
 
 /// @pre    input.diagram
-/// @throws InvalidInput, NumericalFault, Stopped
+/// @throws InvalidInput, NumericalFault, Stopped  as above
 [[nodiscard]] DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report);
 
 }  // namespace voussoir::program

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <voussoir/io/number_text.hpp>
 #include <voussoir/solver/explicit.hpp>
 
 #include "input_document.hpp"
@@ -18,13 +19,28 @@ double degrees(double angle) { return angle * std::numbers::pi / 180; }
 
 Range angle_below_90() { return {.low = 0, .high = degrees(90), .high_included = false}; }
 
+// ---- Ranges of what the equations add up. Far outside of them one spring drowns another in the
+// ---- 16 digits of a number, and a body then "can move without resistance"; or blocks take for
+// ---- ever to fall.
+
+constexpr Range per_area_range{.low = 1e3, .high = 1e12};       // joints, interface [Pa/m]
+constexpr Range bolt_range{.low = 1e3, .high = 1e12};           // of one bolt [N/m]
+constexpr Range modulus_range{.low = 1e6, .high = 1e12};        // of a lining [Pa]
+constexpr Range gravity_range{.low = 1, .high = 1000};          // [m/s^2]; a centrifuge has 1000
+constexpr Range density_range{.low = 1, .high = 1e5};           // [kg/m^3]
+constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};      // below it rounding decides
+constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};  // [m]
+constexpr Range surcharge_range{.low = 0, .high = 1e9};         // [Pa]
+constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
+constexpr double thinnest_lining = 1e-3;                                    // [m]
+
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
 void read_model(Section& s, ModelInput& model) {
   s.quantity("width", model.width, dimension::length, above(0), Need::required);
   s.quantity("below_invert", model.below_invert, dimension::length, above(0), Need::required);
   s.integer("seed", model.seed, 0, std::numeric_limits<std::int64_t>::max());
-  s.quantity("gravity", model.gravity, dimension::acceleration, above(0), Need::optional);
+  s.quantity("gravity", model.gravity, dimension::acceleration, gravity_range, Need::optional);
   if (const auto value = s.find("origin", Need::optional))
     model.origin = value->as_point().value_or(model.origin);
 }
@@ -142,8 +158,8 @@ void read_joint_set(Section& s, JointSetInput& set) {
              {.low = 0, .high = 1e4, .low_included = false});
   s.quantity("spacing", set.spacing, dimension::length, above(0));
   s.quantity("extent", set.extent, dimension::length, above(0), Need::optional, Infinity::allowed);
-  s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, above(0));
-  s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, above(0));
+  s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, per_area_range);
+  s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, per_area_range);
   s.quantity("friction", set.friction_angle, dimension::angle, angle_below_90());
   if (both) {
     s.complain("spacing", "is given besides intensity", "one of intensity and spacing");
@@ -154,8 +170,10 @@ void read_joint_set(Section& s, JointSetInput& set) {
 }
 
 void read_joint(Section& s, JointInput& joint) {
-  s.quantity("kn", joint.normal_stiffness, dimension::stiffness_per_area, above(0), Need::required);
-  s.quantity("ks", joint.shear_stiffness, dimension::stiffness_per_area, above(0), Need::required);
+  s.quantity("kn", joint.normal_stiffness, dimension::stiffness_per_area, per_area_range,
+             Need::required);
+  s.quantity("ks", joint.shear_stiffness, dimension::stiffness_per_area, per_area_range,
+             Need::required);
   s.quantity("friction", joint.friction_angle, dimension::angle, angle_below_90(), Need::required);
 }
 
@@ -215,12 +233,14 @@ void read_bolts(Section& s, BoltsInput& bolts) {
   if (const auto value = s.find("spacing", Need::required, spacing_form))
     bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
   bolts.arc = read_arc(s).value_or(ArcInput{0, degrees(180)});
-  s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, above(0), Need::optional);
+  s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
+             Need::optional);
   s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
-  s.quantity("stiffness", bolts.stiffness, dimension::stiffness, above(0), Need::required);
-  s.quantity("pretension", bolts.pretension, dimension::force, at_least(0), Need::optional);
-  s.quantity("yield_force", bolts.yield_force, dimension::force, above(0));
-  s.quantity("rupture_force", bolts.rupture_force, dimension::force, above(0));
+  s.quantity("stiffness", bolts.stiffness, dimension::stiffness, bolt_range, Need::required);
+  s.quantity("pretension", bolts.pretension, dimension::force, between(0, force_range.high),
+             Need::optional);
+  s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
+  s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
 
   const bool anchors_known = s.choice<BoltAnchors>("anchors", bolts.anchors,
                                                    {{"lorig", BoltAnchors::lorig},
@@ -241,7 +261,7 @@ void read_bolts(Section& s, BoltsInput& bolts) {
       "law", bolts.law, {{"axial", BoltLaw::axial}, {"axial-shear", BoltLaw::axial_shear}},
       Need::optional);
   const auto shear = [&] {
-    s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness, above(0),
+    s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness, bolt_range,
                Need::required);
   };
   if (law_known) {
@@ -252,8 +272,9 @@ void read_bolts(Section& s, BoltsInput& bolts) {
 }
 
 void read_lining(Section& s, LiningInput& lining, int facets) {
-  s.quantity("thickness", lining.thickness, dimension::length, above(0), Need::required);
-  s.quantity("E", lining.young_modulus, dimension::pressure, above(0), Need::required);
+  s.quantity("thickness", lining.thickness, dimension::length, at_least(thinnest_lining),
+             Need::required);
+  s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
            {.low = -1, .high = 0.5, .low_included = false, .high_included = false}, Need::optional);
   s.choice<LiningBeam>(
@@ -262,10 +283,10 @@ void read_lining(Section& s, LiningInput& lining, int facets) {
       Need::optional);
   s.table("interface", [&](Section& interface) {
     interface.quantity("kn", lining.interface_normal_stiffness, dimension::stiffness_per_area,
-                       above(0), Need::required);
+                       per_area_range, Need::required);
     lining.interface_shear_stiffness = lining.interface_normal_stiffness;
     interface.quantity("ks", lining.interface_shear_stiffness, dimension::stiffness_per_area,
-                       above(0), Need::optional);
+                       per_area_range, Need::optional);
     interface.quantity("friction", lining.interface_friction_angle, dimension::angle,
                        angle_below_90(), Need::required);
   });
@@ -297,7 +318,7 @@ void read_run(Section& s, RunInput& run) {
                                           {"relaxation", RunMethod::relaxation},
                                           {"explicit", RunMethod::explicit_}},
                                          Need::optional);
-  s.number("tolerance", run.tolerance, between(1e-8, 0.1), Need::optional);
+  s.number("tolerance", run.tolerance, tolerance_range, Need::optional);
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);
   std::optional<double> refind_limit;
@@ -357,6 +378,12 @@ void read_diagram(Section& s, DiagramInput& diagram) {
     for (std::size_t i = 0; entries && i < entries->size(); ++i) {
       const auto thickness = entries->at(i).as_quantity(dimension::length, at_least(0));
       if (!thickness) continue;
+      if (*thickness > 0 && *thickness < thinnest_lining) {
+        entries->at(i).refuse("is outside the accepted range",
+                              "0 for no lining, or " +
+                                  format_quantity(thinnest_lining, dimension::length) + " or more");
+        continue;
+      }
       if (!diagram.thickness.empty() && !(*thickness > diagram.thickness.back()))
         entries->at(i).refuse("is not above the entry before it", thickness_list);
       diagram.thickness.push_back(*thickness);
@@ -371,11 +398,11 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.table("model", [&](Section& s) { read_model(s, input.model); });
   file.table("tunnel", [&](Section& s) { read_tunnel(s, input.tunnel); });
   file.table("rock", [&](Section& s) {
-    s.quantity("density", input.rock.density, dimension::density, above(0), Need::required);
+    s.quantity("density", input.rock.density, dimension::density, density_range, Need::required);
   });
   file.table("stress", [&](Section& s) {
     s.number("K0", input.stress.K0, between(0, 10), Need::required);
-    s.quantity("surcharge", input.stress.surcharge, dimension::pressure, at_least(0),
+    s.quantity("surcharge", input.stress.surcharge, dimension::pressure, surcharge_range,
                Need::optional);
   });
   file.tables("joint_set", [&](Section& s, std::size_t i) {
@@ -543,6 +570,47 @@ double TunnelInput::invert() const {
   return y;
 }
 
+std::vector<std::string> unusual_values(const Input& input) {
+  std::vector<std::string> unusual;
+  const auto look = [&](const std::string& key, double value, double low, double high,
+                        const Dimension& dimension) {
+    if (value >= low && value <= high) return;
+    unusual.push_back(key + " = " + format_quantity(value, dimension) +
+                      " is unusual (common: " + format_quantity(low, dimension) + " to " +
+                      format_quantity(high, dimension) + ")");
+  };
+  const auto look_at_joints = [&](const std::string& table, double kn, double ks) {
+    look(table + ".kn", kn, 1e8, 2e11, dimension::stiffness_per_area);
+    look(table + ".ks", ks, 1e7, 1e11, dimension::stiffness_per_area);
+  };
+  look("model.gravity", input.model.gravity, 5, 20, dimension::acceleration);
+  look("rock.density", input.rock.density, 1500, 4500, dimension::density);
+  look_at_joints("joint", input.joint.normal_stiffness, input.joint.shear_stiffness);
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
+    const JointSetInput& set = input.joint_sets[k];
+    look_at_joints("joint_set[" + std::to_string(k) + "]", set.normal_stiffness.value_or(1e9),
+                   set.shear_stiffness.value_or(1e9));
+  }
+  if (input.bolts) {
+    look("support.bolts.stiffness", input.bolts->stiffness, 1e6, 1e10, dimension::stiffness);
+    if (input.bolts->law == BoltLaw::axial_shear)
+      look("support.bolts.shear_stiffness", input.bolts->shear_stiffness, 1e5, 1e10,
+           dimension::stiffness);
+    look("support.bolts.out_of_plane", input.bolts->out_of_plane, 0.2, 10, dimension::length);
+  }
+  if (input.lining) {
+    look("support.lining.E", input.lining->young_modulus, 1e9, 3e11, dimension::pressure);
+    look("support.lining.interface.kn", input.lining->interface_normal_stiffness, 1e7, 1e11,
+         dimension::stiffness_per_area);
+    look("support.lining.interface.ks", input.lining->interface_shear_stiffness, 1e6, 1e11,
+         dimension::stiffness_per_area);
+  }
+  if (input.run.tolerance < 1e-5)
+    unusual.push_back("run.tolerance = " + significant_text(input.run.tolerance, 3) +
+                      " is unusual (common: 0.0001 to 0.01)");
+  return unusual;
+}
+
 double Input::domain_top() const { return tunnel.crown() + tunnel.cover; }
 double Input::domain_bottom() const { return tunnel.invert() - model.below_invert; }
 
@@ -589,6 +657,7 @@ Input read_input_text(std::string_view text, const std::string& name,
   check_stages(checker, input);
   check_diagram(checker, input);
   checker.finish();
+  input.content = canonical_text(document);
   return input;
 }
 

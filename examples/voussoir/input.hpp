@@ -33,7 +33,7 @@ struct ModelInput {
   double width = 0;           ///< of the whole domain, the tunnel in its middle [m], > 0
   double below_invert = 0;    ///< ground under the invert [m], > 0
   std::uint64_t seed = 1;     ///< of the random joints
-  double gravity = 9.81;      ///< [m/s^2], > 0
+  double gravity = 9.81;      ///< [m/s^2], 1 to 1000
   Point origin = {0.0, 0.0};  ///< site coordinates of the tunnel centre, for files of joints [m]
 };
 
@@ -55,13 +55,13 @@ struct TunnelInput {
 
 /// [rock]
 struct RockInput {
-  double density = 0;  ///< [kg/m^3], > 0
+  double density = 0;  ///< [kg/m^3], 1 to 1e5
 };
 
 /// [stress] In situ: vertical from depth, horizontal = K0 times vertical.
 struct StressInput {
   double K0 = 0;         ///< horizontal / vertical [-], 0 to 10
-  double surcharge = 0;  ///< on the ground surface [Pa], >= 0
+  double surcharge = 0;  ///< on the ground surface [Pa], 0 to 1e9
 };
 
 /// [[joint_set]] One family of random joints. Exactly one of intensity and spacing is given.
@@ -79,8 +79,8 @@ struct JointSetInput {
 
 /// [joint] The mechanics of all joints whose set does not say otherwise.
 struct JointInput {
-  double normal_stiffness = 0;  ///< kn [Pa/m], > 0
-  double shear_stiffness = 0;   ///< ks [Pa/m], > 0
+  double normal_stiffness = 0;  ///< kn [Pa/m], 1e3 to 1e12
+  double shear_stiffness = 0;   ///< ks [Pa/m], 1e3 to 1e12
   double friction_angle = 0;    ///< friction [rad], 0 <= . < pi/2
 };
 
@@ -107,14 +107,15 @@ struct ArcInput {
 struct BoltsInput {
   double length = 0;  ///< [m], > 0
   BoltSpacing spacing;
-  ArcInput arc;                ///< default 0 to pi: the roof
-  double out_of_plane = 1;     ///< distance between bolts along the tunnel [m], > 0
-  double diameter = 0.028;     ///< [m], > 0
-  double stiffness = 0;        ///< axial, of one bolt across one joint [N/m], > 0
-  double shear_stiffness = 0;  ///< of one bolt across one joint, law axial_shear only [N/m], > 0
-  double pretension = 0;       ///< [N], >= 0
-  std::optional<double> yield_force;    ///< of one bolt [N], > 0
-  std::optional<double> rupture_force;  ///< of one bolt [N], > 0
+  ArcInput arc;             ///< default 0 to pi: the roof
+  double out_of_plane = 1;  ///< distance between bolts along the tunnel [m], 0.01 to 1000
+  double diameter = 0.028;  ///< [m], > 0
+  double stiffness = 0;     ///< axial, of one bolt across one joint [N/m], 1e3 to 1e12
+  double shear_stiffness =
+      0;                  ///< of one bolt across one joint, law axial_shear only [N/m], 1e3 to 1e12
+  double pretension = 0;  ///< [N], 0 to 1e9
+  std::optional<double> yield_force;    ///< of one bolt [N], > 0, <= 1e9
+  std::optional<double> rupture_force;  ///< of one bolt [N], > 0, <= 1e9
   BoltAnchors anchors = BoltAnchors::lorig;
   double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0; default 1.2 diameters
   BoltLaw law = BoltLaw::axial;
@@ -122,12 +123,12 @@ struct BoltsInput {
 
 /// [support.lining]
 struct LiningInput {
-  double thickness = 0;        ///< [m], > 0, less than half the opening's width
-  double young_modulus = 0;    ///< E [Pa], > 0
+  double thickness = 0;        ///< [m], >= 1e-3, less than half the opening's width
+  double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
   double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
   LiningBeam beam = LiningBeam::euler_bernoulli;
-  double interface_normal_stiffness = 0;  ///< interface.kn [Pa/m], > 0
-  double interface_shear_stiffness = 0;   ///< interface.ks [Pa/m], > 0; default kn
+  double interface_normal_stiffness = 0;  ///< interface.kn [Pa/m], 1e3 to 1e12
+  double interface_shear_stiffness = 0;   ///< interface.ks [Pa/m], 1e3 to 1e12; default kn
   double interface_friction_angle = 0;    ///< interface.friction [rad], 0 <= . < pi/2
   int nodes = 72;                         ///< 8 to 2000; default tunnel.facets
   std::optional<ArcInput> arc;            ///< default: the full ring
@@ -144,7 +145,7 @@ struct StageInput {
 /// [run] How equilibrium is sought.
 struct RunInput {
   RunMethod method = RunMethod::two_level;
-  double tolerance = 1e-3;           ///< accepted error estimate [-], 1e-8 to 0.1
+  double tolerance = 1e-3;           ///< accepted error estimate [-], 1e-6 to 0.1
   double displacement_limit = 0.02;  ///< a block that moved further has fallen [m], > 0
   double refind_limit = 0.02;        ///< moved so far, contacts are found again [m], > 0
   double damping = 0.7;              ///< local damping, explicit only [-], 0 to 0.95
@@ -155,7 +156,7 @@ struct RunInput {
 /// [diagram] The axes of the interaction diagram, each rising, with two or more entries.
 struct DiagramInput {
   std::vector<std::optional<BoltSpacing>> spacing;  ///< none: no bolts, always last
-  std::vector<double> thickness;                    ///< 0: no lining [m]
+  std::vector<double> thickness;                    ///< 0: no lining; otherwise >= 1e-3 [m]
 };
 
 /// A whole input file, checked: every number is in the range given above, and they fit together.
@@ -174,6 +175,7 @@ struct Input {
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   RunInput run;
   std::optional<DiagramInput> diagram;
+  std::string content;  ///< every key and value, overrides included, in one order: for the run id
 
   [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
@@ -192,6 +194,10 @@ struct SizeEstimate {
 ///          than the minimum inscribed radius lets there be (within a factor of two of generated
 ///          masses). Joints of a file are counted when they are read, with the same limits.
 [[nodiscard]] SizeEstimate estimate_size(const Input& input);
+
+/// Keys whose values are accepted but far from what rock, steel and concrete have: first to look at
+/// where a search finds no end. "joint.kn = 500 GPa/m is unusual (common: ...)".
+[[nodiscard]] std::vector<std::string> unusual_values(const Input& input);
 
 /// One thing that is wrong with an input, and where.
 struct InputError {

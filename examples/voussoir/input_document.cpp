@@ -19,6 +19,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <voussoir/io/number_text.hpp>
 
 namespace voussoir::program {
 
@@ -26,6 +27,9 @@ namespace {
 
 constexpr std::size_t largest_file = 16U << 20U;  // an input is a page; this is somebody's mesh
 constexpr std::size_t longest_shown_line = 400;
+/// The parser calls itself for every level; the deepest key of an input has four names and the
+/// deepest list two brackets.
+constexpr int deepest_nesting = 16;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }
@@ -52,9 +56,15 @@ std::vector<std::string> split_lines(std::string_view text) {
   return lines;
 }
 
+std::string nesting_limit() {
+  return "at most " + std::to_string(deepest_nesting) +
+         " names in a dotted key and brackets inside each other";
+}
+
 /// What must not reach toml++ 3.3, whose behaviour is undefined at letters beyond ASCII outside
 /// texts (`is_non_ascii_horizontal_whitespace`). They are an error in TOML, and a usual one: quotes
 /// pasted from a word processor. Texts of several lines are TOML, but no key has a use for them.
+/// Keys and brackets nested without end would overflow its stack.
 struct Stray {
   Place place;
   std::string message, accepted;
@@ -73,8 +83,25 @@ std::optional<Stray> find_stray(std::string_view text) {
     ++place.column;
   };
   char before = '\n';  // the last character that is no blank
+  int names = 1;       // of the dotted key so far
+  int brackets = 0;    // open
   while (at < text.size()) {
     const char c = text[at];
+    if (c == '.') {
+      if (++names > deepest_nesting)
+        return Stray{place, "a key of more than " + std::to_string(deepest_nesting) + " names",
+                     nesting_limit()};
+    } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+      names = 1;
+    }
+    if (c == '[' || c == '{') {
+      if (++brackets > deepest_nesting)
+        return Stray{place,
+                     "more than " + std::to_string(deepest_nesting) + " brackets inside each other",
+                     nesting_limit()};
+    } else if ((c == ']' || c == '}') && brackets > 0) {
+      --brackets;
+    }
     if (c == '#') {
       while (at < text.size() && text[at] != '\n') step();
     } else if (c == '"' || c == '\'') {
@@ -157,6 +184,13 @@ void set_override(Node& node, int index) {
   for (Node& child : node.array) set_override(child, index);
 }
 
+/// Whether a list or table that an override holds is nested too deep.
+bool nests_too_deep(const std::string& text) {
+  if (!text.starts_with('[') && !text.starts_with('{')) return false;
+  const std::optional<Stray> stray = find_stray("value = " + text);
+  return stray && stray->accepted == nesting_limit();
+}
+
 /// The value of an override: TOML if it is that, otherwise the text itself, so that the shell's
 /// quotes are enough around `5 GPa/m`.
 Node override_value(const std::string& text, int index) {
@@ -232,6 +266,13 @@ void apply_override(Document& document, int index) {
   if (equals == std::string::npos) return refuse("override without `=`", form);
   const std::optional<std::vector<Step>> steps = split_key(key);
   if (!steps) return refuse("\"" + printable(key) + "\" is not a key", form);
+  if (steps->size() > static_cast<std::size_t>(deepest_nesting))
+    return refuse("a key of " + std::to_string(steps->size()) + " names and indices",
+                  nesting_limit());
+  const std::string value = trimmed(std::string_view(text).substr(equals + 1));
+  if (nests_too_deep(value))
+    return refuse("a value nested more than " + std::to_string(deepest_nesting) + " deep",
+                  nesting_limit());
 
   Node* node = &document.root;
   std::string path;
@@ -265,7 +306,7 @@ void apply_override(Document& document, int index) {
       path += (path.empty() ? "" : ".") + step.key;
     }
   }
-  *node = override_value(trimmed(std::string_view(text).substr(equals + 1)), index);
+  *node = override_value(value, index);
 }
 
 [[noreturn]] void refuse_file(const std::string& name, const std::string& message,
@@ -287,6 +328,53 @@ const Node* Node::find(std::string_view key) const {
 
 Node* Node::find(std::string_view key) {
   return const_cast<Node*>(static_cast<const Node*>(this)->find(key));
+}
+
+namespace {
+void append_value(const Node& node, std::string& out) {
+  const auto text = [&out](const std::string& word) {
+    out += std::to_string(word.size()) + ":" + word;
+  };
+  switch (node.kind) {
+    case Node::Kind::table: {
+      std::vector<const Entry*> entries;
+      for (const Entry& entry : node.table) entries.push_back(&entry);
+      std::sort(entries.begin(), entries.end(),
+                [](const Entry* a, const Entry* b) { return a->key < b->key; });
+      out += '{';
+      for (const Entry* entry : entries) {
+        text(entry->key);
+        append_value(entry->value, out);
+      }
+      out += '}';
+      break;
+    }
+    case Node::Kind::array:
+      out += '[';
+      for (const Node& entry : node.array) append_value(entry, out);
+      out += ']';
+      break;
+    case Node::Kind::text:
+      text(node.text);
+      break;
+    case Node::Kind::integer:
+      out += "i" + std::to_string(node.integer) + ";";
+      break;
+    case Node::Kind::real:
+      out += "r" + shortest_text(node.real) + ";";
+      break;
+    case Node::Kind::boolean:
+    case Node::Kind::date:  // no key takes one
+      text(node.written);
+      break;
+  }
+}
+}  // namespace
+
+std::string canonical_text(const Document& document) {
+  std::string text;
+  append_value(document.root, text);
+  return text;
 }
 
 InputError Document::error_at(const Place& place, std::string key, std::string message,
@@ -394,6 +482,7 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 std::string read_text(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code status;
+  if (name.empty()) refuse_file("\"\"", "the input file has no name", "an input file in TOML");
   if (std::filesystem::is_directory(file, status))
     refuse_file(name, name + " is a folder", "an input file in TOML");
   if (!std::filesystem::exists(file, status))

@@ -93,6 +93,7 @@ std::string Range::text(const Dimension* dimension) const {
 std::string quantity_form(const Dimension& dimension, const Range& range, Infinity infinity) {
   const std::string bounds = range.text(&dimension);
   return (bounds.empty() ? "" : bounds + "; ") + accepted_examples(dimension) +
+         (dimension == dimension::number ? ", or the bare number 0.4" : "") +
          (infinity == Infinity::allowed ? ", or \"inf\"" : "");
 }
 
@@ -195,8 +196,12 @@ std::optional<double> Value::as_quantity(const Dimension& dimension, const Range
              infinity == Infinity::allowed) {
     value = node_->real;  // TOML has a word inf of its own, and no unit would change it
   } else if (node_->kind == Node::Kind::integer || node_->kind == Node::Kind::real) {
-    refuse(std::isfinite(node_->real) ? "has no unit" : "is not finite", accepted);
-    return std::nullopt;
+    const bool pure = dimension == dimension::number;  // a fraction needs no unit
+    if (!pure || !std::isfinite(node_->real)) {
+      refuse(std::isfinite(node_->real) ? "has no unit" : "is not finite", accepted);
+      return std::nullopt;
+    }
+    value = node_->real;
   } else {
     refuse("is " + kind_name(node_->kind) + ", not a number with its unit", accepted);
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -14,18 +15,23 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
 
 #include "analyses.hpp"
+#include "input_document.hpp"
 #include "outputs.hpp"
 #include "pages.hpp"
 #include "patterns.hpp"
 #include "plotting.hpp"
 #include "report.hpp"
+#include "run_folder.hpp"
 #include "scoreboard.hpp"
 #include "verification.hpp"
 
@@ -53,6 +59,21 @@ struct Options {
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };
 
+/// What memory may run out of, in words, and what then to reduce.
+struct Work {
+  std::string doing = "reading the command line", remedy = "fewer and smaller arguments";
+};
+Work work;
+
+const char* const smaller_model =
+    "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a larger "
+    "blocks.min_inscribed_radius";
+
+/// What `run` and `diagram` report of themselves.
+void now_doing(const std::string& what, const std::string& otherwise) {
+  work.doing = what == "blocks" ? "cutting the rock into blocks" : otherwise;
+}
+
 /// One line that rewrites itself on a terminal, nothing in a pipe.
 class ProgressLine {
  public:
@@ -79,29 +100,8 @@ class ProgressLine {
   bool shown_;
 };
 
-/// Refuses a folder in which nothing can be written, before anything is computed.
-void check_folder(const std::string& folder, const std::string& option = "--out") {
-  std::filesystem::path there = std::filesystem::absolute(folder);
-  std::error_code error;
-  while (!std::filesystem::exists(there, error) && there.has_relative_path())
-    there = there.parent_path();
-  if (!std::filesystem::is_directory(there, error))
-    throw std::runtime_error(option + " " + folder + ": '" + there.string() + "' is not a folder");
-  if (access(there.c_str(), W_OK | X_OK) != 0)
-    throw std::runtime_error(option + " " + folder + ": no permission to write in '" +
-                             there.string() + "'");
-}
-
-std::filesystem::path prepared_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error("cannot make folder '" + folder.string() + "': " + error.message());
-  return folder;
-}
-
 /// The line says what was written only once it is there.
-void publish(voussoir::OutputSet& outputs, const Options& options, const std::string& names) {
+void publish(RunFolder& outputs, const Options& options, const std::string& names) {
   outputs.publish();
   if (!options.quiet) std::cout << "written  " << names << " in " << options.folder << "\n";
 }
@@ -112,41 +112,50 @@ int say_interrupted() {
 }
 
 int run_verb(const Options& options) {
+  work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(options.file, options.overrides);
-  check_folder(options.folder);
+  RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
-  const RunResult run = run_tunnel(
-      input, [&](const std::string& what, double fraction) { return line.show(what, fraction); });
+  work.remedy = smaller_model;
+  const RunResult run = run_tunnel(input, [&](const std::string& what, double fraction) {
+    now_doing(what, "computing the stage " + what);
+    return line.show(what, fraction);
+  });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options.folder);
-  voussoir::OutputSet outputs;
-  outputs.add(folder / "run.json", run_json(input, run));
-  outputs.add(folder / "bolts.csv", bolts_csv(run));
-  outputs.add(folder / "lining.csv", lining_csv(run));
-  outputs.add(folder / "blocks.svg", blocks_svg(input, run));
+  work.doing = "writing the results";
+  const std::string id = RunId("tunnel").add(input).text();
+  outputs.add("run.json", run_json(input, run), id);
+  outputs.add("bolts.csv", bolts_csv(run), id);
+  outputs.add("lining.csv", lining_csv(run), id);
+  outputs.add("blocks.svg", blocks_svg(input, run), id);
   if (!options.quiet) std::cout << run_summary(input, run);
   publish(outputs, options, "run.json, bolts.csv, lining.csv, blocks.svg");
   return run.verdict() == voussoir::Verdict::undecided ? not_decided : finished;
 }
 
 int diagram_verb(const Options& options) {
+  work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(options.file, options.overrides);
   if (!input.diagram)
     throw voussoir::InvalidInput(
         "no [diagram] in " + options.file +
         "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
-  check_folder(options.folder);
+  RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
-  const DiagramResult diagram = run_diagram(
-      input, options.threads,
-      [&](const std::string& what, double fraction) { return line.show(what, fraction); });
+  work.remedy = std::string(smaller_model) + ", or fewer --threads";
+  const DiagramResult diagram =
+      run_diagram(input, options.threads, [&](const std::string& what, double fraction) {
+        now_doing(what, "computing the tunnels of the diagram with --threads " +
+                            std::to_string(options.threads));
+        return line.show(what, fraction);
+      });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options.folder);
-  voussoir::OutputSet outputs;
-  outputs.add(folder / "interaction.csv", interaction_csv(input, diagram));
-  outputs.add(folder / "interaction.svg", interaction_svg(input, diagram));
+  work.doing = "writing the results";
+  const std::string id = RunId("tunnel").add(input).text();
+  outputs.add("interaction.csv", interaction_csv(input, diagram), id);
+  outputs.add("interaction.svg", interaction_svg(input, diagram), id);
   if (!options.quiet) std::cout << diagram_summary(input, diagram);
   publish(outputs, options, "interaction.csv, interaction.svg");
   for (const auto& point : diagram.points)
@@ -162,7 +171,11 @@ struct PatternChoice {
 
 int patterns_verb(const Options& options, const PatternChoice& choice,
                   const PatternOptions& settings) {
-  check_folder(options.folder);
+  RunFolder outputs(options.folder);
+  work = {"computing collapses with --threads " + std::to_string(options.threads),
+          "fewer --threads, --cases or --seeds"};
+  RunId run("patterns");
+  run.add(settings.duration).add(settings.unloading);
   std::vector<PatternResult> results;
   for (const PatternCase& c : pattern_cases())
     if (choice.cases.empty() ||
@@ -171,6 +184,7 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
         results.emplace_back();
         results.back().number = c.number;
         results.back().seed = static_cast<std::uint64_t>(seed);
+        run.add(c.number).add(seed);
       }
   ProgressLine line(options.quiet);
   std::atomic<std::size_t> done{0};
@@ -184,17 +198,17 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  const std::filesystem::path folder = prepared_folder(options.folder);
-  voussoir::OutputSet outputs;
-  outputs.add(folder / "patterns.csv", patterns_csv(results));
-  outputs.add(folder / "patterns.svg", patterns_sheet(results));
+  work.doing = "writing the results";
+  const std::string id = run.text();
+  outputs.add("patterns.csv", patterns_csv(results), id);
+  outputs.add("patterns.svg", patterns_sheet(results), id);
   int roofs = 0, walls = 0;
   for (const PatternResult& result : results) {
     const PatternCase& c = pattern_cases()[static_cast<std::size_t>(result.number - 1)];
     char name[64];
     std::snprintf(name, sizeof name, "case_%02d_seed_%d.svg", result.number,
                   static_cast<int>(result.seed));
-    outputs.add(folder / name, pattern_svg(result));
+    outputs.add(name, pattern_svg(result), id);
     roofs += roof_agrees(c, result);
     walls += wall_agrees(c, result);
     if (options.quiet) continue;
@@ -211,9 +225,14 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
 }
 
 int paper_verb(const Options& options, int samples, const std::string& pages) {
-  check_folder(options.folder);
-  if (!pages.empty()) check_folder(pages, "--pages");
   voussoir::paper::check_gnuplot();
+  RunFolder outputs(options.folder);
+  std::optional<RunFolder> pages_outputs;
+  std::error_code other;
+  const bool same_folder =
+      !pages.empty() && std::filesystem::equivalent(options.folder, pages, other);
+  if (!pages.empty() && !same_folder) pages_outputs.emplace(pages, "--pages");
+  work = {"", "fewer --samples or --threads"};
   const auto start = std::chrono::steady_clock::now();
   ProgressLine line(options.quiet);
   std::string doing;
@@ -225,6 +244,7 @@ int paper_verb(const Options& options, int samples, const std::string& pages) {
   try {
     for (const auto& analysis : voussoir::paper::analyses()) {
       doing = analysis.name;
+      work.doing = "the analysis " + doing;
       line.show(doing, -1);
       sections.push_back(analysis.run(study));
       if (stop_asked != 0) throw voussoir::paper::Study::Stopped{};
@@ -241,15 +261,15 @@ int paper_verb(const Options& options, int samples, const std::string& pages) {
   results["paper.html"] = voussoir::paper::report_html(sections, drawings, study, seconds);
   results["scoreboard.csv"] = voussoir::paper::scoreboard_csv(sections);
   line.clear();
-  voussoir::OutputSet outputs;
-  const std::filesystem::path folder = prepared_folder(options.folder);
-  for (const auto& [name, text] : results) outputs.add(folder / name, text);
+  const std::string id = RunId("paper").add(samples).text();
   if (!pages.empty()) {
-    const std::filesystem::path there = prepared_folder(pages);
-    for (const auto& [name, text] :
-         voussoir::paper::documentation_pages(sections, drawings, study, seconds))
-      outputs.add(there / name, text);
+    const auto texts = voussoir::paper::documentation_pages(sections, drawings, study, seconds);
+    if (same_folder) results.insert(texts.begin(), texts.end());  // the same pictures
+    if (pages_outputs)
+      for (const auto& [name, text] : texts) pages_outputs->add(name, text, id);
   }
+  for (const auto& [name, text] : results) outputs.add(name, text, id);
+  if (pages_outputs) pages_outputs->publish();
   if (!options.quiet)
     std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
               << (samples == 1 ? " sample" : " samples") << " of the rock, "
@@ -262,6 +282,7 @@ int paper_verb(const Options& options, int samples, const std::string& pages) {
 }
 
 int verify_verb(const Options& options) {
+  work = {"the checks", "fewer --threads"};
   ProgressLine line(options.quiet);
   voussoir::paper::Study study(3, options.threads, [&](const std::string& what, double fraction) {
     return line.show(what, fraction);
@@ -281,16 +302,24 @@ int verify_verb(const Options& options) {
   return finished;
 }
 
-}  // namespace
+/// What was given in place of a verb; nothing if it is one, or none was given.
+const char* unknown_verb(const std::vector<std::string>& verbs, int argc, char** argv) {
+  for (int k = 1; k < argc; ++k) {
+    if (argv[k][0] == '-') continue;
+    return std::find(verbs.begin(), verbs.end(), argv[k]) == verbs.end() ? argv[k] : nullptr;
+  }
+  return nullptr;
+}
 
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app("Designs bolts and lining of tunnels in jointed rock.");
   app.set_version_flag("--version", std::string("voussoir ") + VOUSSOIR_VERSION_STRING);
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 finished (stable or collapsing: see run.json), 1 results cannot be written,\n"
-      "2 error in the input, 3 undecided, 4 numerical fault, 5 a check of verify fails,\n"
-      "130 interrupted (nothing written).");
+      "Exit status: 0 finished (stable, stable after rockfall or collapsing: see run.json),\n"
+      "1 results cannot be written or memory is exhausted, 2 error in the input or the command\n"
+      "line, 3 undecided, 4 numerical fault, 5 a check of verify fails, 130 interrupted (nothing\n"
+      "written).");
   Options options;
   const auto add_out = [&options](CLI::App* verb) {
     verb->add_option("-o,--out", options.folder, "folder for the results, made if missing")
@@ -350,10 +379,24 @@ int main(int argc, char** argv) {
                     "folder for a page of documentation on each analysis; none if not given");
   add_threads(paper);
   add_quiet(paper);
+  paper->callback([&] {
+    if (paper->count("--pages") > 0 && pages.empty())
+      throw CLI::ValidationError("--pages", "the folder has no name");
+  });
   CLI::App* verify = app.add_subcommand(
       "verify", "closed forms and solvers against values from elsewhere: PASS or FAIL");
   add_threads(verify);
   add_quiet(verify);
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (const char* word = unknown_verb(verbs, argc, argv)) {
+    const std::string guess = closest(word, verbs);
+    std::cerr << "error: `" << printable(word) << "` is not a verb of voussoir"
+              << (guess.empty() ? "" : ", did you mean `" + guess + "`?") << "\n   = accepted: ";
+    for (const std::string& verb : verbs)
+      std::cerr << verb << (verb == verbs.back() ? "; see voussoir --help\n" : ", ");
+    return bad_input;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -377,8 +420,26 @@ int main(int argc, char** argv) {
   } catch (const voussoir::NumericalFault& fault) {
     std::cerr << "stopped: " << fault.what() << "\n";
     return numerical_fault;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: out of memory while " << work.doing
+              << "; nothing written\n   = accepted: " << work.remedy << "\n";
+    return failed;
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << "\n";
     return failed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int status = run_program(argc, argv);
+  // A full disk behind `> file` shows only now.
+  errno = 0;
+  std::cout.flush();
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (!lost) return status;
+  const std::string reason = errno != 0 ? ": " + std::generic_category().message(errno) : "";
+  std::cerr << "error: cannot write to standard output" << reason << "\n";
+  return status == finished ? failed : status;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <voussoir/core/version.hpp>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
@@ -72,7 +73,7 @@ Extremes extremes_of(const RunResult& run) {
 }
 
 nlohmann::json report_json(const EquilibriumReport& report) {
-  return {{"verdict", to_string(report.verdict)},
+  return {{"verdict", to_string(report)},
           {"reason", report.reason},
           {"error_estimate", report.error_estimate},
           {"unbalance_over_weight", report.unbalance_over_weight},
@@ -94,9 +95,9 @@ nlohmann::json convergence_json(const Convergence& c) {
 
 std::string verdict_sentence(const RunResult& run) {
   const EquilibriumReport& last = run.last();
-  std::string sentence = std::string("Verdict: ") + to_string(last.verdict);
+  std::string sentence = std::string("Verdict: ") + to_string(last.verdict, run.fallen_measure());
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
-    sentence += ", after " + text("%.2f", run.fallen_measure()) + " m² of rock fell";
+    sentence += " of " + text("%.2f", run.fallen_measure()) + " m²";
   if (last.verdict == Verdict::stable) {
     sentence += std::isfinite(last.error_estimate)
                     ? ". Estimated error of the displacements " +
@@ -108,6 +109,26 @@ std::string verdict_sentence(const RunResult& run) {
     sentence += ": " + last.reason + ".";
   }
   return sentence;
+}
+
+/// What must not be overlooked in the picture of a run; none: the tunnel stands, all of it.
+std::optional<PictureBanner> banner_of(const RunResult& run) {
+  const EquilibriumReport& last = run.last();
+  const double fallen = run.fallen_measure();
+  std::string word = to_string(last.verdict, fallen);
+  for (char& c : word)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  switch (last.verdict) {
+    case Verdict::stable:
+      if (!(fallen > 0)) return std::nullopt;
+      return PictureBanner{
+          word, text("%.2f", fallen) + " m² of rock fell before the rest came to rest", "#b45309"};
+    case Verdict::collapsing:
+      return PictureBanner{word, text("%.2f", fallen) + " m² of rock fell: no equilibrium"};
+    case Verdict::undecided:
+      break;
+  }
+  return PictureBanner{word, "no equilibrium was found: what is drawn here is no result"};
 }
 
 }  // namespace
@@ -122,6 +143,7 @@ std::string run_json(const Input& input, const RunResult& run) {
   for (const StageResult& stage : run.stages)
     stages.push_back({{"name", stage.name},
                       {"wall_traction", stage.wall_traction},
+                      {"wall_traction_asked", stage.wall_traction_asked},
                       {"equilibrium", report_json(stage.report)},
                       {"convergence", convergence_json(stage.convergence)}});
   nlohmann::json json = {
@@ -130,7 +152,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"title", input.title},
       {"models", composition_of(input)},
       {"seed", input.model.seed},
-      {"verdict", to_string(run.verdict())},
+      {"verdict", to_string(run.verdict(), run.fallen_measure())},
       {"error_estimate", run.last().error_estimate},
       {"fallen_area_m2", run.fallen_measure()},
       {"convergence", convergence_json(run.stages.back().convergence)},
@@ -205,6 +227,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   const Extremes e = extremes_of(run);
   picture.header.title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
   picture.header.lines = {verdict_sentence(run)};
+  picture.banner = banner_of(run);
   picture.header.key_numbers = {{"crown convergence", millimetres(c.crown) + " mm"},
                                 {"blocks", std::to_string(tunnel.mass().bodies.size())}};
   if (tunnel.bolt_count() > 0)
@@ -297,7 +320,7 @@ std::string interaction_csv(const Input& input, const DiagramResult& diagram) {
     const auto& spacing = axes.spacing[p.spacing];
     const std::string label =
         spacing ? text("%g", spacing->value / (spacing->is_angle ? degree : 1.0)) : "none";
-    table.add_row(label, 1e2 * axes.thickness[p.thickness], to_string(p.report.verdict), p.failed(),
+    table.add_row(label, 1e2 * axes.thickness[p.thickness], to_string(p.report), p.failed(),
                   1e3 * p.crown_convergence, 1e2 * p.crown_convergence / radius,
                   p.report.fallen_measure, 1e-3 * p.largest_bolt_force, 1e-3 * p.mean_bolt_force,
                   1e-3 * p.largest_thrust, 1e-3 * p.largest_moment, p.report.error_estimate,
@@ -310,11 +333,12 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   const DiagramInput& axes = *input.diagram;
   InteractionPicture picture;
   double worst = 0;
-  std::size_t failed = 0;
+  std::size_t failed = 0, undecided = 0;
   const auto columns = static_cast<Eigen::Index>(axes.thickness.size());
   const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
   picture.values.resize(columns, rows);
   picture.failed.resize(columns, rows);
+  picture.undecided.resize(columns, rows);
   for (const DiagramPoint& p : diagram.points) {
     const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
     // Where rock fell but a crown remains, its convergence still belongs to the surface; a
@@ -322,21 +346,32 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
     const bool standing = p.report.verdict == Verdict::stable;
     picture.values(i, j) =
         standing ? p.crown_convergence : std::numeric_limits<double>::quiet_NaN();
-    picture.failed(i, j) = p.failed();
-    failed += p.failed();
+    picture.undecided(i, j) = p.report.verdict == Verdict::undecided;
+    picture.failed(i, j) = p.failed() && !picture.undecided(i, j);
+    undecided += picture.undecided(i, j);
+    failed += picture.failed(i, j);
     if (standing) worst = std::max(worst, p.report.error_estimate);
   }
   picture.header.title = "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
-  picture.header.lines = {
-      "Convergence of the crown over lining thickness and bolt spacing, " +
-      std::to_string(diagram.points.size()) + " tunnels in " + std::to_string(diagram.blocks) +
-      " blocks (seed " + std::to_string(input.model.seed) +
-      "). Largest estimated error of the displacements " + text("%.2g", 100 * worst) +
-      " %. Red circles: rock falls or no equilibrium was found."};
+  picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
+                          std::to_string(diagram.points.size()) + " tunnels in " +
+                          std::to_string(diagram.blocks) + " blocks (seed " +
+                          std::to_string(input.model.seed) +
+                          "). Largest estimated error of the displacements " +
+                          text("%.2g", 100 * worst) + " %. Red circles: rock falls."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
       {"tunnels that fail",
        std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
+  if (undecided > 0) {
+    const std::string count =
+        std::to_string(undecided) + " of " + std::to_string(diagram.points.size());
+    picture.header.key_numbers.push_back({"tunnels undecided", count});
+    picture.banner = {{std::to_string(undecided) + " OF " + std::to_string(diagram.points.size()) +
+                           " TUNNELS UNDECIDED",
+                       "neither an equilibrium nor falling blocks were found at the points marked "
+                       "with ?: no result there"}};
+  }
   picture.diameter = 2 * input.tunnel.half_width();
   picture.thicknesses = axes.thickness;
   for (const auto& spacing : axes.spacing)
@@ -354,12 +389,17 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
-  for (const StageResult& stage : run.stages)
-    out += "stage    " + stage.name +
-           text(": %g %% of the wall traction left; ", 100 * stage.wall_traction) +
-           to_string(stage.report.verdict) + ", crown " + millimetres(stage.convergence.crown) +
-           " mm\n";
-  out += std::string("verdict  ") + to_string(last.verdict) + ": " + last.reason + "\n";
+  for (const StageResult& stage : run.stages) {
+    out += "stage    " + stage.name + ": " + to_string(stage.report) +
+           text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
+    if (!stage.fully_unloaded())
+      out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
+    out += "; crown " + millimetres(stage.convergence.crown) + " mm\n";
+  }
+  out += std::string("verdict  ") + to_string(last.verdict, run.fallen_measure());
+  if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
+    out += " of " + text("%.2f m2", run.fallen_measure());
+  out += ": " + last.reason + "\n";
   out += "         error estimate " + computed("%.1e", last.error_estimate) + ", worst unbalance " +
          computed("%.1e of a block's weight", last.unbalance_over_weight) + ", " +
          text("%.2f s\n", run.equilibrium_seconds);
@@ -387,7 +427,8 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
   std::string out =
       "crown convergence [mm] of " + std::to_string(diagram.points.size()) + " tunnels in " +
       std::to_string(diagram.blocks) + " blocks" +
-      text(", computed in %.1f s; R: rock falls, C: collapse, ?: undecided\n\n", diagram.seconds);
+      text(", computed in %.1f s; R: stable after rockfall, C: collapse, ?: undecided\n\n",
+           diagram.seconds);
   out += "spacing \\ lining";
   for (const double t : axes.thickness) out += text("%9.3g cm", 1e2 * t);
   out += "\n";

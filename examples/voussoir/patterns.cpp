@@ -416,9 +416,18 @@ std::string pattern_svg(const PatternResult& r) {
       "Measured, seed " + std::to_string(r.seed) + ". " + description(r),
       std::string("Paper: roof: ") + to_string(c.roof) + "; walls: " + to_string(c.wall) + "."};
   if (!r.note.empty()) header.lines.push_back("Ended early: " + r.note);
-  const double top = header.height(), side = 0.5 * (picture_width - 3 * picture_margin);
+  const double banner_room = r.note.empty() ? 0 : PictureBanner::height + 10;
+  const double top = header.height() + banner_room;
+  const double side = 0.5 * (picture_width - 3 * picture_margin);
   SvgCanvas canvas(picture_width, top + 2 * (side + 30), picture_printed_width, header.title);
   header.draw(canvas);
+  if (!r.note.empty())
+    PictureBanner{"ENDED EARLY",
+                  "a numerical fault ended this run: what is drawn last is no result"}
+        .draw(canvas,
+              {{picture_margin, header.height()},
+               {picture_width - picture_margin, header.height() + PictureBanner::height}},
+              header.height());
   for (std::size_t k = 0; k < r.stages.size() && k < 4; ++k) {
     const Vec2 low(picture_margin + static_cast<double>(k % 2) * (side + picture_margin),
                    top + static_cast<double>(k / 2) * (side + 30));

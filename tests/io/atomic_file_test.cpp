@@ -11,6 +11,8 @@
 
 #if __has_include(<sys/resource.h>)
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #define VOUSSOIR_TEST_HAS_FILE_LIMIT 1
@@ -166,6 +168,33 @@ TEST_SUITE("io/atomic_file") {
     CHECK(folder.file_count() == 2);
     CHECK(outputs.size() == 0);
   }
+
+#ifdef VOUSSOIR_TEST_HAS_FILE_LIMIT
+  TEST_CASE("what a killed process left is cleared, what a living one stages is not") {
+    const Folder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+      try {
+        const StagedFile staged(folder / "a", "never published");
+        raise(SIGKILL);
+      } catch (...) {
+      }
+      _exit(1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+    CHECK(folder.file_count() == 1);  // the hidden part
+    StagedFile staged(folder / "b", "mine");
+    CHECK(folder.file_count() == 2);
+    CHECK(clear_abandoned_parts(folder / ".") == 1);
+    CHECK(folder.file_count() == 1);
+    staged.publish();
+    CHECK(content_of(folder / "b") == "mine");
+    CHECK(clear_abandoned_parts(folder / ".") == 0);
+    CHECK(clear_abandoned_parts(folder / "no such folder") == 0);
+  }
+#endif
 
   TEST_CASE("a rename that fails leaves no temporary") {
     const Folder folder;

@@ -160,6 +160,34 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_FALSE(contains(text, "not computed"));  // the only gap is a failure
   }
 
+  TEST_CASE("what is no result has a banner and marks of its own") {
+    BlocksPicture rock = small_picture();
+    CHECK_FALSE(contains(draw_blocks_picture(rock), "banner"));
+    rock.banner = PictureBanner{"UNDECIDED", "no <equilibrium>"};
+    const std::string text = draw_blocks_picture(rock);
+    CHECK(xml_fault(text).empty());
+    CHECK(contains(text, "id=\"banner\""));
+    CHECK(contains(text, ">UNDECIDED<"));
+    CHECK(contains(text, ">no &lt;equilibrium&gt;<"));
+    // Over the rock: what comes later lies on top.
+    CHECK(text.find("id=\"banner\"") > text.find("id=\"bolts\""));
+
+    InteractionPicture picture = small_diagram();
+    CHECK_FALSE(contains(draw_interaction_picture(picture), "undecided"));
+    picture.undecided.setConstant(3, 3, false);
+    picture.undecided(1, 1) = true;
+    picture.values(1, 1) = not_a_number;
+    picture.banner = PictureBanner{"1 OF 9 TUNNELS UNDECIDED", ""};
+    const std::string diagram = draw_interaction_picture(picture);
+    CHECK(xml_fault(diagram).empty());
+    CHECK(contains(diagram, "undecided: no result"));
+    CHECK_FALSE(contains(diagram, "not computed"));
+    CHECK(contains(diagram, ">?</text>"));
+    CHECK(contains(diagram, ">1 OF 9 TUNNELS UNDECIDED<"));
+    picture.undecided.setConstant(2, 3, false);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
+  }
+
   TEST_CASE("another quantity has its own name and unit") {
     InteractionPicture picture = small_diagram();
     picture.values *= 1e7;  // 40 to 300 kN

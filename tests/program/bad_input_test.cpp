@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What cannot be computed is refused in words, and nothing is written.
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 
@@ -42,7 +43,7 @@ TEST_SUITE("program/bad_input") {
         {"\"5 GPa/m\"", "5e9", {"joint.kn = 5e9 has no unit", "5 GPa/m"}},
         {"\"5 GPa/m\"", "\"5 GPa\"", {"joint.kn", "5 GPa", "not a stiffness per area"}},
         {"K0 = 1.0", "K0 = nan", {"stress.K0 = nan", "not finite", "0 to 10"}},
-        {"\"2700 kg/m^3\"", "\"-2700 kg/m^3\"", {"rock.density", "-2700", "above 0"}},
+        {"\"2700 kg/m^3\"", "\"-2700 kg/m^3\"", {"rock.density", "-2700", "from 1 kg/m^3"}},
         {"\"35 deg\"", "\"90 deg\"", {"joint.friction", "90 deg", "below 90 deg"}},
         {"width = \"24 m\"", "width = \"4 m\"", {"model.width", "\"4 m\"", "above 4 m"}},
         {"cover = \"8 m\"", "cover = \"0 m\"", {"tunnel.cover", "0 m", "above 0"}},
@@ -169,6 +170,76 @@ TEST_SUITE("program/bad_input") {
     CHECK(help.out.find("Exit status") != std::string::npos);
     CHECK(run_program({"--version"}).out.starts_with("voussoir "));
   }
+
+  TEST_CASE("a word that is no verb is named, with the verb that was probably meant") {
+    struct Case {
+      std::string word, meant;
+    };
+    for (const Case& c : {Case{"rnu", "`run`"}, Case{"Run", "`run`"}, Case{"diagramm", "`diagram`"},
+                          Case{"verfy", "`verify`"}, Case{"init", ""}, Case{"", ""}}) {
+      CAPTURE(c.word);
+      const Outcome outcome = run_program({c.word, "--out", "nowhere"});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("`" + c.word + "` is not a verb") != std::string::npos);
+      CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
+      CHECK(outcome.err.find("accepted: run, diagram, patterns, paper, verify") !=
+            std::string::npos);
+    }
+  }
+
+  TEST_CASE("a folder without a name is refused in a sentence") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", good);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"run", file, "--out", ""}, {"patterns", "--out", ""}}) {
+      const Outcome outcome = run_program(arguments);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find("--out \"\": the folder for the results has no name") !=
+            std::string::npos);
+      CHECK(outcome.err.find("accepted: --out results") != std::string::npos);
+    }
+    CHECK(run_program({"paper", "--pages", ""}).err.find("--pages: the folder has no name") !=
+          std::string::npos);
+    CHECK(run_program({"run", ""}).err.find("the input file has no name") != std::string::npos);
+  }
+
+  TEST_CASE("standard output that cannot be written is an error") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", good);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"run", file, "--out", folder / "out"}, {"--help"}}) {
+      const Outcome outcome = Running(arguments, "/dev/full").wait();
+      CHECK(outcome.status == 1);
+      CHECK(outcome.err.find("cannot write to standard output: No space left") !=
+            std::string::npos);
+    }
+    CHECK(std::filesystem::exists(folder / "out/run.json"));  // the files are another matter
+    CHECK(Running({"run", file, "--out", folder / "out", "-q"}, "/dev/full").wait().status == 0);
+  }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  TEST_CASE("memory that runs out is an error that says where, and what to reduce") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", good);
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+    rlimit small = before;
+    small.rlim_cur = 200U << 20U;
+    REQUIRE(setrlimit(RLIMIT_AS, &small) == 0);  // inherited by the program
+    const Outcome outcome =
+        run_program({"run", file, "--out", folder / "out", "--set", "model.width=300 m", "--set",
+                     "model.below_invert=150 m", "--set", "blocks.min_inscribed_radius=1 cm"});
+    REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("error: out of memory while ") != std::string::npos);
+    CHECK(outcome.err.find("accepted: a smaller domain") != std::string::npos);
+    CHECK(outcome.err.find("bad_alloc") == std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  }
+#endif
 
   // Permissions do not stop root, which tests may be run as; a file or folder in the way does.
   TEST_CASE(

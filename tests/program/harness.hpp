@@ -81,7 +81,8 @@ struct Outcome {
 /// The program while it runs: standard output is a pipe, standard error a file.
 class Running {
  public:
-  explicit Running(std::vector<std::string> arguments) {
+  /// @param output  file that takes its standard output in place of the pipe; empty: none
+  explicit Running(std::vector<std::string> arguments, const std::string& output = "") {
     arguments.insert(arguments.begin(), VOUSSOIR_TEST_PROGRAM);
     std::vector<char*> raw;
     for (std::string& a : arguments) raw.push_back(a.data());
@@ -92,7 +93,10 @@ class Running {
     const std::string err = errors_ / "stderr";
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+    if (output.empty())
+      posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+    else
+      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_addclose(&actions, pipe_ends[0]);
     posix_spawn_file_actions_addclose(&actions, pipe_ends[1]);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT,
@@ -107,6 +111,7 @@ class Running {
   Running& operator=(const Running&) = delete;
 
   void signal(int number) const { kill(process_, number); }
+  [[nodiscard]] pid_t process() const { return process_; }
 
   [[nodiscard]] Outcome wait() {
     Outcome outcome;

@@ -401,7 +401,7 @@ TEST_SUITE("program/input") {
          "0 or more"},
         {"width = \"70 m\"", "width = \"70 m\"\nseed = \"1\"", 4, "is a text", "a whole number"},
         {"width = \"70 m\"", "width = \"70 m\"\ngravity = \"0 m/s^2\"", 4, "model.gravity",
-         "above 0"},
+         "from 1 m/s^2 to 1000 m/s^2"},
         {"width = \"70 m\"", "width = \"70 m\"\norigin = [\"1 m\"]", 4, "has 1 entry",
          "two lengths"},
         {"width = \"70 m\"", "width = \"70 m\"\norigin = [\"1 m\", 2]", 4, "model.origin[1] = 2",
@@ -414,11 +414,14 @@ TEST_SUITE("program/input") {
          "from 12 to 720"},
         {"density = \"2700 kg/m^3\"", "density = \"2700 kg\"", 10, "is a mass, not a density",
          "2700 kg/m^3"},
+        {"density = \"2700 kg/m^3\"", "density = \"0.9 kg/m^3\"", 10, "rock.density",
+         "from 1 kg/m^3 to 100000 kg/m^3"},
         {"K0 = 1", "K0 = -0.1", 12, "stress.K0 = -0.1 is outside", "a bare number from 0 to 10"},
         {"K0 = 1", "K0 = 10.5", 12, "stress.K0", "from 0 to 10"},
         {"K0 = 1", "K0 = \"1\"", 12, "is a text, not a bare number", "without quotes"},
         {"K0 = 1", "K0 = nan", 12, "is not finite", "a bare number"},
-        {"K0 = 1", "K0 = 1\nsurcharge = \"-1 kPa\"", 13, "stress.surcharge", "0 or more"},
+        {"K0 = 1", "K0 = 1\nsurcharge = \"-1 kPa\"", 13, "stress.surcharge", "from 0 to 1 GPa"},
+        {"K0 = 1", "K0 = 1\nsurcharge = \"1e300 Pa\"", 13, "stress.surcharge", "from 0 to 1 GPa"},
         {"dip = \"75 deg\"", "dip = \"91 deg\"", 14, "joint_set[0].dip", "from 0 to 90 deg"},
         {"dip = \"75 deg\"", "dip = 75", 14, "joint_set[0].dip = 75 has no unit", "35 deg"},
         {"dip_direction = \"E\"", "dip_direction = \"N\"", 15, "joint_set[0].dip_direction",
@@ -440,7 +443,10 @@ TEST_SUITE("program/input") {
          "\"5 GPa/m\""},
         {"kn = \"5 GPa/m\"", "kn = \"5 GPa\"", 18, "is a stress, not a stiffness per area",
          "GPa/m"},
-        {"ks = \"0.5 GPa/m\"", "ks = \"0 GPa/m\"", 19, "joint.ks", "above 0"},
+        {"ks = \"0.5 GPa/m\"", "ks = \"0 GPa/m\"", 19, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
+        {"ks = \"0.5 GPa/m\"", "ks = \"1e300 Pa/m\"", 19, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nkn = \"0.9 kPa/m\"", 17,
+         "joint_set[0].kn", "from 1 kPa/m"},
         {"friction = \"35 deg\"", "friction = \"90 deg\"", 20, "joint.friction",
          "from 0 to below 90 deg"},
         {"friction = \"35 deg\"", "friction = \"35 %\"", 20, "is a fraction, not an angle", "deg"},
@@ -462,14 +468,14 @@ TEST_SUITE("program/input") {
         {"length = \"4 m\"", "length = \"4 m\"\narc = [\"0 deg\", \"361 deg\"]", 25,
          "support.bolts.arc[1] = \"361 deg\"", "360 deg"},
         {"length = \"4 m\"", "length = \"4 m\"\nout_of_plane = \"0 m\"", 25, "out_of_plane",
-         "above 0"},
+         "from 10 mm to 1000 m"},
         {"length = \"4 m\"", "length = \"4 m\"\ndiameter = \"0 mm\"", 25, "diameter", "above 0"},
         {"length = \"4 m\"", "length = \"4 m\"\npretension = \"-1 kN\"", 25, "pretension",
-         "0 or more"},
+         "from 0 to 1 GN"},
         {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"0 kN\"", 25, "yield_force",
-         "above 0"},
+         "above 0 and at most 1 GN"},
         {"length = \"4 m\"", "length = \"4 m\"\nrupture_force = \"0 kN\"", 25, "rupture_force",
-         "above 0"},
+         "above 0 and at most 1 GN"},
         {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"lorigs\"", 25,
          "did you mean \"lorig\"?", "\"garga-wang\""},
         {"length = \"4 m\"", "length = \"4 m\"\nlaw = \"shear\"", 25, "support.bolts.law",
@@ -477,18 +483,26 @@ TEST_SUITE("program/input") {
         {"length = \"4 m\"", "length = \"4 m\"\nanchor_offset = \"0 m\"", 25, "anchor_offset",
          "above 0"},
         {"stiffness = \"0.2 GN/m\"", "stiffness = \"0 GN/m\"", 26, "support.bolts.stiffness",
-         "above 0"},
+         "from 1 kN/m to 1000 GN/m"},
+        {"stiffness = \"0.2 GN/m\"", "stiffness = \"1e300 N/m\"", 26, "support.bolts.stiffness",
+         "from 1 kN/m to 1000 GN/m"},
         {"thickness = \"10 cm\"", "thickness = \"0 cm\"", 28, "support.lining.thickness",
-         "above 0"},
+         "1 mm or more"},
         {"E = \"25 GPa\"", "E = \"25 GN\"", 29, "is a force, not a stress", "25 GPa"},
+        {"E = \"25 GPa\"", "E = \"1e-300 Pa\"", 29, "support.lining.E", "from 1 MPa to 1000 GPa"},
+        {"kn = \"1 GPa/m\"", "kn = \"1e300 Pa/m\"", 30, "support.lining.interface.kn",
+         "from 1 kPa/m to 1000 GPa/m"},
         {"E = \"25 GPa\"", "E = \"25 GPa\"\nnu = 0.5", 30, "support.lining.nu",
          "above -1 and below 0.5"},
         {"E = \"25 GPa\"", "E = \"25 GPa\"\nnodes = 7", 30, "nodes", "from 8 to 2000"},
         {"E = \"25 GPa\"", "E = \"25 GPa\"\nbeam = \"euler\"", 30, "beam", "\"euler-bernoulli\""},
         {"kn = \"1 GPa/m\"", "kn = 1e9", 30, "support.lining.interface.kn = 1e9 has no unit",
          "GPa/m"},
-        {"wall_traction = \"40 %\"", "wall_traction = 0.4", 32,
-         "stage[0].wall_traction = 0.4 has no unit", "from 0 to 100 %"},
+        {"wall_traction = \"40 %\"", "wall_traction = \"0.4\"", 32,
+         "stage[0].wall_traction = \"0.4\" has no unit", "or the bare number 0.4"},
+        {"wall_traction = \"40 %\"", "wall_traction = 1.01", 32, "stage[0].wall_traction = 1.01",
+         "from 0 to 100 %"},
+        {"wall_traction = \"40 %\"", "wall_traction = nan", 32, "is not finite", "from 0 to 100 %"},
         {"wall_traction = \"40 %\"", "wall_traction = \"101 %\"", 32, "stage[0].wall_traction",
          "from 0 to 100 %"},
         {"install = [\"bolts\"]", "install = \"bolts\"", 33, "is a text, not a list", "\"lining\""},
@@ -497,7 +511,7 @@ TEST_SUITE("program/input") {
         {"install = [\"bolts\"]", "install = [\"bolts\", \"bolts\"]", 33, "in the list twice",
          "once"},
         {"method = \"two-level\"", "method = \"newton\"", 38, "run.method", "\"relaxation\""},
-        {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-08 to 0.1"},
+        {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-06 to 0.1"},
         {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
          "above 0"},
         {"method = \"two-level\"", "refind_limit = \"20 mm\"", 38, "is never reached",
@@ -521,7 +535,92 @@ TEST_SUITE("program/input") {
          "diagram.thickness[1] = \"5 cm\" is not above", "a rising list"},
         {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"-5 cm\", \"5 cm\"]", 41,
          "diagram.thickness[0]", "0 or more"},
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"0.1 mm\", \"5 cm\"]", 41,
+         "diagram.thickness[1]", "1 mm or more"},
     });
+  }
+
+  TEST_CASE("a fraction is a percentage or a bare number") {
+    for (const auto& [written, value] : std::vector<std::pair<std::string, double>>{
+             {"0", 0}, {"0.0", 0}, {"0.3", 0.3}, {"1", 1}, {"1e-1", 0.1}, {"\"30 %\"", 0.3}}) {
+      CAPTURE(written);
+      CHECK(read(with("wall_traction = \"40 %\"", "wall_traction = " + written))
+                .stages.at(0)
+                .wall_traction == value);
+      CHECK(read(good, {"stage[0].wall_traction=" + written}).stages.at(0).wall_traction == value);
+    }
+  }
+
+  TEST_CASE("keys and brackets nested without end are refused with their place, not parsed") {
+    const auto repeated = [](const std::string& part, int count) {
+      std::string text;
+      for (int k = 0; k < count; ++k) text += part;
+      return text;
+    };
+    struct Deep {
+      std::string line;
+      int column;  ///< of the first name or bracket too many
+    };
+    for (const int depth : {16, 60000}) {
+      const std::vector<Deep> cases = {
+          {repeated("a.", depth) + "a = 1", 32},
+          {repeated("a . ", depth) + "a = 1", 63},
+          {"[" + repeated("a.", depth) + "a]", 33},
+          {"x = " + repeated("[", depth + 1) + repeated("]", depth + 1), 21},
+          {"x = " + repeated("[ ", depth + 1) + repeated("]", depth + 1), 37},
+          {"x = " + repeated("{ a = ", depth + 1) + "1" + repeated(" }", depth + 1), 101},
+          {"x = { " + repeated("a.", depth) + "a = 1 }", 38}};
+      for (const Deep& deep : cases) {
+        CAPTURE(deep.line.substr(0, 40));
+        const auto errors = errors_of("title = \"a.b.c\"\n" + deep.line + "\n" + good);
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].line == 2);
+        CHECK(errors[0].column == deep.column);
+        CHECK(contains(errors[0].message, "more than 16"));
+        CHECK(contains(errors[0].accepted, "at most 16 names"));
+        CHECK(all(errors).size() < 2000);
+      }
+      for (const std::string& deep :
+           {repeated("a.", depth) + "a=1", "a" + repeated("[0]", depth) + "=1",
+            "title=" + repeated("[", depth + 1), "title=" + repeated("{a=", depth + 1)}) {
+        CAPTURE(deep.substr(0, 40));
+        const auto errors = errors_of(good, {deep});
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].override_text == deep);
+        CHECK(contains(errors[0].accepted, "at most 16 names"));
+        CHECK(all(errors).size() < 2000);
+      }
+    }
+    // What is as deep as the limit is TOML and judged as such; dots in texts count for nothing.
+    CHECK(contains(all(errors_of(repeated("a.", 15) + "a = 1\n" + good)), "unknown key `a`"));
+    CHECK(contains(all(errors_of("x = " + repeated("[", 16) + repeated("]", 16) + "\n" + good)),
+                   "unknown key `x`"));
+    const std::string dots = repeated("1.", 40) + " [[[[[[[[[[[[[[[[[[[[";
+    CHECK(read(with("title = \"Prüfung\"", "title = \"" + dots + "\" # " + dots)).title == dots);
+    CHECK(read(good, {"title=" + dots}).title == dots);
+  }
+
+  TEST_CASE("the content of an input is that of its keys, however they are written") {
+    const std::string content = read(good).content;
+    CHECK(read("# a comment\n\n" + good).content == content);
+    CHECK(read(with("K0 = 1\n", "K0   =  1  # hydrostatic\r\n")).content == content);
+    CHECK(read(with("K0 = 1", "K0 = 2"), {"stress.K0=1"}).content == content);
+    CHECK(read(with("width = \"70 m\"\nbelow_invert = \"30 m\"",
+                    "below_invert = \"30 m\"\nwidth = \"70 m\""))
+              .content == content);
+    CHECK(read(with("K0 = 1", "K0 = 2")).content != content);
+    CHECK(read(good, {"model.seed=2"}).content != content);
+    CHECK(read(good, {"title=another"}).content != content);
+  }
+
+  TEST_CASE("unusual values are named with what is common") {
+    CHECK(unusual_values(read(good)).empty());
+    const auto unusual = unusual_values(
+        read(good, {"model.gravity=1.62 m/s^2", "joint.kn=500 GPa/m", "run.tolerance=1e-6"}));
+    REQUIRE(unusual.size() == 3);
+    CHECK(contains(unusual[0], "model.gravity = 1.62 m/s^2 is unusual (common: 5 m/s^2 to"));
+    CHECK(contains(unusual[1], "joint.kn = 500 GPa/m is unusual (common: 100 MPa/m to"));
+    CHECK(contains(unusual[2], "run.tolerance"));
   }
 
   TEST_CASE("a missing key is reported at its table, a missing table at the file") {

@@ -43,7 +43,8 @@ Results results_of(const std::string& text, std::vector<std::string> more = {},
     results.files[std::filesystem::path(path).filename().string()] = content;
   REQUIRE(results.files.size() == 4);  // and nothing half-written beside them
   results.json = Json::parse(results.files.at("run.json"));
-  CHECK(results.json.at("verdict") == "stable");
+  const bool fell = results.json.at("fallen_area_m2") > 0.0;
+  CHECK(results.json.at("verdict") == (fell ? "stable after rockfall" : "stable"));
   return results;
 }
 
@@ -75,10 +76,12 @@ const std::string supported = InputText{}.text();
 TEST_SUITE("program/run") {
   TEST_CASE("a run writes numbers, tables and a picture that agree with each other") {
     const Results r = results_of(supported);
-    CHECK(header(r.files.at("bolts.csv")) ==
-          "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state");
-    CHECK(header(r.files.at("lining.csv")) ==
-          "node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm");
+    CHECK(
+        header(r.files.at("bolts.csv")) ==
+        "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state,run_id");
+    CHECK(
+        header(r.files.at("lining.csv")) ==
+        "node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm,run_id");
     CHECK(r.files.at("blocks.svg").starts_with("<"));
     CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
 
@@ -403,6 +406,101 @@ TEST_SUITE("program/run") {
               .find("step limit of 1") != std::string::npos);
   }
 
+  TEST_CASE("rock that fell from a tunnel that stands is in every word about it") {
+    InputText bare;
+    bare.bolts = bare.lining = "";
+    const Results r = results_of(bare.text());
+    const double area = r.json.at("fallen_area_m2");
+    REQUIRE(area > 0.1);  // a block of 0.2 m2 falls from the roof
+    CHECK(r.json.at("verdict") == "stable after rockfall");
+    CHECK(r.json.at("stages")[0].at("equilibrium").at("verdict") == "stable after rockfall");
+    char fallen[32];
+    std::snprintf(fallen, sizeof fallen, "%.2f m", area);
+    CHECK(r.outcome.out.find("stable after rockfall of " + std::string(fallen) + "2: ") !=
+          std::string::npos);
+    const std::string& picture = r.files.at("blocks.svg");
+    CHECK(picture.find("STABLE AFTER ROCKFALL") != std::string::npos);
+    CHECK(picture.find("Verdict: stable after rockfall of " + std::string(fallen)) !=
+          std::string::npos);
+
+    // The same when it fell in an earlier stage than the last.
+    bare.rest =
+        "[[stage]]\nwall_traction = 0.01\n[[stage]]\nwall_traction = \"0 %\"\nname = \"end\"\n";
+    const Results staged = results_of(bare.text());
+    REQUIRE(staged.json.at("stages")[1].at("equilibrium").at("fallen_area_m2") == 0.0);
+    CHECK(staged.json.at("stages")[1].at("equilibrium").at("verdict") == "stable");
+    CHECK(staged.json.at("verdict") == "stable after rockfall");
+
+    const Results stands = results_of(supported);
+    CHECK(stands.json.at("verdict") == "stable");
+    CHECK(stands.files.at("blocks.svg").find("ROCKFALL") == std::string::npos);
+    CHECK(stands.files.at("blocks.svg").find("banner") == std::string::npos);
+  }
+
+  TEST_CASE("a diagram calls a tunnel that stands after rock has fallen so") {
+    const Folder folder;
+    InputText input;
+    input.rest = "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"0 cm\", \"8 cm\"]\n";
+    const Outcome outcome = run_program(
+        {"diagram", write_file(folder / "case.toml", input.text()), "--out", folder / "out"});
+    REQUIRE(outcome.status == 0);
+    const auto rows = table(read_file(folder / "out/interaction.csv"));
+    REQUIRE(rows.size() == 4);
+    CHECK(rows[1].at("verdict") == "stable");
+    CHECK(rows[2].at("verdict") == "stable after rockfall");
+    CHECK(rows[2].at("failed") == "1");
+    CHECK(outcome.out.find("R: stable after rockfall") != std::string::npos);
+    CHECK(read_file(folder / "out/interaction.svg").find("UNDECIDED") == std::string::npos);
+  }
+
+  TEST_CASE(
+      "a stage that ends before it is unloaded says what was reached and what was asked for") {
+    const Folder folder;
+    InputText bare;
+    bare.bolts = bare.lining = "";
+    const Outcome outcome =
+        run_program({"run", write_file(folder / "case.toml", bare.text()), "--out", folder / "out",
+                     "--set", "joint.friction=5 deg", "--set", "run.displacement_limit=5 cm"});
+    CAPTURE(outcome.out);
+    const Json stage = Json::parse(read_file(folder / "out/run.json")).at("stages").back();
+    const double reached = stage.at("wall_traction");
+    CHECK(stage.at("wall_traction_asked") == 0.0);
+    REQUIRE(reached > 0.0);  // it collapses on the way
+    char words[160];
+    std::snprintf(words, sizeof words,
+                  "collapsing at a residual wall traction of %.3g %%, ended on the way to the 0 %% "
+                  "asked for",
+                  100 * reached);
+    CHECK(outcome.out.find(words) != std::string::npos);
+    const Results stands = results_of(supported);
+    CHECK(stands.outcome.out.find("stable at a residual wall traction of 0 %;") !=
+          std::string::npos);
+    CHECK(stands.outcome.out.find("asked for") == std::string::npos);
+  }
+
+  TEST_CASE("undecided is written across the pictures") {
+    const Folder folder;
+    InputText input;
+    input.rest = "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"0 cm\", \"8 cm\"]\n";
+    const std::string file = write_file(folder / "case.toml", input.text());
+    for (const std::string& verb : {std::string("run"), std::string("diagram")}) {
+      const Outcome outcome =
+          run_program({verb, file, "--out", folder / "out", "--set", "run.method=relaxation",
+                       "--set", "run.max_steps=1", "--set", "joint.kn=500 GPa/m"});
+      CHECK(outcome.status == 3);
+      // And the value to look at is named.
+      CHECK(outcome.out.find("undecided, and joint.kn = 500 GPa/m is unusual") !=
+            std::string::npos);
+    }
+    const std::string blocks = read_file(folder / "out/blocks.svg");
+    CHECK(blocks.find("id=\"banner\"") != std::string::npos);
+    CHECK(blocks.find(">UNDECIDED<") != std::string::npos);
+    const std::string diagram = read_file(folder / "out/interaction.svg");
+    CHECK(diagram.find(">4 OF 4 TUNNELS UNDECIDED<") != std::string::npos);
+    CHECK(diagram.find("undecided: no result") != std::string::npos);
+    CHECK(diagram.find("blocks fall") == std::string::npos);  // nobody knows
+  }
+
   TEST_CASE("a tunnel that collapses is a result: status 0, verdict and reason") {
     const Folder folder;
     InputText bare;
@@ -415,5 +513,6 @@ TEST_SUITE("program/run") {
     const Json json = Json::parse(read_file(folder / "out/run.json"));
     CHECK(json.at("verdict") == "collapsing");
     CHECK(json.at("fallen_area_m2") > 0.0);
+    CHECK(read_file(folder / "out/blocks.svg").find(">COLLAPSING<") != std::string::npos);
   }
 }

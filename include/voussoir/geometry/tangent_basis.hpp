@@ -36,7 +36,8 @@ using TangentBasis = Eigen::Matrix<double, Dim, Dim - 1>;
 
 /// Normal and tangents as the columns of a rotation.
 template <int Dim>
-[[nodiscard]] Fixed<Dim, Dim> frame_of(const Vec<Dim>& normal, const TangentBasis<Dim>& tangents) {
+[[nodiscard]] Fixed<Dim, Dim> contact_frame(const Vec<Dim>& normal,
+                                            const TangentBasis<Dim>& tangents) {
   Fixed<Dim, Dim> frame;
   set_column(frame, 0, normal);
   set_block(frame, 0, 1, tangents);

@@ -12,6 +12,12 @@
 #include <utility>
 #include <vector>
 
+#if __has_include(<unistd.h>)
+#include <signal.h>
+#include <unistd.h>
+#define VOUSSOIR_HAS_PROCESSES 1  // NOLINT
+#endif
+
 namespace voussoir {
 
 namespace detail {
@@ -36,10 +42,83 @@ inline int write_and_close(std::FILE* file, std::string_view content) {
 inline std::string error_text(int error_number) {
   return std::generic_category().message(error_number);
 }
+
+/// "4711@host": this process, as part files are named; "0@" where processes cannot be told.
+inline std::string process_name() {
+#ifdef VOUSSOIR_HAS_PROCESSES
+  char host[256] = {};
+  if (gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
+  std::string name = std::to_string(getpid()) + "@";
+  for (const char* c = host; *c != '\0'; ++c) {
+    const bool plain =
+        (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z');
+    name += plain ? *c : '-';  // dots part the fields
+  }
+  return name;
+#else
+  return "0@";
+#endif
+}
+
+/// The hidden neighbour in which the content of `file_name` waits:
+/// ".NAME.PROCESS@HOST.RANDOM.part". 64 random bits: two runs that write one path at a time must
+/// not share it.
+inline std::string part_name(const std::string& file_name) {
+  std::random_device random;
+  return "." + file_name + "." + process_name() + "." + std::to_string(random()) +
+         std::to_string(random()) + ".part";
+}
+
+/// Whether a file is a part of ours whose process, of this host, has ended.
+inline bool is_abandoned_part(const std::string& file_name) {
+#ifdef VOUSSOIR_HAS_PROCESSES
+  const std::string end = ".part";
+  if (!file_name.starts_with('.') || !file_name.ends_with(end)) return false;
+  const std::string name = file_name.substr(0, file_name.size() - end.size());
+  const auto all_digits = [](const std::string& text) {
+    return !text.empty() && text.size() <= 20 &&
+           text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::size_t random = name.find_last_of('.');
+  if (random == 0 || random == std::string::npos || !all_digits(name.substr(random + 1)))
+    return false;
+  const std::size_t process = name.find_last_of('.', random - 1);
+  if (process == 0 || process == std::string::npos) return false;  // a name must stand before
+  const std::string owner = name.substr(process + 1, random - process - 1), own = process_name();
+  const std::size_t at = owner.find('@');
+  if (at == std::string::npos || !all_digits(owner.substr(0, at)) || at > 9 ||
+      owner.substr(at) != own.substr(own.find('@')))
+    return false;
+  const auto id = static_cast<pid_t>(std::stol(owner.substr(0, at)));
+  return id > 0 && kill(id, 0) != 0 && errno == ESRCH;
+#else
+  (void)file_name;
+  return false;
+#endif
+}
 }  // namespace detail
 
+/// Removes from a folder the part files that killed processes have left there. Those of processes
+/// that run, or ran on another host, stay, and so does every file with another pattern of name.
+/// @return  how many were removed
+inline int clear_abandoned_parts(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // what cannot be read or removed stays
+  std::vector<fs::path> abandoned;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (detail::is_abandoned_part(entry->path().filename().string()))
+      abandoned.push_back(entry->path());
+  int removed = 0;
+  for (const fs::path& path : abandoned)
+    if (fs::is_regular_file(fs::symlink_status(path, ignored)))
+      removed += fs::remove(path, ignored) ? 1 : 0;
+  return removed;
+}
+
 /// Content on its way to a file: it lies, complete and checked, in a hidden neighbour of the
-/// target until `publish` renames it. Destroyed before that, it leaves no trace.
+/// target until `publish` renames it. Destroyed before that, it leaves no trace; what a killed
+/// process leaves, `clear_abandoned_parts` finds.
 ///
 /// Survives a killed process and a full disk; not a power cut, for which the operating system
 /// would have to be told to empty its own buffers. A target that is a device or pipe
@@ -65,11 +144,7 @@ class StagedFile {
       is_device_ = true;
       return;
     }
-    // 64 random bits: two runs that write one path at a time must not share the temporary.
-    std::random_device random;
-    temporary_ =
-        path_.parent_path() / ("." + path_.filename().string() + "." + std::to_string(random()) +
-                               std::to_string(random()) + ".part");
+    temporary_ = path_.parent_path() / detail::part_name(path_.filename().string());
     errno = 0;
     std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx");  // x: never an existing file
     if (file == nullptr) {
@@ -156,6 +231,7 @@ class OutputSet {
   }
 
   [[nodiscard]] std::size_t size() const { return files_.size(); }
+  void clear() { files_.clear(); }  ///< forgets what was added: nothing of it is left
 
   /// Renames everything and empties the set.
   /// @throws std::runtime_error  one file could not be put in its place; those added before it are

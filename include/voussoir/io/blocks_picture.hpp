@@ -167,6 +167,7 @@ inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const Pag
   canvas.hatch_pattern("hatch", fallen_colour, 6, 1.6);
   picture.header.draw(canvas);
   draw_rock(canvas, picture, map, scale, forces);
+  if (picture.banner) picture.banner->draw(canvas, rock, rock.low.y());
   draw_displacement_bar(
       canvas, {{rock.low.x() + 4, rock.high.y() + 28}, {rock.low.x() + 324, rock.high.y() + 41}},
       scale);

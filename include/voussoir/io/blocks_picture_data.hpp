@@ -65,6 +65,7 @@ struct BlocksPicture {
   std::optional<PictureLining> lining;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
   std::optional<ViewRect> view;
+  std::optional<PictureBanner> banner = {};  ///< over the rock; none: a tunnel that stands
 };
 
 /// All blocks, the opening and the ground surface, without a margin.

@@ -83,12 +83,14 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
   check_interaction(picture);
   const InteractionQuantity shown = picture.shown();
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  bool any_missing = false, any_failed = false;
+  bool any_missing = false, any_failed = false, any_undecided = false;
   for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
     for (std::size_t j = 0; j < picture.spacings.size(); ++j) {
       const double value = picture.at(i, j) * shown.contour_scale;
       any_failed = any_failed || picture.is_failed(i, j);
-      any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j));
+      any_undecided = any_undecided || picture.is_undecided(i, j);
+      any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j) &&
+                                    !picture.is_undecided(i, j));
       if (!std::isfinite(value)) continue;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
@@ -103,7 +105,8 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
     if (picture.spacings[j].value) spaced.push_back(j);
   }
   const bool has_row_without = spaced.size() < picture.spacings.size();
-  const double top = picture.header.height() + 58;
+  const double banner_room = picture.banner ? PictureBanner::height + 12 : 0;
+  const double top = picture.header.height() + banner_room + 58;
   const double main_top = has_row_without ? top + strip_height + gap : top;
   const double bottom = main_top + (spaced.size() > 1 ? 440 : strip_height);
   std::vector<InteractionPanel> panels;
@@ -116,6 +119,7 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
       {"computed, " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
   if (any_failed) items.push_back({"blocks fall", draw_failed_mark});
+  if (any_undecided) items.push_back({"undecided: no result", draw_undecided_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
   if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});
   items.push_back({shown.name + ", " + shown.contour_unit, [](SvgCanvas& canvas, const Vec2& c) {
@@ -127,6 +131,12 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
   SvgCanvas canvas(picture_width, bottom + 64 + legend.height() + 14, picture_printed_width,
                    picture.header.title);
   picture.header.draw(canvas);
+  if (picture.banner) {
+    const double y = picture.header.height() + 2;
+    picture.banner->draw(
+        canvas, {{picture_margin, y}, {picture_width - picture_margin, y + PictureBanner::height}},
+        y);
+  }
   for (const InteractionPanel& panel : panels)
     draw_interaction_panel(canvas, picture, panel, bands);
   draw_thickness_axes(canvas, panels[0].map(), top, bottom, picture.diameter);

@@ -49,6 +49,10 @@ struct InteractionPicture {
   /// (thickness, spacing): blocks fall. Empty: nowhere. A failed point counts in the contours only
   /// if it has a value.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
+  /// (thickness, spacing): sought and not found, neither an equilibrium nor falling blocks. Such a
+  /// point has no value and is not failed. Empty: nowhere.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> undecided = {};
+  std::optional<PictureBanner> banner = {};          ///< between header and diagram
   std::optional<InteractionQuantity> quantity = {};  ///< none: crown convergence
   /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
   struct Other {
@@ -65,6 +69,10 @@ struct InteractionPicture {
   [[nodiscard]] bool is_failed(std::size_t i, std::size_t j) const {
     return failed.size() > 0 && failed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
+  [[nodiscard]] bool is_undecided(std::size_t i, std::size_t j) const {
+    return undecided.size() > 0 &&
+           undecided(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
     return values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
@@ -78,9 +86,11 @@ inline void check_interaction(const InteractionPicture& picture) {
   if (columns < 2 || rows < 2) {
     throw InvalidInput("interaction picture: needs 2 or more thicknesses and spacings");
   }
+  const auto has_another_size = [&](const auto& marks) {
+    return marks.size() > 0 && (marks.rows() != columns || marks.cols() != rows);
+  };
   if (picture.values.rows() != columns || picture.values.cols() != rows ||
-      (picture.failed.size() > 0 &&
-       (picture.failed.rows() != columns || picture.failed.cols() != rows))) {
+      has_another_size(picture.failed) || has_another_size(picture.undecided)) {
     throw InvalidInput("interaction picture: tables must be thicknesses x spacings");
   }
   for (std::size_t i = 0; i + 1 < picture.thicknesses.size(); ++i) {

@@ -101,6 +101,31 @@ struct PictureHeader {
   }
 };
 
+/// A word across a picture that must not be taken for that of a sound tunnel.
+struct PictureBanner {
+  std::string word;                ///< "UNDECIDED"
+  std::string line;                ///< what that means, in one line
+  std::string colour = "#c8102e";  ///< of the band, dark enough for white letters
+
+  static constexpr double height = 54;  ///< [px]
+
+  /// A band over the full width of a frame, and the frame in its colour.
+  /// @param top  of the band on the page [px]
+  void draw(SvgCanvas& canvas, const ViewRect& frame, double top) const {
+    canvas.begin_layer("banner");
+    canvas.rectangle(frame, {.stroke = colour, .stroke_width = 5});
+    canvas.rectangle({{frame.low.x(), top}, {frame.high.x(), top + height}}, {.fill = colour});
+    TextStyle large{.size = 25, .anchor = TextAnchor::middle, .bold = true, .fill = "white"};
+    TextStyle small{.size = 14.5, .anchor = TextAnchor::middle, .fill = "white"};
+    const double x = frame.centre().x(), room = frame.width() - 20;
+    large.size *= std::min(1.0, room / std::max(1.0, text_width(word, large)));
+    small.size *= std::min(1.0, room / std::max(1.0, text_width(line, small)));
+    canvas.text({x, top + (line.empty() ? 36 : 28)}, word, large);
+    if (!line.empty()) canvas.text({x, top + 46}, line, small);
+    canvas.end_layer();
+  }
+};
+
 /// One sample with its explanation.
 struct LegendItem {
   std::string text;

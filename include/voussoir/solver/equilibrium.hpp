@@ -13,7 +13,7 @@ namespace voussoir {
 
 /// What is known about a state after equilibrium was sought.
 enum class Verdict {
-  stable,      ///< all three tests passed, possibly after loose blocks fell
+  stable,      ///< all three tests passed, possibly after blocks fell: see `to_string(report)`
   collapsing,  ///< more rock fell than the limit
   undecided,   ///< no answer was found, or none was sought: the reason says why
 };
@@ -28,6 +28,14 @@ enum class Verdict {
       return "undecided";
   }
   return "undecided";
+}
+
+/// The verdict as people read it. A tunnel that stands after rock has fallen from it is other news
+/// than one that stands: everything that is shown or written takes its word from here.
+/// @param fallen_measure  rock that fell on the way, over all stages [m^2], [m^3]
+[[nodiscard]] constexpr const char* to_string(Verdict verdict, double fallen_measure) {
+  return verdict == Verdict::stable && fallen_measure > 0 ? "stable after rockfall"
+                                                          : to_string(verdict);
 }
 
 /// When a state counts as an equilibrium.
@@ -69,6 +77,11 @@ struct EquilibriumReport {
   int broken_bolts = 0;       ///< bolt springs that ruptured
   bool stopped = false;       ///< the caller asked to stop
 };
+
+/// The verdict of one search as people read it.
+[[nodiscard]] inline const char* to_string(const EquilibriumReport& report) {
+  return to_string(report.verdict, report.fallen_measure);
+}
 
 /// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.
 struct SearchContext {

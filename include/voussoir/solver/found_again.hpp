@@ -100,7 +100,7 @@ class FoundAgain {
     const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
     for (const auto& c : group.contacts()) {
       const Pose<dim>&a = then_[index(c.a)], &b = then_[index(c.b)];
-      const Rotation<dim> frame = frame_of(c.normal, c.tangents);
+      const Rotation<dim> frame = contact_frame<dim>(c.normal, c.tangents);
       typename MovingContacts<dim, Law>::Contact contact;
       contact.frame = transposed(a.rotation) * frame;
       contact.a = c.a;

@@ -55,6 +55,13 @@ inline void draw_missing_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 3.2, {.fill = "white", .stroke = "#666", .stroke_width = 1.2});
 }
 
+inline void draw_undecided_mark(SvgCanvas& canvas, const Vec2& at) {
+  canvas.rectangle({at - Vec2(9, 9), at + Vec2(9, 9)},
+                   {.fill = "#ffd400", .stroke = "#111", .stroke_width = 1.6});
+  canvas.text(at + Vec2(0, 6), "?",
+              {.size = 17, .anchor = TextAnchor::middle, .bold = true, .fill = "#111"});
+}
+
 inline void draw_other_mark(SvgCanvas& canvas, const Vec2& at) {
   const SvgStyle style{.stroke = "#b45309", .stroke_width = 2};
   const Vec2 corners[4] = {at + Vec2(9, 0), at + Vec2(0, 9), at - Vec2(9, 0), at - Vec2(0, 9)};
@@ -116,7 +123,9 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
   draw_contours(canvas, panel.grid, map, bands, taken, shown.contour_mark);
   for (std::size_t k = 0; k < panel.rows.size(); ++k) {
     for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
-      if (picture.is_failed(i, panel.rows[k])) {
+      if (picture.is_undecided(i, panel.rows[k])) {
+        draw_undecided_mark(canvas, place(i, k));
+      } else if (picture.is_failed(i, panel.rows[k])) {
         draw_failed_mark(canvas, place(i, k));
       } else if (std::isfinite(picture.at(i, panel.rows[k]))) {
         canvas.circle(place(i, k), 3, {.fill = "#111"});

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "run_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/version.hpp>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/io/xml_text.hpp>
+
+namespace voussoir::program {
+
+RunId::RunId(std::string_view what) {
+  add(VOUSSOIR_VERSION_STRING);
+  add(what);
+}
+
+void RunId::append(std::string_view bytes) {
+  for (const char c : bytes) {
+    hash_ ^= static_cast<unsigned char>(c);
+    hash_ *= 0x100000001b3U;
+  }
+}
+
+RunId& RunId::add(std::string_view part) {
+  append(std::to_string(part.size()) + ":");  // "ab", "c" is not "a", "bc"
+  append(part);
+  return *this;
+}
+
+RunId& RunId::add(double part) { return add(shortest_text(part)); }
+
+RunId& RunId::add(const Input& input) {
+  add(input.content).add(std::to_string(input.model.seed));
+  // What is no file but a pipe or a device can be read once, and not here.
+  std::error_code error;
+  if (input.joints_file.empty() || !std::filesystem::is_regular_file(input.joints_file, error))
+    return *this;
+  std::ifstream file(input.joints_file, std::ios::binary);
+  std::array<char, 65536> buffer{};
+  while (file.read(buffer.data(), buffer.size()) || file.gcount() > 0)
+    append({buffer.data(), static_cast<std::size_t>(file.gcount())});
+  return *this;
+}
+
+std::string RunId::text() const {
+  std::string digits(16, '0');
+  for (std::size_t k = 0; k < 16; ++k)
+    digits[k] = "0123456789abcdef"[(hash_ >> (60 - 4 * k)) & 0xfU];
+  return digits;
+}
+
+namespace {
+
+/// A column at the end of a table; line breaks within quotes end no row.
+std::string with_column(const std::string& table, const std::string& name,
+                        const std::string& value) {
+  std::string result;
+  bool quoted = false, is_header = true;
+  for (const char c : table) {
+    if (c == '"') quoted = !quoted;
+    if (c == '\n' && !quoted) {
+      const bool carriage = result.ends_with('\r');
+      if (carriage) result.pop_back();
+      result.append(",").append(is_header ? name : value);
+      if (carriage) result += '\r';
+      is_header = false;
+    }
+    result += c;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string with_run_id(const std::string& file_name, std::string text, const std::string& run_id) {
+  const std::string kind = std::filesystem::path(file_name).extension().string();
+  const std::string words = std::string("voussoir ") + VOUSSOIR_VERSION_STRING + ", run " + run_id;
+  if (kind == ".csv") return with_column(text, "run_id", run_id);
+  if (kind == ".json" && text.starts_with("{\n"))
+    return text.insert(2, "  \"run_id\": \"" + run_id + "\",\n");
+  if (kind == ".gp") return "# " + words + "\n" + text;
+  if (kind == ".md") return text + "\n<!-- " + words + " -->\n";
+  if (kind == ".svg" || kind == ".vtu" || kind == ".html") {
+    // Behind the first line, which must stay the first: <?xml ...> or <!DOCTYPE ...>.
+    const std::string comment = "<!-- " + words + " -->\n";
+    const std::size_t end = text.find(">\n");
+    if (text.starts_with("<?") || text.starts_with("<!")) {
+      if (end == std::string::npos) return text;
+      return text.insert(end + 2, comment);
+    }
+    return comment + text;
+  }
+  return text;
+}
+
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "";
+  return name.data();
+}
+
+/// Who wrote itself into a lock.
+struct Holder {
+  long process = 0;  ///< 0: not known
+  std::string host;
+};
+
+Holder holder_of(const std::filesystem::path& lock) {
+  Holder holder;
+  std::ifstream file(lock);
+  if (!(file >> holder.process >> holder.host)) holder = {};
+  return holder;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& folder, const std::string& option) : path_(folder) {
+  namespace fs = std::filesystem;
+  if (folder.empty())
+    throw InvalidInput(option + " \"\": the folder for the results has no name\n   = accepted: " +
+                       option + " results, or . for the present folder");
+  std::error_code error;
+  fs::path there = fs::absolute(path_, error);
+  std::vector<fs::path> missing;
+  while (!fs::exists(there, error) && there.has_relative_path()) {
+    if (!there.filename().empty()) missing.push_back(there);
+    there = there.parent_path();
+  }
+  if (!fs::is_directory(there, error))
+    throw std::runtime_error(option + " " + folder + ": '" + there.string() + "' is not a folder");
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error(option + " " + folder + ": no permission to write in '" +
+                             there.string() + "'");
+  while (!missing.empty()) {
+    const bool is_new = fs::create_directory(missing.back(), error);
+    if (error) {
+      const std::string reason = error.message();
+      let_go();
+      throw std::runtime_error(option + " " + folder + ": cannot make the folder '" +
+                               missing.back().string() + "': " + reason);
+    }
+    if (is_new) made_.push_back(missing.back());
+    missing.pop_back();
+  }
+  try {
+    take_lock(option);
+    clear_abandoned_parts(path_);
+  } catch (...) {  // the destructor of a half-built object does not run
+    let_go();
+    throw;
+  }
+}
+
+RunFolder::~RunFolder() {
+  outputs_.clear();
+  let_go();
+}
+
+void RunFolder::publish() {
+  outputs_.publish();
+  made_.clear();
+}
+
+void RunFolder::take_lock(const std::string& option) {
+  const std::filesystem::path path = path_ / ".voussoir.lock";
+  const auto refuse = [&](const std::string& reason) {
+    throw std::runtime_error(option + " " + path_.string() + ": " + reason);
+  };
+  const auto refuse_held = [&] {
+    const Holder holder = holder_of(path);
+    const std::string who =
+        holder.process == 0
+            ? std::string("another process")
+            : "process " + std::to_string(holder.process) +
+                  (holder.host == host_name() || holder.host.empty() ? "" : " on " + holder.host);
+    refuse("the folder is in use: " + who + " is computing results for it (it holds '" +
+           path.string() +
+           "')\n   = accepted: another folder, or this one when that run has ended");
+  };
+  while (true) {
+    const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+      refuse("cannot make '" + path.string() + "': " + std::generic_category().message(errno));
+    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+      const bool held = errno == EWOULDBLOCK;
+      close(file);
+      if (held) refuse_held();
+      // A drive without locks: believe what is written, if that process lives here.
+      const Holder holder = holder_of(path);
+      const bool lives = holder.process > 0 && holder.host == host_name() &&
+                         (kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM);
+      if (lives && holder.process != getpid()) refuse_held();
+      lock_file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      break;
+    }
+    // Its last owner may have removed it between our opening and our locking it.
+    struct stat mine {
+    }, named{};
+    if (fstat(file, &mine) == 0 && stat(path.c_str(), &named) == 0 && mine.st_ino == named.st_ino &&
+        mine.st_dev == named.st_dev) {
+      lock_file_ = file;
+      break;
+    }
+    close(file);
+  }
+  lock_ = path;
+  const std::string text = std::to_string(getpid()) + " " + host_name() +
+                           "\nthe voussoir process that is computing results for this folder\n";
+  if (ftruncate(lock_file_, 0) != 0 ||
+      write(lock_file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    refuse("cannot write '" + path.string() + "': " + std::generic_category().message(errno));
+}
+
+void RunFolder::let_go() noexcept {
+  std::error_code ignored;  // nothing left to tell it to
+  if (!lock_.empty()) std::filesystem::remove(lock_, ignored);
+  if (lock_file_ >= 0) close(lock_file_);
+  lock_.clear();
+  lock_file_ = -1;
+  for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), ignored);
+}
+
+}  // namespace voussoir::program

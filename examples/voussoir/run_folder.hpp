@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+#include <voussoir/io/atomic_file.hpp>
+
+#include "input.hpp"
+
+/// Where results go: one run at a time in a folder, and every file says which run wrote it.
+namespace voussoir::program {
+
+/// A name for what decides the results: equal for two runs of one version that were given the same
+/// numbers, however those were written down.
+///
+///   const std::string id = RunId("run").add(input).text();  // "3f1c09d2a47b6e58"
+///
+/// 64 bits of FNV-1a: to tell runs apart, not to guard against forgery.
+class RunId {
+ public:
+  /// The version of the program is always a part.
+  /// @param what  is computed; runs and diagrams of one input share the name "tunnel"
+  explicit RunId(std::string_view what);
+  RunId& add(std::string_view part);
+  RunId& add(double part);
+  /// Every key and value of the file and its overrides, the seed, and the mapped joints.
+  RunId& add(const Input& input);
+  [[nodiscard]] std::string text() const;  ///< 16 hexadecimal digits
+
+ private:
+  void append(std::string_view bytes);
+  std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+/// The content of a file with the run's id in it: a key of JSON, a last column of CSV, a comment in
+/// SVG, VTU, HTML, Markdown and gnuplot scripts. Other files stay as they are.
+[[nodiscard]] std::string with_run_id(const std::string& file_name, std::string text,
+                                      const std::string& run_id);
+
+/// A folder for results, held by this run until it ends.
+///
+/// Made if missing, and removed again if it was made here and nothing was published. While it is
+/// held it contains `.voussoir.lock`, a file locked by the operating system, which lets go of it
+/// when its process ends in whatever way: the file of a dead process is taken over.
+class RunFolder {
+ public:
+  /// Clears the hidden part files of dead processes.
+  /// @param option  that named the folder, for messages
+  /// @throws InvalidInput        `folder` is empty
+  /// @throws std::runtime_error  not a folder, no permission, or held by another process
+  RunFolder(const std::string& folder, const std::string& option = "--out");
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  void add(const std::string& name, const std::string& text, const std::string& run_id) {
+    outputs_.add(path_ / name, with_run_id(name, text, run_id));
+  }
+  void publish();
+
+ private:
+  void take_lock(const std::string& option);
+  void let_go() noexcept;
+
+  std::filesystem::path path_;
+  std::filesystem::path lock_;               ///< empty: not held
+  int lock_file_ = -1;                       ///< its descriptor
+  std::vector<std::filesystem::path> made_;  ///< folders made here, the innermost last
+  OutputSet outputs_;
+};
+
+}  // namespace voussoir::program
