@@ -11,6 +11,8 @@
 
 #include "support/reference.hpp"
 
+namespace axial_bolt_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -307,3 +309,5 @@ TEST_SUITE("bolt/axial_bolt") {
                     InvalidInput);
   }
 }
+
+}  // namespace axial_bolt_test

@@ -9,6 +9,8 @@
 
 #include "support/reference.hpp"
 
+namespace axial_shear_bolt_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -123,3 +125,5 @@ TEST_SUITE("bolt/axial_shear_bolt") {
     CHECK(none.force(span, {}).dowel == Vec2::Zero());
   }
 }
+
+}  // namespace axial_shear_bolt_test

@@ -5,6 +5,8 @@
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/core/random.hpp>
 
+namespace bolt_anchors_test {
+
 using namespace voussoir;
 
 TEST_SUITE("bolt/bolt_anchors") {
@@ -54,3 +56,5 @@ TEST_SUITE("bolt/bolt_anchors") {
       CHECK_THROWS_AS((void)LorigAnchors{bad}.distances({1, 1}), InvalidInput);
   }
 }
+
+}  // namespace bolt_anchors_test

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 
+namespace barton_bandis_joint_test {
+
 using namespace voussoir;
 
 namespace {
@@ -141,3 +143,5 @@ TEST_SUITE("contact/barton_bandis_joint") {
     CHECK_THROWS_AS((void)BartonBandisJoint::from_index_tests(10, 200e6, 0.5, 150e6), InvalidInput);
   }
 }
+
+}  // namespace barton_bandis_joint_test

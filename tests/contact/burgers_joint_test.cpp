@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <voussoir/contact/burgers_joint.hpp>
 
+namespace burgers_joint_test {
+
 using namespace voussoir;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_SUITE("contact/burgers_joint") {
     CHECK_THROWS_AS(BurgersJoint({kn, ks, 0.6, eta_m, kk, 0}), InvalidInput);
   }
 }
+
+}  // namespace burgers_joint_test

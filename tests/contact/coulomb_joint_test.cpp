@@ -9,6 +9,8 @@
 #include <vector>
 #include <voussoir/contact/coulomb_joint.hpp>
 
+namespace coulomb_joint_test {
+
 using namespace voussoir;
 
 namespace {
@@ -249,3 +251,5 @@ TEST_SUITE("contact/coulomb_joint") {
     CHECK_THROWS_AS(CoulombJoint({1, 1, 35}, any_units), InvalidInput);
   }
 }
+
+}  // namespace coulomb_joint_test

@@ -7,6 +7,8 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 
+namespace mohr_coulomb_joint_test {
+
 using namespace voussoir;
 
 namespace {
@@ -148,3 +150,5 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
     CHECK_THROWS_AS(MohrCoulombJoint(P{kn, ks, 0.6, 1e5, 0, 0, 0, -1, 2e5}), InvalidInput);
   }
 }
+
+}  // namespace mohr_coulomb_joint_test

@@ -10,6 +10,8 @@
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/lining/lining_model.hpp>
 
+namespace plausible_units_test {
+
 using namespace voussoir;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_SUITE("contact/plausible_units") {
     CHECK(refusal([] { return LiningSection::strip(0.1, 1, 25e9); }) == "");
   }
 }
+
+}  // namespace plausible_units_test

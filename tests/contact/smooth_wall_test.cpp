@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <voussoir/contact/smooth_wall.hpp>
 
+namespace smooth_wall_test {
+
 using namespace voussoir;
 
 namespace {
@@ -45,3 +47,5 @@ TEST_SUITE("contact/smooth_wall") {
       CHECK_THROWS_AS(SmoothWall{bad}, InvalidInput);
   }
 }
+
+}  // namespace smooth_wall_test

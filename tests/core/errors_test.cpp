@@ -5,6 +5,8 @@
 #include <string>
 #include <voussoir/core/errors.hpp>
 
+namespace errors_test {
+
 using namespace voussoir;
 
 TEST_SUITE("core/errors") {
@@ -43,3 +45,5 @@ TEST_SUITE("core/errors") {
                          "phi = -0.5 rad (-28.6479 deg): must be >= 0 rad", InvalidInput);
   }
 }
+
+}  // namespace errors_test

@@ -5,6 +5,8 @@
 #include <voussoir/core/literals.hpp>
 #include <voussoir/core/units.hpp>
 
+namespace literals_test {
+
 using namespace voussoir;
 using namespace voussoir::literals;
 
@@ -57,3 +59,5 @@ TEST_SUITE("core/literals") {
     CHECK(-5_deg == -(5_deg));
   }
 }
+
+}  // namespace literals_test

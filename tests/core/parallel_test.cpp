@@ -13,6 +13,8 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/random.hpp>
 
+namespace parallel_test {
+
 using namespace voussoir;
 
 TEST_SUITE("core/parallel") {
@@ -105,3 +107,5 @@ TEST_SUITE("core/parallel") {
     CHECK(running == 0);
   }
 }
+
+}  // namespace parallel_test

@@ -8,6 +8,8 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/random.hpp>
 
+namespace pose_test {
+
 using namespace voussoir;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_SUITE("core/pose") {
     CHECK((space(Vec3(1, 0, 5)) - Vec3(1, 3, 8)).norm() < 1e-15);
   }
 }
+
+}  // namespace pose_test

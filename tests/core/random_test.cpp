@@ -10,6 +10,8 @@
 #include <vector>
 #include <voussoir/core/random.hpp>
 
+namespace random_test {
+
 using namespace voussoir;
 
 // Bounds on sampled quantities are 4 standard errors, or the value a right generator exceeds once
@@ -194,3 +196,5 @@ TEST_SUITE("core/random") {
     CHECK(chi_squared < 20.52);
   }
 }
+
+}  // namespace random_test

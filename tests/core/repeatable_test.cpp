@@ -7,6 +7,8 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/repeatable.hpp>
 
+namespace repeatable_test {
+
 using namespace voussoir;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_SUITE("core/repeatable") {
     CHECK(repeatable::norm<2>({3, 4}) == 5);
   }
 }
+
+}  // namespace repeatable_test

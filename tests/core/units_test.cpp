@@ -8,6 +8,8 @@
 #include <string>
 #include <voussoir/core/units.hpp>
 
+namespace units_test {
+
 using namespace voussoir;
 
 namespace {
@@ -180,3 +182,5 @@ TEST_SUITE("core/units") {
     }
   }
 }
+
+}  // namespace units_test

@@ -14,6 +14,8 @@
 #include "support/pairs.hpp"
 #include "support/separating_axes.hpp"
 
+namespace analytic_centre_test {
+
 using namespace voussoir;
 using namespace voussoir_test;
 
@@ -403,3 +405,5 @@ TEST_SUITE("detection/analytic_centre") {
     CHECK(apart > 40);
   }
 }
+
+}  // namespace analytic_centre_test

@@ -28,6 +28,8 @@
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
+namespace contact_search_test {
+
 using namespace voussoir;
 
 namespace {
@@ -309,3 +311,5 @@ TEST_SUITE("detection/contact_search") {
     CHECK(search.run(none).size() == 0);
   }
 }
+
+}  // namespace contact_search_test

@@ -16,6 +16,8 @@
 #include "support/separating_axes.hpp"
 #include "support/solids.hpp"
 
+namespace face_contacts_test {
+
 using namespace voussoir;
 using namespace voussoir_test;
 
@@ -604,3 +606,5 @@ TEST_SUITE("detection/face_contacts: known contacts") {
     }
   }
 }
+
+}  // namespace face_contacts_test

@@ -10,6 +10,8 @@
 #include "support/long_planes.hpp"
 #include "support/pairs.hpp"
 
+namespace least_excess_test {
+
 using namespace voussoir;
 using namespace voussoir_test;
 
@@ -102,3 +104,5 @@ TEST_SUITE("detection/least_excess") {
     CHECK(std::abs(planes.smallest_room() - 5) < 2e-14);
   }
 }
+
+}  // namespace least_excess_test

@@ -13,6 +13,8 @@
 
 #include "support/pairs.hpp"
 
+namespace placed_shapes_test {
+
 using namespace voussoir;
 using namespace voussoir_test;
 
@@ -215,3 +217,5 @@ TEST_SUITE("detection/placed_shapes") {
     CHECK(shapes.add(square, Vec2(0, 0)) == 0);
   }
 }
+
+}  // namespace placed_shapes_test

@@ -8,6 +8,8 @@
 
 #include "support/pairs.hpp"
 
+namespace separating_axes_test {
+
 using namespace voussoir_test;
 
 namespace {
@@ -93,3 +95,5 @@ TEST_SUITE("detection/separating_axes") {
     CHECK(static_cast<double>(shorter) < 1e-16);
   }
 }
+
+}  // namespace separating_axes_test

@@ -14,6 +14,8 @@
 
 #include "support/shapes.hpp"
 
+namespace convex_polygon_test {
+
 using namespace voussoir;
 using voussoir_test::polygon;
 
@@ -246,3 +248,5 @@ TEST_SUITE("geometry/convex_polygon") {
     CHECK(square.split(left_of({0, 1e-8}, {1, 1e-8}), 7, 1e-9).has_value());
   }
 }
+
+}  // namespace convex_polygon_test

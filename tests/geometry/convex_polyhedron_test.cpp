@@ -15,6 +15,8 @@
 
 #include "support/solids.hpp"
 
+namespace convex_polyhedron_test {
+
 using namespace voussoir;
 using voussoir_test::box_faces;
 using voussoir_test::box_vertices;
@@ -327,3 +329,5 @@ TEST_SUITE("geometry/convex_polyhedron") {
     CHECK(flat.size() == 6);
   }
 }
+
+}  // namespace convex_polyhedron_test

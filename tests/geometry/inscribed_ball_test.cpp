@@ -12,6 +12,8 @@
 
 #include "support/shapes.hpp"
 
+namespace inscribed_ball_test {
+
 using namespace voussoir;
 using voussoir_test::polygon;
 
@@ -184,3 +186,5 @@ TEST_SUITE("geometry/inscribed_ball") {
     CHECK(std::abs(inscribed_ball(shape).radius - 0.5) < 1e-15);
   }
 }
+
+}  // namespace inscribed_ball_test

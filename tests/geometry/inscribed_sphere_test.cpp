@@ -14,6 +14,8 @@
 
 #include "support/solids.hpp"
 
+namespace inscribed_sphere_test {
+
 using namespace voussoir;
 using voussoir_test::box;
 using voussoir_test::placed;
@@ -194,3 +196,5 @@ TEST_SUITE("geometry/inscribed_sphere") {
     }
   }
 }
+
+}  // namespace inscribed_sphere_test

@@ -12,6 +12,8 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
 
+namespace joint_plane_test {
+
 using namespace voussoir;
 
 namespace {
@@ -199,3 +201,5 @@ TEST_SUITE("geometry/joint_plane") {
     CHECK(covering(disc, {0, 0, 0}, 10).corners == disc.corners);
   }
 }
+
+}  // namespace joint_plane_test

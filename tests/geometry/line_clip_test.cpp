@@ -15,6 +15,8 @@
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
 
+namespace line_clip_test {
+
 using namespace voussoir;
 using voussoir_test::box;
 using voussoir_test::random_direction;
@@ -199,3 +201,5 @@ TEST_SUITE("geometry/line_clip") {
     CHECK(std::abs(to - 2 * std::sqrt(14.0)) < 1e-14);
   }
 }
+
+}  // namespace line_clip_test

@@ -11,6 +11,8 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/linear_program.hpp>
 
+namespace linear_program_test {
+
 using namespace voussoir;
 
 namespace {
@@ -179,3 +181,5 @@ TEST_SUITE("geometry/linear_program") {
     }
   }
 }
+
+}  // namespace linear_program_test

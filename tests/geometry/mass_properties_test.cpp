@@ -11,6 +11,8 @@
 #include "support/reference.hpp"
 #include "support/shapes.hpp"
 
+namespace mass_properties_test {
+
 using namespace voussoir;
 using voussoir_test::polygon;
 using voussoir_test::reference;
@@ -122,3 +124,5 @@ TEST_SUITE("geometry/mass_properties") {
     }
   }
 }
+
+}  // namespace mass_properties_test

@@ -14,6 +14,8 @@
 
 #include "support/solids.hpp"
 
+namespace polyhedron_split_test {
+
 using namespace voussoir;
 using voussoir_test::box;
 using voussoir_test::placed;
@@ -395,3 +397,5 @@ TEST_SUITE("geometry/polyhedron_split") {
     }
   }
 }
+
+}  // namespace polyhedron_split_test

@@ -12,6 +12,8 @@
 
 #include "support/shapes.hpp"
 
+namespace segment_test {
+
 using namespace voussoir;
 
 TEST_SUITE("geometry/segment") {
@@ -127,3 +129,5 @@ TEST_SUITE("geometry/segment") {
     }
   }
 }
+
+}  // namespace segment_test

@@ -17,6 +17,8 @@
 
 #include "support/shapes.hpp"
 
+namespace simple_polygon_test {
+
 using namespace voussoir;
 
 namespace {
@@ -194,3 +196,5 @@ TEST_SUITE("geometry/simple_polygon") {
     CHECK(std::abs(at({0.5, 0.5}, {5.5, 1.5}).value() - 0.5) < 1e-12);
   }
 }
+
+}  // namespace simple_polygon_test

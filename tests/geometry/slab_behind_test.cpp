@@ -6,6 +6,8 @@
 #include <voussoir/geometry/mass_properties.hpp>
 #include <voussoir/geometry/slab_behind.hpp>
 
+namespace slab_behind_test {
+
 using namespace voussoir;
 
 // The volume is the area times the thickness; the facet is a face of it that looks its own way.
@@ -38,3 +40,5 @@ TEST_SUITE("geometry/slab_behind") {
     CHECK_THROWS_AS((void)slab_behind(dented, 1), InvalidInput);
   }
 }
+
+}  // namespace slab_behind_test

@@ -11,6 +11,8 @@
 
 #include "support/solids.hpp"
 
+namespace solid_mass_properties_test {
+
 using namespace voussoir;
 using voussoir_test::box;
 using voussoir_test::placed;
@@ -261,3 +263,5 @@ TEST_SUITE("geometry/solid_mass_properties") {
     }
   }
 }
+
+}  // namespace solid_mass_properties_test

@@ -12,6 +12,8 @@
 #include "support/shapes.hpp"
 #include "support/solids.hpp"
 
+namespace spatial_facet_test {
+
 using namespace voussoir;
 using voussoir_test::random_direction;
 
@@ -228,3 +230,5 @@ TEST_SUITE("geometry/tangent_basis") {
     }
   }
 }
+
+}  // namespace spatial_facet_test

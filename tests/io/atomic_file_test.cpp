@@ -15,6 +15,8 @@
 #include <unistd.h>
 
 #include <csignal>
+
+namespace atomic_file_test {
 #define VOUSSOIR_TEST_HAS_FILE_LIMIT 1
 #endif
 
@@ -207,3 +209,5 @@ TEST_SUITE("io/atomic_file") {
     CHECK(folder.file_count() == 2);
   }
 }
+
+}  // namespace atomic_file_test

@@ -6,6 +6,8 @@
 #include <limits>
 #include <voussoir/io/colour_map.hpp>
 
+namespace colour_map_test {
+
 using namespace voussoir;
 
 TEST_SUITE("io/colour_map") {
@@ -53,3 +55,5 @@ TEST_SUITE("io/colour_map") {
     CHECK(grey.red == grey.blue);
   }
 }
+
+}  // namespace colour_map_test

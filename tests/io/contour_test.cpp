@@ -8,6 +8,8 @@
 #include <voussoir/io/contour.hpp>
 #include <voussoir/io/smooth_grid.hpp>
 
+namespace contour_test {
+
 using namespace voussoir;
 
 namespace {
@@ -146,3 +148,5 @@ TEST_SUITE("io/contour") {
     CHECK_THROWS_AS((void)refined(grid, 0), InvalidInput);
   }
 }
+
+}  // namespace contour_test

@@ -6,6 +6,8 @@
 #include <vector>
 #include <voussoir/io/csv_table.hpp>
 
+namespace csv_table_test {
+
 using namespace voussoir;
 
 namespace {
@@ -94,3 +96,5 @@ TEST_SUITE("io/csv_table") {
     CHECK_THROWS_AS(CsvTable({"a", ""}), InvalidInput);
   }
 }
+
+}  // namespace csv_table_test

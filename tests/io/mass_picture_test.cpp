@@ -15,6 +15,8 @@
 #include "io/xml_check.hpp"
 #include "support/jointed_mass.hpp"
 
+namespace mass_picture_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_mass;
 
@@ -234,3 +236,5 @@ TEST_SUITE("io/mass_picture") {
     CHECK(refused([](MassPicture& p) { p.corner_left_out = 1; }) == "accepted");
   }
 }
+
+}  // namespace mass_picture_test

@@ -9,6 +9,8 @@
 #include <voussoir/io/number_text.hpp>
 #include <voussoir/io/round_ticks.hpp>
 
+namespace number_text_test {
+
 using namespace voussoir;
 
 TEST_SUITE("io/number_text") {
@@ -92,3 +94,5 @@ TEST_SUITE("io/round_ticks") {
           std::vector<double>{0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5});
   }
 }
+
+}  // namespace number_text_test

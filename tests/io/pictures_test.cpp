@@ -10,6 +10,8 @@
 
 #include "io/xml_check.hpp"
 
+namespace pictures_test {
+
 using namespace voussoir;
 
 namespace {
@@ -246,3 +248,5 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
   }
 }
+
+}  // namespace pictures_test

@@ -14,6 +14,8 @@
 #include "support/blocks.hpp"
 #include "support/jointed_mass.hpp"
 
+namespace space_pictures_test {
+
 using namespace voussoir;
 using voussoir_test::brick;
 using voussoir_test::jointed_mass;
@@ -96,3 +98,5 @@ TEST_SUITE("io/space_pictures") {
     CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
   }
 }
+
+}  // namespace space_pictures_test

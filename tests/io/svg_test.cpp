@@ -9,6 +9,8 @@
 
 #include "io/xml_check.hpp"
 
+namespace svg_test {
+
 using namespace voussoir;
 
 TEST_SUITE("io/svg") {
@@ -125,3 +127,5 @@ TEST_SUITE("io/page_map") {
     CHECK(clip_segment({1, 0.5}, {1, 1.5}, window)->second == Vec2(1, 1.5));
   }
 }
+
+}  // namespace svg_test

@@ -11,6 +11,8 @@
 
 #include "support/reference.hpp"
 
+namespace beams_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -137,3 +139,5 @@ TEST_SUITE("lining/beams") {
       CHECK_THROWS_AS((void)LiningSection::rectangular(0.1, 25e9, bad), InvalidInput);
   }
 }
+
+}  // namespace beams_test

@@ -16,6 +16,8 @@
 
 #include "support/reference.hpp"
 
+namespace polygon_ring_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -204,3 +206,5 @@ TEST_SUITE("lining/polygon_ring") {
     CHECK(std::abs(moment) <= 1e-14 * radius * f.norm());
   }
 }
+
+}  // namespace polygon_ring_test

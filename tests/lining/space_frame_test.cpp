@@ -9,6 +9,8 @@
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/lining/frame_element.hpp>
 
+namespace space_frame_test {
+
 using namespace voussoir;
 
 namespace {
@@ -114,3 +116,5 @@ TEST_SUITE("lining/space_frame") {
     CHECK((k * u - expected).norm() < 1e-9 * axial);
   }
 }
+
+}  // namespace space_frame_test

@@ -12,6 +12,8 @@
 
 #include "support/blocks.hpp"
 
+namespace bolts_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
@@ -121,3 +123,5 @@ TEST_SUITE("motion/bolts") {
     CHECK(-torn.energy().kinetic == doctest::Approx(torn.energy().supports).epsilon(0.01));
   }
 }
+
+}  // namespace bolts_test

@@ -15,6 +15,8 @@
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
 
+namespace drop_test {
+
 using namespace voussoir;
 using voussoir_test::brick;
 using voussoir_test::degree;
@@ -184,3 +186,5 @@ TEST_SUITE("motion/drop") {
     CHECK(free.run.step() * gravity < 0.25 * 0.0142);
   }
 }
+
+}  // namespace drop_test

@@ -13,6 +13,8 @@
 #include "support/blocks.hpp"
 #include "support/reference.hpp"
 
+namespace free_motion_test {
+
 using namespace voussoir;
 using voussoir_test::brick;
 using voussoir_test::degree;
@@ -260,3 +262,5 @@ TEST_SUITE("motion/free_motion") {
     CHECK(run.kinetic_energy() < 1e-9 * weight * 0.3);
   }
 }
+
+}  // namespace free_motion_test

@@ -10,6 +10,8 @@
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
 
+namespace health_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
@@ -143,3 +145,5 @@ TEST_SUITE("motion/health") {
     CHECK(std::abs(run.energy().relative_imbalance()) < 0.02);
   }
 }
+
+}  // namespace health_test

@@ -21,6 +21,8 @@
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
 
+namespace lining_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::fault_of;
@@ -215,3 +217,5 @@ TEST_SUITE("motion/lining") {
     CHECK(run.body_count() == 0);
   }
 }
+
+}  // namespace lining_test

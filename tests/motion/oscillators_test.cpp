@@ -13,6 +13,8 @@
 #include "support/blocks.hpp"
 #include "support/reference.hpp"
 
+namespace oscillators_test {
+
 using namespace voussoir;
 using voussoir_test::rectangle;
 using voussoir_test::reference;
@@ -184,3 +186,5 @@ TEST_SUITE("motion/oscillators") {
     CHECK(least == doctest::Approx(reference("F.stickslip.xmin")).epsilon(0.02));
   }
 }
+
+}  // namespace oscillators_test

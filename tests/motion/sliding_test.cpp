@@ -10,6 +10,8 @@
 #include "support/blocks.hpp"
 #include "support/reference.hpp"
 
+namespace sliding_test {
+
 using namespace voussoir;
 using voussoir_test::brick;
 using voussoir_test::degree;
@@ -179,3 +181,5 @@ TEST_SUITE("motion/sliding") {
     }
   }
 }
+
+}  // namespace sliding_test

@@ -12,6 +12,8 @@
 #include "support/blocks.hpp"
 #include "support/reference.hpp"
 
+namespace structures_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
@@ -158,3 +160,5 @@ TEST_SUITE("motion/structures") {
     }
   }
 }
+
+}  // namespace structures_test

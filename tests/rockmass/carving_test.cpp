@@ -17,6 +17,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
+namespace carving_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_rock;
 using voussoir_test::regular;
@@ -311,3 +313,5 @@ TEST_SUITE("rockmass/carving") {
     CHECK(wall_pieces(jointed_rock({{-3, -3}, {3, 3}}, 1)).empty());
   }
 }
+
+}  // namespace carving_test

@@ -16,6 +16,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
+namespace cut_contacts_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_rock;
 using voussoir_test::regular;
@@ -279,3 +281,5 @@ TEST_SUITE("rockmass/cut_contacts") {
     for (std::size_t b = 0; b < mass.bodies.size(); ++b) CHECK(sum.area[b].norm() < 1e-13);
   }
 }
+
+}  // namespace cut_contacts_test

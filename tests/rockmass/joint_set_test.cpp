@@ -17,6 +17,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/reference.hpp"
 
+namespace joint_set_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::reference;
@@ -288,3 +290,5 @@ TEST_SUITE("rockmass/joint_set") {
     CHECK(std::abs(first_third - 300) < 4 * 11.5);
   }
 }
+
+}  // namespace joint_set_test

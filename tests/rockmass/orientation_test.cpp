@@ -6,6 +6,8 @@
 #include <vector>
 #include <voussoir/rockmass/orientation.hpp>
 
+namespace orientation_test {
+
 using namespace voussoir;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_SUITE("rockmass/orientation") {
     }
   }
 }
+
+}  // namespace orientation_test

@@ -16,6 +16,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
+namespace pierce_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_rock;
 
@@ -217,3 +219,5 @@ TEST_SUITE("rockmass/pierce") {
     }
   }
 }
+
+}  // namespace pierce_test

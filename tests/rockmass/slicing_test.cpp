@@ -20,6 +20,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace slicing_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -608,3 +610,5 @@ TEST_SUITE("rockmass/slicing") {
     CHECK(std::abs(total_area(far) / 100 - 1) < 1e-10);
   }
 }
+
+}  // namespace slicing_test

@@ -15,6 +15,8 @@
 
 #include "support/jointed_mass.hpp"
 
+namespace spatial_contacts_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_mass;
 using voussoir_test::moved;
@@ -308,3 +310,5 @@ TEST_SUITE("rockmass/spatial_contacts") {
     CHECK(std::abs(found[SpatialSide::top] - 36) < 1e-12);
   }
 }
+
+}  // namespace spatial_contacts_test

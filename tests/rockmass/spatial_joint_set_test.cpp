@@ -15,6 +15,8 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 
+namespace spatial_joint_set_test {
+
 using namespace voussoir;
 
 namespace {
@@ -409,3 +411,5 @@ TEST_SUITE("rockmass/spatial_joint_set") {
     for (const SpatialJoint& joint : joints) CHECK(area_inside(joint.trace, ground) > 0);
   }
 }
+
+}  // namespace spatial_joint_set_test

@@ -19,6 +19,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/solids.hpp"
 
+namespace spatial_slicing_test {
+
 using namespace voussoir;
 using voussoir_test::difference;
 using voussoir_test::jointed_mass;
@@ -529,3 +531,5 @@ TEST_SUITE("rockmass/spatial_slicing") {
       CHECK_THROWS_AS((void)slice<Spatial>(bad, {}, {}), InvalidInput);
   }
 }
+
+}  // namespace spatial_slicing_test

@@ -14,6 +14,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/solids.hpp"
 
+namespace spatial_statistics_test {
+
 using namespace voussoir;
 using voussoir_test::jointed_mass;
 
@@ -196,3 +198,5 @@ TEST_SUITE("rockmass/spatial_statistics") {
     CHECK(block_sizes(mass).smallest_inscribed_radius >= 0.1 - 1e-12);
   }
 }
+
+}  // namespace spatial_statistics_test

@@ -13,6 +13,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
+namespace statistics_test {
+
 using namespace voussoir;
 
 namespace {
@@ -93,3 +95,5 @@ TEST_SUITE("rockmass/statistics") {
     CHECK(sizes.median < sizes.largest);
   }
 }
+
+}  // namespace statistics_test

@@ -9,6 +9,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace trace_coverage_test {
+
 using namespace voussoir;
 
 namespace {
@@ -98,3 +100,5 @@ TEST_SUITE("rockmass/trace_coverage") {
     CHECK(estimated_blocks(dense, ground, 0.5) == doctest::Approx(0.25 * 4200 / 0.25));
   }
 }
+
+}  // namespace trace_coverage_test

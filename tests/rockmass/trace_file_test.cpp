@@ -11,6 +11,8 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 
+namespace trace_file_test {
+
 using namespace voussoir;
 
 namespace {
@@ -213,3 +215,5 @@ TEST_SUITE("rockmass/trace_file") {
     CHECK_THROWS_WITH_AS((void)read_traces(in, "map.csv"), "map.csv: cannot be read", InvalidInput);
   }
 }
+
+}  // namespace trace_file_test

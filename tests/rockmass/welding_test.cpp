@@ -15,6 +15,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
+namespace welding_test {
+
 using namespace voussoir;
 
 TEST_SUITE("rockmass/welding") {
@@ -79,3 +81,5 @@ TEST_SUITE("rockmass/welding") {
     CHECK(weld(bodies, 1e-9) == 0);
   }
 }
+
+}  // namespace welding_test

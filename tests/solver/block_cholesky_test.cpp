@@ -9,6 +9,8 @@
 
 #include "solver/dense_matrix.hpp"
 
+namespace block_cholesky_test {
+
 using namespace voussoir;
 using voussoir_test::dense;
 
@@ -136,3 +138,5 @@ TEST_SUITE("solver/block_cholesky") {
     CHECK_THROWS_AS(BlockCholesky<dof>{indefinite}, NumericalFault);
   }
 }
+
+}  // namespace block_cholesky_test

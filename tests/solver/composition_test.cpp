@@ -16,6 +16,8 @@
 #include "solver/dense_matrix.hpp"
 #include "support/jointed_rock.hpp"
 
+namespace composition_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::dense;
@@ -125,3 +127,5 @@ TEST_SUITE("solver/composition") {
     }
   }
 }
+
+}  // namespace composition_test

@@ -9,6 +9,8 @@
 
 #include "support/bolted_tunnel.hpp"
 
+namespace equilibrium_methods_test {
+
 using namespace voussoir_test;
 
 namespace {
@@ -88,3 +90,5 @@ TEST_SUITE("solver/equilibrium_methods") {
       }
   }
 }
+
+}  // namespace equilibrium_methods_test

@@ -9,6 +9,8 @@
 #include <voussoir/solver/explicit.hpp>
 #include <voussoir/solver/system.hpp>
 
+namespace explicit_test {
+
 using namespace voussoir;
 
 namespace {
@@ -102,3 +104,5 @@ TEST_SUITE("solver/explicit") {
     CHECK_THROWS_AS(Explicit(with([](auto& p) { p.max_steps = p.ramp_steps; })), InvalidInput);
   }
 }
+
+}  // namespace explicit_test

@@ -19,6 +19,8 @@
 
 #include "support/degree.hpp"
 
+namespace finite_displacement_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 
@@ -187,3 +189,5 @@ TEST_SUITE("solver/finite_displacement") {
                          InvalidInput);
   }
 }
+
+}  // namespace finite_displacement_test

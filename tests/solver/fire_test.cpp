@@ -6,6 +6,8 @@
 #include <vector>
 #include <voussoir/solver/fire.hpp>
 
+namespace fire_test {
+
 using namespace voussoir;
 
 namespace {
@@ -95,3 +97,5 @@ TEST_SUITE("solver/fire") {
     CHECK(u == v);
   }
 }
+
+}  // namespace fire_test

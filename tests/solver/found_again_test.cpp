@@ -10,6 +10,8 @@
 #include "support/bolted_tunnel.hpp"
 #include "support/jointed_mass.hpp"
 
+namespace found_again_test {
+
 using namespace voussoir_test;
 using voussoir::find_contacts_again;
 
@@ -73,3 +75,5 @@ TEST_SUITE("solver/found_again") {
     }
   }
 }
+
+}  // namespace found_again_test

@@ -16,6 +16,8 @@
 
 #include "support/blocks.hpp"
 
+namespace generation_stage_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
@@ -125,3 +127,5 @@ TEST_SUITE("solver/generation_stage") {
     CHECK_THROWS_AS((void)generation_stage(rock(), notched, joint(0), shallow), InvalidInput);
   }
 }
+
+}  // namespace generation_stage_test

@@ -14,6 +14,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace in_situ_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -148,3 +150,5 @@ TEST_SUITE("solver/in_situ") {
                     InvalidInput);
   }
 }
+
+}  // namespace in_situ_test

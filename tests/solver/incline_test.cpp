@@ -19,6 +19,8 @@
 
 #include "support/reference.hpp"
 
+namespace incline_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -170,3 +172,5 @@ TEST_SUITE("solver/incline") {
     CHECK(Explicit(steps).find(again, context()).verdict == Verdict::undecided);
   }
 }
+
+}  // namespace incline_test

@@ -19,6 +19,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace joint_laws_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -141,3 +143,5 @@ TEST_SUITE("solver/joint_laws") {
     CHECK(pinned.crown == doctest::Approx(beam.crown).epsilon(0.03));
   }
 }
+
+}  // namespace joint_laws_test

@@ -17,6 +17,8 @@
 
 #include "support/degree.hpp"
 
+namespace laws_by_set_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 
@@ -115,3 +117,5 @@ TEST_SUITE("solver/laws_by_set") {
     CHECK(laws.stiffest() == 2e9);
   }
 }
+
+}  // namespace laws_by_set_test

@@ -16,6 +16,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace lined_rock_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -151,3 +153,5 @@ TEST_SUITE("solver/lined_rock") {
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
   }
 }
+
+}  // namespace lined_rock_test

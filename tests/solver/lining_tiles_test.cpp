@@ -13,6 +13,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace lining_tiles_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -50,3 +52,5 @@ TEST_SUITE("solver/lining_tiles") {
     CHECK(bare > 0);
   }
 }
+
+}  // namespace lining_tiles_test

@@ -14,6 +14,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/reference.hpp"
 
+namespace oedometer_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -194,3 +196,5 @@ TEST_SUITE("solver/oedometer") {
     CHECK_THROWS_AS((void)oedometer(carve(rock, hole, 0.01), joint), InvalidInput);
   }
 }
+
+}  // namespace oedometer_test

@@ -7,6 +7,8 @@
 
 #include "support/bolted_tunnel.hpp"
 
+namespace relaxation_test {
+
 using namespace voussoir_test;
 
 TEST_SUITE("solver/relaxation") {
@@ -34,3 +36,5 @@ TEST_SUITE("solver/relaxation") {
       CHECK_THROWS_AS(Relaxation{bad}, InvalidInput);
   }
 }
+
+}  // namespace relaxation_test

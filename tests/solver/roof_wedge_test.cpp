@@ -15,6 +15,8 @@
 
 #include "support/reference.hpp"
 
+namespace roof_wedge_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -75,3 +77,5 @@ TEST_SUITE("solver/roof_wedge") {
     }
   }
 }
+
+}  // namespace roof_wedge_test

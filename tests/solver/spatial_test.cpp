@@ -18,6 +18,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace spatial_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 
@@ -217,3 +219,5 @@ TEST_SUITE("solver/spatial") {
     CHECK(with_lining < 0.9 * without);
   }
 }
+
+}  // namespace spatial_test

@@ -15,6 +15,8 @@
 #include "solver/dense_matrix.hpp"
 #include "support/reference.hpp"
 
+namespace system_test {
+
 using namespace voussoir;
 using voussoir_test::dense;
 using voussoir_test::reference;
@@ -473,3 +475,5 @@ TEST_SUITE("solver/system") {
     CHECK(std::abs(wall.system.unbalance_over_weight(f) - 1000 / 25e3) <= 1e-15);
   }
 }
+
+}  // namespace system_test

@@ -23,6 +23,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace verdict_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -508,3 +510,5 @@ TEST_SUITE("solver/verdict") {
     CHECK(largest_difference(here, there) <= 2e-5 * here.cwiseAbs().maxCoeff());
   }
 }
+
+}  // namespace verdict_test

@@ -10,6 +10,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace write_your_own_test {
+
 using voussoir_test::degree;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_SUITE("solver/write_your_own") {
     CHECK(hold(0.5 * strong) == 0.5 * strong);
   }
 }
+
+}  // namespace write_your_own_test

@@ -15,6 +15,8 @@
 
 #include "support/reference.hpp"
 
+namespace inference_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::relative;
@@ -196,3 +198,5 @@ TEST_SUITE("statistics/inference") {
     CHECK_THROWS_AS((NormalBelief{0, 1, 1, 1}.after(1, 0, -1)), InvalidInput);
   }
 }
+
+}  // namespace inference_test

@@ -9,6 +9,8 @@
 
 #include "support/reference.hpp"
 
+namespace sample_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::relative;
@@ -97,3 +99,5 @@ TEST_SUITE("statistics/sample") {
     CHECK_THROWS_AS(Histogram::of(Sample({1, 1})), InvalidInput);
   }
 }
+
+}  // namespace sample_test

@@ -9,6 +9,8 @@
 
 #include "support/reference.hpp"
 
+namespace circular_opening_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::relative;
@@ -110,3 +112,5 @@ TEST_SUITE("theory/circular_opening") {
                          "shear modulus G = -1: must be > 0 Pa", InvalidInput);
   }
 }
+
+}  // namespace circular_opening_test

@@ -12,6 +12,8 @@
 
 #include "support/reference.hpp"
 
+namespace equivalent_moduli_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -167,3 +169,5 @@ TEST_SUITE("theory/initial_friction") {
     CHECK_THROWS_AS(initial_friction(1, nan), InvalidInput);
   }
 }
+
+}  // namespace equivalent_moduli_test

@@ -11,6 +11,8 @@
 
 #include "support/reference.hpp"
 
+namespace ground_reaction_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -159,3 +161,5 @@ TEST_SUITE("theory/longitudinal_profile") {
     CHECK_THROWS_AS(fictitious_pressure(-1, 0.5), InvalidInput);
   }
 }
+
+}  // namespace ground_reaction_test

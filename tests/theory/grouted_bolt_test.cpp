@@ -6,6 +6,8 @@
 
 #include "support/reference.hpp"
 
+namespace grouted_bolt_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::relative;
@@ -32,3 +34,5 @@ TEST_SUITE("theory/grouted_bolt") {
     CHECK_THROWS_AS(grouted_bolt_stiffness({0.028, 0.028, 1, 1, 1}), InvalidInput);
   }
 }
+
+}  // namespace grouted_bolt_test

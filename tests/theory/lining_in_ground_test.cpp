@@ -10,6 +10,8 @@
 
 #include "support/reference.hpp"
 
+namespace lining_in_ground_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -147,3 +149,5 @@ TEST_SUITE("theory/lining_in_ground") {
     CHECK_THROWS_AS(run(good, {p0, -1}, g1), InvalidInput);
   }
 }
+
+}  // namespace lining_in_ground_test

@@ -10,6 +10,8 @@
 
 #include "support/reference.hpp"
 
+namespace polygon_ring_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -94,3 +96,5 @@ TEST_SUITE("theory/polygon_ring") {
     CHECK_THROWS_AS(chord_moment(1, 5, 16, 3), InvalidInput);
   }
 }
+
+}  // namespace polygon_ring_test

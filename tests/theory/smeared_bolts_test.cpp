@@ -10,6 +10,8 @@
 
 #include "support/reference.hpp"
 
+namespace smeared_bolts_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -164,3 +166,5 @@ TEST_SUITE("theory/smeared_bolts") {
     CHECK_THROWS_AS(elastic_support(0, {}, {}, {g1, 0.2}, p0), InvalidInput);
   }
 }
+
+}  // namespace smeared_bolts_test

@@ -9,6 +9,8 @@
 
 #include "support/reference.hpp"
 
+namespace thin_lining_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 using voussoir_test::reference_table;
@@ -140,3 +142,5 @@ TEST_SUITE("theory/thin_lining") {
     for (const int bad : {-3, 1, 2}) CHECK_THROWS_AS(run({5, 0.1, 25e9, 1e9, bad}), InvalidInput);
   }
 }
+
+}  // namespace thin_lining_test

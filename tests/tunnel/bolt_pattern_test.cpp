@@ -9,6 +9,8 @@
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
+namespace bolt_pattern_test {
+
 using namespace voussoir;
 
 namespace {
@@ -126,3 +128,5 @@ TEST_SUITE("tunnel/bolt_pattern") {
     CHECK_THROWS_AS((void)bolt_bars({.length = 4, .angular_spacing = d}, elsewhere), InvalidInput);
   }
 }
+
+}  // namespace bolt_pattern_test

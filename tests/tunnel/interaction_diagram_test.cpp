@@ -9,6 +9,8 @@
 #include <vector>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 
+namespace interaction_diagram_test {
+
 using namespace voussoir;
 
 namespace {
@@ -84,3 +86,5 @@ TEST_SUITE("tunnel/interaction_diagram") {
     }
   }
 }
+
+}  // namespace interaction_diagram_test

@@ -13,6 +13,8 @@
 
 #include "support/jointed_rock.hpp"
 
+namespace lining_ring_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -185,3 +187,5 @@ TEST_SUITE("tunnel/lining_ring") {
     CHECK_THROWS_AS((void)lining_frame(jointed_rock(ground, 1), {}), InvalidInput);  // no opening
   }
 }
+
+}  // namespace lining_ring_test

@@ -13,6 +13,8 @@
 
 #include "support/reference.hpp"
 
+namespace measurements_test {
+
 using namespace voussoir;
 using voussoir_test::reference;
 
@@ -191,3 +193,5 @@ TEST_SUITE("tunnel/measurements") {
     CHECK(std::isnan(convergence_at({{pi, 1, 1e-3}}, 0.0)));
   }
 }
+
+}  // namespace measurements_test

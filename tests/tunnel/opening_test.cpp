@@ -6,6 +6,8 @@
 #include <numbers>
 #include <voussoir/tunnel/opening.hpp>
 
+namespace opening_test {
+
 using namespace voussoir;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_SUITE("tunnel/opening") {
     }
   }
 }
+
+}  // namespace opening_test

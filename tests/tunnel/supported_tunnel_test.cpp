@@ -15,6 +15,8 @@
 #include "support/jointed_rock.hpp"
 #include "support/reference.hpp"
 
+namespace supported_tunnel_test {
+
 using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_rock;
@@ -149,3 +151,5 @@ TEST_SUITE("tunnel/supported_tunnel") {
     CHECK(std::abs(mean - expected) <= 0.1 * expected);
   }
 }
+
+}  // namespace supported_tunnel_test

@@ -8,6 +8,8 @@
 
 #include "support/bolted_tunnel.hpp"
 
+namespace tunnels_on_threads_test {
+
 namespace {
 
 using namespace voussoir_test;
@@ -42,3 +44,5 @@ TEST_SUITE("tunnel/tunnels_on_threads") {
     CHECK(one[0].crown_convergence != one[3].crown_convergence);
   }
 }
+
+}  // namespace tunnels_on_threads_test
