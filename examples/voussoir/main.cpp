@@ -2,18 +2,14 @@
 // voussoir: tunnel support design from an input file. `voussoir run FILE`, `voussoir diagram FILE`;
 // `voussoir patterns` shows how unsupported tunnels fail; `voussoir paper` runs every analysis of
 // the paper behind it.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -24,46 +20,24 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
 
-#include "analyses.hpp"
 #include "input_document.hpp"
 #include "outputs.hpp"
-#include "pages.hpp"
 #include "patterns.hpp"
-#include "plotting.hpp"
-#include "report.hpp"
 #include "run_folder.hpp"
-#include "scoreboard.hpp"
-#include "verification.hpp"
-
-namespace {
+#include "verbs.hpp"
 
 using namespace voussoir::program;
 
-enum ExitStatus {
-  finished = 0,
-  failed = 1,
-  bad_input = 2,
-  not_decided = 3,
-  numerical_fault = 4,
-  not_verified = 5,
-  interrupted = 130
-};
+namespace voussoir::program {
 
 volatile std::sig_atomic_t stop_asked = 0;
-extern "C" void ask_to_stop(int) { stop_asked = 1; }
-
-struct Options {
-  std::string file, folder = ".";
-  std::vector<std::string> overrides;
-  bool quiet = false;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-};
-
-/// What memory may run out of, in words, and what then to reduce.
-struct Work {
-  std::string doing = "reading the command line", remedy = "fewer and smaller arguments";
-};
 Work work;
+
+}  // namespace voussoir::program
+
+namespace {
+
+extern "C" void ask_to_stop(int) { stop_asked = 1; }
 
 const char* const smaller_model =
     "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a larger "
@@ -72,43 +46,6 @@ const char* const smaller_model =
 /// What `run` and `diagram` report of themselves.
 void now_doing(const std::string& what, const std::string& otherwise) {
   work.doing = what == "blocks" ? "cutting the rock into blocks" : otherwise;
-}
-
-/// One line that rewrites itself on a terminal, nothing in a pipe.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
-  ~ProgressLine() { clear(); }
-  bool show(const std::string& what, double fraction) {
-    if (shown_) {
-      if (fraction >= 0) {
-        const int filled = static_cast<int>(30 * fraction);
-        std::fprintf(stderr, "\r\033[K%s [%-30s] %3.0f %%", what.c_str(),
-                     std::string(static_cast<std::size_t>(filled), '#').c_str(), 100 * fraction);
-      } else {
-        std::fprintf(stderr, "\r\033[K%s ...", what.c_str());
-      }
-      std::fflush(stderr);
-    }
-    return stop_asked == 0;
-  }
-  void clear() {
-    if (shown_) std::fprintf(stderr, "\r\033[K");
-  }
-
- private:
-  bool shown_;
-};
-
-/// The line says what was written only once it is there.
-void publish(RunFolder& outputs, const Options& options, const std::string& names) {
-  outputs.publish();
-  if (!options.quiet) std::cout << "written  " << names << " in " << options.folder << "\n";
-}
-
-int say_interrupted() {
-  std::cerr << "interrupted: nothing written\n";
-  return interrupted;
 }
 
 int run_verb(const Options& options) {
@@ -221,84 +158,6 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
     std::cout << "named as in the paper: roof " << roofs << ", walls " << walls << " of "
               << results.size() << " runs\n";
   publish(outputs, options, "patterns.csv, patterns.svg, case_*_seed_*.svg");
-  return finished;
-}
-
-int paper_verb(const Options& options, int samples, const std::string& pages) {
-  voussoir::paper::check_gnuplot();
-  RunFolder outputs(options.folder);
-  std::optional<RunFolder> pages_outputs;
-  std::error_code other;
-  const bool same_folder =
-      !pages.empty() && std::filesystem::equivalent(options.folder, pages, other);
-  if (!pages.empty() && !same_folder) pages_outputs.emplace(pages, "--pages");
-  work = {"", "fewer --samples or --threads"};
-  const auto start = std::chrono::steady_clock::now();
-  ProgressLine line(options.quiet);
-  std::string doing;
-  voussoir::paper::Study study(samples, options.threads,
-                               [&](const std::string& what, double fraction) {
-                                 return line.show(doing + ": " + what, fraction);
-                               });
-  std::vector<voussoir::paper::Section> sections;
-  try {
-    for (const auto& analysis : voussoir::paper::analyses()) {
-      doing = analysis.name;
-      work.doing = "the analysis " + doing;
-      line.show(doing, -1);
-      sections.push_back(analysis.run(study));
-      if (stop_asked != 0) throw voussoir::paper::Study::Stopped{};
-    }
-  } catch (const voussoir::paper::Study::Stopped&) {
-    line.clear();
-    return say_interrupted();
-  }
-  line.show("plots", -1);
-  const voussoir::paper::Drawings drawings = voussoir::paper::drawn(sections);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::map<std::string, std::string> results = voussoir::paper::plot_files(sections, drawings);
-  results["paper.html"] = voussoir::paper::report_html(sections, drawings, study, seconds);
-  results["scoreboard.csv"] = voussoir::paper::scoreboard_csv(sections);
-  line.clear();
-  const std::string id = RunId("paper").add(samples).text();
-  if (!pages.empty()) {
-    const auto texts = voussoir::paper::documentation_pages(sections, drawings, study, seconds);
-    if (same_folder) results.insert(texts.begin(), texts.end());  // the same pictures
-    if (pages_outputs)
-      for (const auto& [name, text] : texts) pages_outputs->add(name, text, id);
-  }
-  for (const auto& [name, text] : results) outputs.add(name, text, id);
-  if (pages_outputs) pages_outputs->publish();
-  if (!options.quiet)
-    std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
-              << (samples == 1 ? " sample" : " samples") << " of the rock, "
-              << study.tunnels_solved() << " supported tunnels, " << static_cast<int>(seconds)
-              << " s\n";
-  publish(outputs, options, "paper.html, scoreboard.csv, plots (.svg, .csv, .gp)");
-  if (!options.quiet && !pages.empty())
-    std::cout << "written  README.md, pages in " << pages << "\n";
-  return finished;
-}
-
-int verify_verb(const Options& options) {
-  work = {"the checks", "fewer --threads"};
-  ProgressLine line(options.quiet);
-  voussoir::paper::Study study(3, options.threads, [&](const std::string& what, double fraction) {
-    return line.show(what, fraction);
-  });
-  std::vector<voussoir::paper::Check> checks;
-  try {
-    line.show("closed forms", -1);
-    checks = voussoir::paper::verification(study);
-  } catch (const voussoir::paper::Study::Stopped&) {
-    line.clear();
-    return say_interrupted();
-  }
-  line.clear();
-  if (!options.quiet) std::cout << voussoir::paper::verification_text(checks);
-  for (const auto& check : checks)
-    if (!check.passes()) return not_verified;
   return finished;
 }
 

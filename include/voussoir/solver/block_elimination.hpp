@@ -28,8 +28,10 @@ class BlockElimination {
 
   /// @param size   block rows
   /// @param pairs  every coupled pair (row, column) once, row != column
+  /// A template so that only who factors a matrix pays for Eigen's sparse matrices.
+  template <class Graph = Eigen::SparseMatrix<char>>
   BlockElimination(int size, const std::vector<std::pair<int, int>>& pairs) {
-    order(size, pairs);
+    order<Graph>(size, pairs);
     gather_rows(pairs);
     find_columns();
   }
@@ -72,8 +74,9 @@ class BlockElimination {
   };
 
  private:
+  template <class Graph>
   void order(int size, const std::vector<std::pair<int, int>>& pairs) {
-    Eigen::SparseMatrix<char> graph(size, size);
+    Graph graph(size, size);
     Eigen::VectorXi degree = Eigen::VectorXi::Ones(size);
     for (const auto& [i, j] : pairs) {
       ++degree[i];
@@ -87,7 +90,7 @@ class BlockElimination {
     }
     graph.makeCompressed();
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-    Eigen::AMDOrdering<int>()(graph, permutation);
+    Eigen::AMDOrdering<typename Graph::StorageIndex>()(graph, permutation);
     from_new_.assign(permutation.indices().data(), permutation.indices().data() + size);
   }
 

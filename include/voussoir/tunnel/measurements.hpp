@@ -175,9 +175,10 @@ template <class Solver>
 }
 
 /// The same of a lining that moves; position is where the node is now.
-template <class Run>
-[[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
-                                                     const MovingLining<Planar>& lining) {
+template <class Run, class Geometry>
+requires(Geometry::dim == 2)
+    [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
+                                                         const MovingLining<Geometry>& lining) {
   const int first = lining.first_node();
   auto forces = detail::mean_of_members(
       lining.members(), first, lining.node_count(), [&](const auto& element) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "run_folder.hpp"
+
+/// What the verbs of the program share: options, exit status, progress, what to say at the end.
+namespace voussoir::program {
+
+enum ExitStatus {
+  finished = 0,
+  failed = 1,
+  bad_input = 2,
+  not_decided = 3,
+  numerical_fault = 4,
+  not_verified = 5,
+  interrupted = 130
+};
+
+/// Set by Ctrl-C and SIGTERM; looked at wherever progress is shown.
+extern volatile std::sig_atomic_t stop_asked;
+
+struct Options {
+  std::string file, folder = ".";
+  std::vector<std::string> overrides;
+  bool quiet = false;
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+};
+
+/// What memory may run out of, in words, and what then to reduce.
+struct Work {
+  std::string doing = "reading the command line", remedy = "fewer and smaller arguments";
+};
+extern Work work;
+
+/// One line that rewrites itself on a terminal, nothing in a pipe.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+  ~ProgressLine() { clear(); }
+  bool show(const std::string& what, double fraction) {
+    if (shown_) {
+      if (fraction >= 0) {
+        const int filled = static_cast<int>(30 * fraction);
+        std::fprintf(stderr, "\r\033[K%s [%-30s] %3.0f %%", what.c_str(),
+                     std::string(static_cast<std::size_t>(filled), '#').c_str(), 100 * fraction);
+      } else {
+        std::fprintf(stderr, "\r\033[K%s ...", what.c_str());
+      }
+      std::fflush(stderr);
+    }
+    return stop_asked == 0;
+  }
+  void clear() {
+    if (shown_) std::fprintf(stderr, "\r\033[K");
+  }
+
+ private:
+  bool shown_;
+};
+
+/// The line says what was written only once it is there.
+inline void publish(RunFolder& outputs, const Options& options, const std::string& names) {
+  outputs.publish();
+  if (!options.quiet) std::cout << "written  " << names << " in " << options.folder << "\n";
+}
+
+inline int say_interrupted() {
+  std::cerr << "interrupted: nothing written\n";
+  return interrupted;
+}
+
+/// Every analysis of the paper; `pages` empty: no documentation. In a build without them (CMake
+/// option VOUSSOIR_BUILD_PAPER) both say how to get them.
+[[nodiscard]] int paper_verb(const Options& options, int samples, const std::string& pages);
+/// Closed forms and solvers against values from elsewhere.
+[[nodiscard]] int verify_verb(const Options& options);
+
+}  // namespace voussoir::program
