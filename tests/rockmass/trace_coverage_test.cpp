@@ -15,14 +15,14 @@ using namespace voussoir;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
+bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
 Joint trace(double x1, double y1, double x2, double y2) { return {{{x1, y1}, {x2, y2}}, -1}; }
 
 /// Traces of a map of 60 x 40 m about a middle, in a unit, seen from the domain's site origin.
-std::vector<Joint> mapped(const Vec2& middle, double unit, const Domain<2>& domain) {
+std::vector<Joint> map_of(const Vec2& middle, double unit, const Domain<2>& domain) {
   std::vector<Joint> joints;
   for (int k = 0; k < 50; ++k) {
     const Vec2 start = middle + Vec2(-30 + 1.1 * k, -20 + 0.7 * k), end = start + Vec2(3, 2);
@@ -53,19 +53,19 @@ TEST_SUITE("rockmass/trace_coverage") {
     const auto text = [](const std::vector<Joint>& joints, const Domain<2>& domain) {
       return coverage_text(trace_coverage(joints, domain), domain, "model.origin");
     };
-    const std::string good = text(mapped({512300, 148}, 1, there), there);
-    CHECK(contains(good, "50 of 50 traces reach into the domain"));
-    const std::string unit = text(mapped({512300, 148}, 1000, there), there);
-    CHECK(contains(unit, "0 of 50 traces reach"));
-    CHECK(contains(unit, "probable cause: coordinates in millimetres"));
+    const std::string good = text(map_of({512300, 148}, 1, there), there);
+    CHECK(says(good, "50 of 50 traces reach into the domain"));
+    const std::string unit = text(map_of({512300, 148}, 1000, there), there);
+    CHECK(says(unit, "0 of 50 traces reach"));
+    CHECK(says(unit, "probable cause: coordinates in millimetres"));
     // About the origin itself some traces in millimetres may cross the domain; the size tells.
-    CHECK(contains(text(mapped({0, 0}, 1000, ground), ground), "coordinates in millimetres"));
-    CHECK(contains(text(mapped({512300, 148}, 1 / 0.3048, there), there), "coordinates in feet"));
-    const std::string origin = text(mapped({512300, 148}, 1, ground), ground);
-    CHECK(contains(origin, "0 of 50 traces reach"));
-    CHECK(contains(origin, "the domain within (-35, -35) and (35, 25) m"));
+    CHECK(says(text(map_of({0, 0}, 1000, ground), ground), "coordinates in millimetres"));
+    CHECK(says(text(map_of({512300, 148}, 1 / 0.3048, there), there), "coordinates in feet"));
+    const std::string origin = text(map_of({512300, 148}, 1, ground), ground);
+    CHECK(says(origin, "0 of 50 traces reach"));
+    CHECK(says(origin, "the domain within (-35, -35) and (35, 25) m"));
     CHECK(
-        contains(origin,
+        says(origin,
                  "probable cause: model.origin, the place of the model on the site grid, which is "
                  "(0, 0) m: the middle of the traces is (512298, 146.15) m"));
   }
