@@ -10,6 +10,8 @@
 #include "analysis.hpp"
 #include "harness.hpp"
 
+namespace rock_test {
+
 namespace {
 
 using namespace voussoir_test;
@@ -139,3 +141,5 @@ TEST_SUITE("program/rock") {
     CHECK(left == 0);
   }
 }
+
+}  // namespace rock_test
