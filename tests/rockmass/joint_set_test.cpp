@@ -73,18 +73,18 @@ TEST_SUITE("rockmass/joint_set") {
       CHECK(refusal(set) == "joint set bedding: " + rule);
     };
     const double nan = std::nan("");
-    const std::string dips = " deg): must be 0 to 1.571 rad (0 to 90 deg)";
-    refused([](JointSet& s) { s.dip = -0.01; }, "dip = -0.01 rad (-0.573" + dips);
-    refused([](JointSet& s) { s.dip = 1.6; },
-            "dip = 1.6 rad (91.67" + dips + "; did you mean 1.6 * pi / 180?");
+    const std::string dips = " deg): must be 0 to 1.5708 rad (0 to 90 deg)";
+    refused([](JointSet& s) { s.dip = -0.01; }, "dip = -0.01 rad (-0.572958" + dips);
+    refused([](JointSet& s) { s.dip = 1.6; }, "dip = 1.6 rad (91.6732" + dips);
     refused([](JointSet& s) { s.dip = 75; },
-            "dip = 75 rad (4297" + dips + "; did you mean 75 * pi / 180?");
+            "dip = 75 rad (4297.18" + dips + "; did you mean 75 deg = 1.309 rad?");
     refused([=](JointSet& s) { s.dip = nan; }, "dip = nan rad (nan" + dips);
-    const std::string deviations = " deg): must be 0 to 0.7854 rad (0 to 45 deg)";
-    refused([](JointSet& s) { s.dip_deviation = 2; },
-            "dip_deviation = 2 rad (114.6" + deviations + "; did you mean 2 * pi / 180?");
+    const std::string deviations = " deg): must be 0 to 0.785398 rad (0 to 45 deg)";
+    refused(
+        [](JointSet& s) { s.dip_deviation = 2; },
+        "dip_deviation = 2 rad (114.592" + deviations + "; did you mean 2 deg = 0.0349066 rad?");
     refused([](JointSet& s) { s.dip_deviation = -1; },
-            "dip_deviation = -1 rad (-57.3" + deviations);
+            "dip_deviation = -1 rad (-57.2958" + deviations);
     for (const double sd : {-1e-9, inf, nan}) {
       JointSet set = good;
       set.dip_deviation = sd;
@@ -94,13 +94,12 @@ TEST_SUITE("rockmass/joint_set") {
       return std::string("intensity = ") + intensity + " /m^2 and spacing = " + spacing + " m: ";
     };
     const std::string one = "one of the two must be > 0, the other 0";
-    refused([](JointSet& s) { s.spacing = 1; }, densities("1.000000", "1.000000") + one);
-    refused([](JointSet& s) { s.intensity = 0; }, densities("0.000000", "0.000000") + one);
-    refused([=](JointSet& s) { s.intensity = nan; }, densities("nan", "0.000000") + one);
-    refused([](JointSet& s) { s.intensity = inf; },
-            densities("inf", "0.000000") + "must be finite");
-    refused([](JointSet& s) { s.extent = 0; }, "extent = 0.000000 m: must be > 0");
-    refused([](JointSet& s) { s.extent = -1; }, "extent = -1.000000 m: must be > 0");
+    refused([](JointSet& s) { s.spacing = 1; }, densities("1", "1") + one);
+    refused([](JointSet& s) { s.intensity = 0; }, densities("0", "0") + one);
+    refused([=](JointSet& s) { s.intensity = nan; }, densities("nan", "0") + one);
+    refused([](JointSet& s) { s.intensity = inf; }, densities("inf", "0") + "must be finite");
+    refused([](JointSet& s) { s.extent = 0; }, "extent = 0 m: must be > 0");
+    refused([](JointSet& s) { s.extent = -1; }, "extent = -1 m: must be > 0");
     refused([=](JointSet& s) { s.extent = nan; }, "extent = nan m: must be > 0");
     JointSet vertical = good;
     vertical.dip = 90 * degree;

@@ -89,24 +89,22 @@ TEST_SUITE("rockmass/spatial_joint_set") {
     };
     using Set = SpatialJointSet;
     const double nan = std::nan("");
-    const std::string dips = " deg): must be 0 to 1.571 rad (0 to 90 deg)";
-    const std::string azimuths = " deg): must be 0 to 6.283 rad (0 to 360 deg)";
-    refused([](Set& s) { s.dip = 100 * degree; },
-            "dip = 1.745 rad (100" + dips + "; did you mean 1.745 * pi / 180?");
+    const std::string dips = " deg): must be 0 to 1.5708 rad (0 to 90 deg)";
+    const std::string azimuths = " deg): must be 0 to 6.28319 rad (0 to 360 deg)";
+    refused([](Set& s) { s.dip = 100 * degree; }, "dip = 1.74533 rad (100" + dips);
     refused([](Set& s) { s.dip = 75; },
-            "dip = 75 rad (4297" + dips + "; did you mean 75 * pi / 180?");
-    refused([](Set& s) { s.dip = -1 * degree; }, "dip = -0.01745 rad (-1" + dips);
+            "dip = 75 rad (4297.18" + dips + "; did you mean 75 deg = 1.309 rad?");
+    refused([](Set& s) { s.dip = -1 * degree; }, "dip = -0.0174533 rad (-1" + dips);
     refused([=](Set& s) { s.dip = nan; }, "dip = nan rad (nan" + dips);
     refused([](Set& s) { s.dip_direction = 120; },
-            "dip_direction = 120 rad (6875" + azimuths + "; did you mean 120 * pi / 180?");
+            "dip_direction = 120 rad (6875.49" + azimuths + "; did you mean 120 deg = 2.0944 rad?");
     refused([](Set& s) { s.dip_direction = -90 * degree; },
-            "dip_direction = -1.571 rad (-90" + azimuths);
-    refused(
-        [](Set& s) { s.dip_deviation = 5; },
-        "dip_deviation = 5 rad (286.5 deg): must be 0 to 0.7854 rad (0 to 45 deg); did you mean "
-        "5 * pi / 180?");
+            "dip_direction = -1.5708 rad (-90" + azimuths);
+    refused([](Set& s) { s.dip_deviation = 5; },
+            "dip_deviation = 5 rad (286.479 deg): must be 0 to 0.785398 rad (0 to 45 deg); did you "
+            "mean 5 deg = 0.0872665 rad?");
     refused([](Set& s) { s.dip_direction_deviation = inf; },
-            "dip_direction_deviation = inf rad (inf deg): must be 0 to 3.142 rad (0 to 180 deg)");
+            "dip_direction_deviation = inf rad (inf deg): must be 0 to 3.14159 rad (0 to 180 deg)");
     refused([=](Set& s) { s.fisher_concentration = nan; },
             "fisher_concentration = nan must be >= 0 and finite");
     refused(

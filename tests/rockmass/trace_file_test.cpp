@@ -136,7 +136,7 @@ TEST_SUITE("rockmass/trace_file") {
 
   TEST_CASE("reading ends when told to, within the file and within a line") {
     std::string text;
-    for (int k = 0; k < 200000; ++k) text += "0,0,1,1\n";
+    for (int k = 0; k < 900000; ++k) text += "0,0,1,1\n";
     int asked = 0;
     const Progress stop = [&](double) { return ++asked < 2; };
     std::istringstream in(text);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <voussoir/core/message_number.hpp>
@@ -69,23 +68,15 @@ inline void require_angle(bool holds, const char* name, double value, const char
   throw InvalidInput(text);
 }
 
-/// Refuses an angle in radians outside low..high; the message has its value in degrees as well, and
-/// says so if it would be inside as a number of degrees, the commonest slip.
+/// The same for an angle that may be low to high [rad].
 /// @param name  with what it belongs to: "joint set J1: dip"
 inline void require_angle(const std::string& name, double angle, double low, double high) {
   if (angle >= low && angle <= high) return;
-  constexpr double degree = 3.141592653589793 / 180;
-  const auto text = [](double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", value);
-    return std::string(digits);
-  };
-  std::string message = name + " = " + text(angle) + " rad (" + text(angle / degree) +
-                        " deg): must be " + text(low) + " to " + text(high) + " rad (" +
-                        text(low / degree) + " to " + text(high / degree) + " deg)";
-  if (const double meant = angle * degree; meant >= low && meant <= high)
-    message += "; did you mean " + text(angle) + " * pi / 180?";
-  throw InvalidInput(message);
+  constexpr double degree = 3.14159265358979323846 / 180;
+  const std::string range = message_number(low) + " to " + message_number(high) + " rad (" +
+                            message_number(low / degree) + " to " + message_number(high / degree) +
+                            " deg)";
+  require_angle(false, name.c_str(), angle, range.c_str());
 }
 
 /// Runs `make`; if it refuses its data, the refusal says of what: "block 17: convex polygon: ...".

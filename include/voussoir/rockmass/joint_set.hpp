@@ -39,11 +39,11 @@ struct JointSet {
     };
     require_angle(of + "dip", dip, 0, 0.5 * std::numbers::pi);
     require_angle(of + "dip_deviation", dip_deviation, 0, 0.25 * std::numbers::pi);
-    const std::string both = "intensity = " + std::to_string(intensity) +
-                             " /m^2 and spacing = " + std::to_string(spacing) + " m: ";
+    const std::string both = "intensity = " + message_number(intensity) +
+                             " /m^2 and spacing = " + message_number(spacing) + " m: ";
     rule((intensity > 0) != (spacing > 0), both + "one of the two must be > 0, the other 0");
     rule(std::isfinite(intensity) && std::isfinite(spacing), both + "must be finite");
-    rule(extent > 0, "extent = " + std::to_string(extent) + " m: must be > 0");
+    rule(extent > 0, "extent = " + message_number(extent) + " m: must be > 0");
   }
 };
 
