@@ -95,6 +95,32 @@ TEST_SUITE("io/blocks_picture") {
     CHECK_FALSE(contains(lined, "Greatest force in each bolt"));
   }
 
+  TEST_CASE("diagrams have a scale bar, and forces of no account do not fill them") {
+    BlocksPicture picture = small_picture();
+    picture.lining = ring(812e3, 4e3);
+    const std::string loaded = draw_blocks_picture(picture);
+    CHECK(contains(loaded, ">500 kN/m<"));
+    CHECK(contains(loaded, ">2 kN m/m<"));
+    // The reference thrust is of no consequence for what is of the same order.
+    picture.lining->reference_thrust = 10e6;
+    CHECK(draw_blocks_picture(picture) == loaded);
+
+    // 0.6 kN/m where 10 MN/m are the scale: the diagram is that of 10 MN/m / 200 = 50 kN/m, the
+    // moment's that of 50 kN/m at 0.1 m / 6, and the numbers say what there is.
+    picture.lining = ring(600, 3);
+    picture.lining->reference_thrust = 10e6;
+    const std::string idle = draw_blocks_picture(picture);
+    CHECK(xml_fault(idle) == "");
+    CHECK(contains(idle, ">50 kN/m<"));
+    CHECK(contains(idle, ">0.5 kN m/m<"));
+    CHECK(contains(idle, "max 0.600 at"));
+
+    // The bar across a bolt: 1 N is not drawn as 50 kN is.
+    picture.lining.reset();
+    for (PictureCrossing& c : picture.bolts[0].crossings) c.force = 1;
+    CHECK(contains(draw_blocks_picture(picture), "force in bolt, 1 kN"));
+  }
+
   TEST_CASE("a run gone bad is drawn as far as it goes, and the rest is counted") {
     BlocksPicture picture = small_picture();
     picture.blocks[3].corners[0].x() = not_a_number;

@@ -94,8 +94,33 @@ TEST_SUITE("io/space_pictures") {
     CHECK(count(half, "stroke=\"#b2182b\"") == 2);  // one bolt behind the section, one in the key
     scene.section_x = 4;
     CHECK(count(draw_tunnel_view(mass, scene), "stroke=\"#b2182b\"") == 3);
+    // One that crosses the section is drawn up to it, one that lies in it whole.
+    scene.section_x = 0;
+    scene.bolts = {{{-2, 0, 0}, {2, 0, 0}, 5e4}, {{0, 0, 2}, {1e-16, 0, 3}, 5e4}};
+    const std::string cut = draw_tunnel_view(mass, scene);
+    CHECK(count(cut, "stroke=\"#b2182b\"") == 3);
+    scene.bolts[0].to = {0, 0, 0};
+    CHECK(draw_tunnel_view(mass, scene) == cut);
     scene.section_x = -5;
     CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
+  }
+
+  TEST_CASE("of a body with parts on both sides of the section only those behind it are drawn") {
+    // A block of which an excavation left two pieces: the larger one lies behind the section.
+    RockMass<Spatial> mass;
+    mass.domain = {{-4, -4, -4}, {4, 4, 4}};
+    for (int side = 0; side < 6; ++side) mass.cuts.push_back({Cut::Kind::boundary, side});
+    const auto behind = brick({-2.5, 0, 0}, {3, 1, 1}), before = brick({2, 0, 0}, {1, 1, 1});
+    mass.bodies.push_back({{behind, before}, mass_properties(std::vector{behind, before})});
+    TunnelView scene;
+    scene.displacement = {1e-3};
+    const std::string both = draw_tunnel_view(mass, scene);
+    mass.bodies[0].parts.pop_back();
+    CHECK(both == draw_tunnel_view(mass, scene));
+    // The smaller one behind it is drawn though the centroid lies before.
+    mass.bodies[0].parts = {brick({2.5, 0, 0}, {3, 1, 1}), brick({-2, 0, 0}, {1, 1, 1})};
+    mass.bodies[0].properties = mass_properties(mass.bodies[0].parts);
+    CHECK_NOTHROW((void)draw_tunnel_view(mass, scene));
   }
 }
 

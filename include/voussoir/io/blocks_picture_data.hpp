@@ -52,6 +52,10 @@ struct PictureLining {
   std::vector<PictureLiningNode> nodes;  ///< in order along the beam
   bool is_ring = true;                   ///< the last node is joined to the first
   double thickness = 0;                  ///< [m]
+  /// In-situ stress times radius [N/m]: thrust of less than 1/200 of it, and moments of such a
+  /// thrust at the edge of the core of the section, are drawn as small as they are; 0: the largest
+  /// value fills the diagram, whatever it is.
+  double reference_thrust = 0;
 };
 
 /// All that `draw_blocks_picture` shows.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,32 @@ struct TunnelView {
   double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
   double elevation = 0.12 * std::numbers::pi;
 };
+
+namespace detail {
+
+/// Of a part that the section does not cut: true if it lies at higher x. A body may have parts on
+/// either side of an opening, so its centroid does not tell.
+[[nodiscard]] inline bool lies_before(const ConvexPolyhedron& part, double section_x) {
+  double lowest = section_x, highest = section_x;
+  for (const Vec3& p : part.vertices()) {
+    lowest = std::min(lowest, p.x());
+    highest = std::max(highest, p.x());
+  }
+  return highest - section_x > section_x - lowest;
+}
+
+/// The part of a line at or below the section, if there is any.
+[[nodiscard]] inline std::optional<SupportLine> behind_section(SupportLine line, double section_x,
+                                                               double tolerance) {
+  if (line.from.x() > line.to.x()) std::swap(line.from, line.to);
+  if (line.from.x() > section_x + tolerance) return std::nullopt;
+  if (line.to.x() > section_x + tolerance)
+    line.to = line.from +
+              (section_x - line.from.x()) / (line.to.x() - line.from.x()) * (line.to - line.from);
+  return line;
+}
+
+}  // namespace detail
 
 /// The rock on the far side of the section with its blocks, the wall of the tunnel, bolts and
 /// lining; colours show displacement.
@@ -76,7 +103,7 @@ struct TunnelView {
       ConvexPolyhedron part = whole;
       if (auto halves = whole.split(section, -1, tolerance))
         part = std::move(halves->first);
-      else if (mass.bodies[b].properties.centroid.x() > scene.section_x)
+      else if (lies_before(whole, scene.section_x))
         continue;
       for (std::size_t k = 0; k < part.size(); ++k) {
         const Vec3& normal = part.half_space(k).normal;
@@ -121,9 +148,10 @@ struct TunnelView {
     for (const SupportLine& line : lines) strongest = std::max(strongest, std::abs(line.force));
     canvas.begin_layer(layer);
     for (const SupportLine& line : lines) {
-      if (line.from.x() > scene.section_x || line.to.x() > scene.section_x) continue;
+      const auto seen_line = behind_section(line, scene.section_x, tolerance);
+      if (!seen_line) continue;
       const double part = strongest > 0 ? std::abs(line.force) / strongest : 0;
-      canvas.line(map(view(line.from)), map(view(line.to)),
+      canvas.line(map(view(seen_line->from)), map(view(seen_line->to)),
                   {.stroke = stroke, .stroke_width = thinnest + part * (widest - thinnest)});
     }
     canvas.end_layer();

@@ -26,6 +26,9 @@ inline double max_force(const PictureBolt& bolt) {
   return force;
 }
 
+/// A smaller force is drawn as short as it is, not as if it were the largest there can be [N].
+inline constexpr double negligible_bolt_force = 1e3;
+
 /// Length of a force bar on the page, such that bars do not reach the next bolt.
 class ForceScale {
  public:
@@ -45,6 +48,7 @@ class ForceScale {
       gaps.push_back(nearest * map.scale());
     }
     if (gaps.empty() || largest == 0) return;
+    largest = std::max(largest, negligible_bolt_force);
     std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2),
                      gaps.end());
     px_per_newton_ = std::clamp(0.85 * gaps[gaps.size() / 2], 14.0, 50.0) / largest;

@@ -57,11 +57,16 @@ inline void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
   if (picture.lining && picture.lining->nodes.size() >= 2) {
     LiningDiagram thrust, moment;
     thrust.title = "Lining thrust N [kN/m]";
+    thrust.unit = "kN/m";
     thrust.positive = "compression (+), drawn outside";
     thrust.negative = "tension (\u2212), drawn inside";
     moment.title = "Lining moment M [kN m/m]";
+    moment.unit = "kN m/m";
     moment.positive = "outer fibre in tension (+), drawn outside";
     moment.negative = "inner fibre in tension (\u2212), drawn inside";
+    // A thrust of no account, and the moment that it has at the edge of the core, t / 6.
+    thrust.negligible = 0.005 * picture.lining->reference_thrust / 1e3;
+    moment.negligible = thrust.negligible * picture.lining->thickness / 6;
     for (const PictureLiningNode& node : picture.lining->nodes) {
       thrust.values.push_back(node.thrust / 1e3);
       moment.values.push_back(node.moment / 1e3);

@@ -29,7 +29,9 @@ inline double direction_degrees(const Vec2& from, const Vec2& to) {
 struct LiningDiagram {
   std::string title;               ///< with unit
   std::string positive, negative;  ///< what the two sides mean
+  std::string unit;                ///< for the scale bar
   std::vector<double> values;      ///< one a node, in that unit
+  double negligible = 0;           ///< this value at least fills the diagram
   Vec2 centre = Vec2::Zero();      ///< of the opening, from which directions are counted [m]
 };
 
@@ -52,13 +54,14 @@ inline void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
   }
   const auto min_at = std::min_element(values.begin(), values.end());
   const auto max_at = std::max_element(values.begin(), values.end());
-  const double largest = std::max({std::abs(*min_at), std::abs(*max_at), 1e-300});
+  const double largest =
+      std::max({std::abs(*min_at), std::abs(*max_at), diagram.negligible, 1e-300});
   const bool has_positive = *max_at > 0, has_negative = *min_at < 0;
 
   // Bars take a third of the half width of the opening; the map leaves room for them outside.
   const ViewRect around = *bounding_rect(axis);
   const double bar = 0.36 * std::max(around.width(), around.height()) / 2;
-  const double explained = has_positive && has_negative ? 37 : 19;
+  const double explained = 18 + (has_positive && has_negative ? 37 : 19);
   const ViewRect drawing{{frame.low.x(), frame.low.y() + 22},
                          {frame.high.x(), frame.high.y() - 24 - explained}};
   const PageMap map =
@@ -113,7 +116,18 @@ inline void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
   canvas.text({frame.low.x() + 15, y}, extreme_text("max", max_i));
   canvas.circle({frame.centre().x() + 6, y - 4.5}, 3.8, min_style);
   canvas.text({frame.centre().x() + 15, y}, extreme_text("min", min_i));
+  // How long a round value is drawn.
   double line_y = y + 18;
+  const double sample = round_down_125(largest);
+  const double length = bar * sample / largest * map.scale();
+  const Vec2 left(frame.low.x() + 1, line_y - 5);
+  SvgPath scale;
+  scale.add_line(left, left + Vec2(length, 0));
+  scale.add_line(left + Vec2(0, -4), left + Vec2(0, 4));
+  scale.add_line(left + Vec2(length, -4), left + Vec2(length, 4));
+  canvas.path(scale, {.stroke = "#111", .stroke_width = 1.6});
+  canvas.text({left.x() + length + 8, line_y}, trimmed_text(sample, 6) + " " + diagram.unit);
+  line_y += 18;
   for (const int side : {0, 1}) {
     if (side == 0 ? !has_positive : !has_negative) continue;
     canvas.rectangle({{frame.low.x() + 1, line_y - 10}, {frame.low.x() + 11, line_y}},
@@ -143,7 +157,8 @@ inline void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
       gap = std::min(gap, bars[i].first - bars[i - 1].first);
     }
   }
-  const RoundTicks force_ticks = round_ticks(0, largest > 0 ? largest : 1, 8);
+  largest = std::max(largest, 1e-3 * negligible_bolt_force);
+  const RoundTicks force_ticks = round_ticks(0, largest, 8);
   const double top =
       force_ticks.step * std::ceil(std::max(largest, 1e-9) / force_ticks.step - 1e-9);
   const PageMap map({{bars.front().first - gap, 0}, {bars.back().first + gap, top}},
