@@ -76,11 +76,12 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
       "and the data behind every plot by the first:\n\n"
       "```sh\n"
       "sudo apt-get install -y gnuplot-nox\n"
-      "build/program/voussoir paper --samples " +
+      "cmake --workflow --preset release\n"
+      "build/release/voussoir paper --samples " +
       samples +
       " --out paper     # paper.html, scoreboard.csv, plots\n"
       "build/release/examples/paper_bolt_spacing                # one analysis by its name\n"
-      "build/program/voussoir paper --samples " +
+      "build/release/voussoir paper --samples " +
       samples + " --out paper --pages docs/paper\n```\n\n## What is assumed\n\n";
   for (const std::string& line : assumptions()) page += "- " + line + "\n";
   page += "\n## Scoreboard\n\n";
