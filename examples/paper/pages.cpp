@@ -69,7 +69,7 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
       "of 104 of its statements: " +
       std::to_string(board.back().agrees) + " agree, " + std::to_string(board.back().differs) +
       " differ, " + std::to_string(board.back().not_testable) +
-      " cannot be tested. Samples of the rock: " + samples + ". " +
+      " cannot be tested. Realisations of the rock: " + samples + ". " +
       std::to_string(study.tunnels_solved()) + " supported tunnels and " +
       std::to_string(24 * study.samples()) + " collapses in " + fixed_text(seconds, 0) +
       " s. This page and those it leads to are written by the last of these commands, the report "

@@ -272,7 +272,7 @@ int paper_verb(const Options& options, int samples, const std::string& pages) {
   if (pages_outputs) pages_outputs->publish();
   if (!options.quiet)
     std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
-              << (samples == 1 ? " sample" : " samples") << " of the rock, "
+              << (samples == 1 ? " realisation" : " realisations") << " of the rock, "
               << study.tunnels_solved() << " supported tunnels, " << static_cast<int>(seconds)
               << " s\n";
   publish(outputs, options, "paper.html, scoreboard.csv, plots (.svg, .csv, .gp)");
@@ -372,7 +372,7 @@ int run_program(int argc, char** argv) {
   int samples = 5;
   std::string pages;
   add_out(paper);
-  paper->add_option("--samples", samples, "random samples of the rock mass")
+  paper->add_option("--samples", samples, "random realisations of the rock mass")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   paper->add_option("--pages", pages,
