@@ -138,7 +138,7 @@ int main(int argc, char** argv) {
       const auto rock = paper::sliced_rock(paper::mass_a, seed);
       std::printf("seed %d, %zu blocks, p0 = %.3f MPa\n", static_cast<int>(seed),
                   rock.bodies.size(), 1e-6 * paper::ground_pressure);
-      std::printf("| %-56s | %-16s | crown | unbal.  | wall  |\n", "way to equilibrium",
+      std::printf("| %-56s | %-16s | crown | ratio   | wall  |\n", "solution procedure",
                   "F / (p0 D)");
       std::printf("|%s|%s|-------|---------|-------|\n", std::string(58, '-').c_str(),
                   std::string(18, '-').c_str());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A supported tunnel in space, from the rock as it was sliced to its equilibrium: 4 m bolts, 0.15 m
+// A supported tunnel in 3-D, from the rock as it was sliced to its equilibrium: 4 m bolts, 0.15 m
 // of shotcrete with ribs, blocks of about a metre. The floor beside it is the factor of its elastic
 // stiffness alone: no search with an error estimate can do with less.
 #include <benchmark/benchmark.h>

@@ -226,7 +226,7 @@ int main(int argc, char** argv) {
                " --only " + in_quotes(only),
            round, table);
   std::printf(
-      "Nanoseconds per candidate pair, one thread: least of the medians of %d rounds (greatest in brackets). `ratio`: to the manifold of Box2D in the plane, of ODE in space, within one round. `wrong`: decisions on both workloads.\n",
+      "Nanoseconds per candidate pair, one thread: least of the medians of %d rounds (greatest in brackets). `ratio`: to the manifold of Box2D in 2-D, of ODE in 3-D, within one round. `wrong`: decisions on both workloads.\n",
       rounds);
   print_summary(table, "W2");
   print_summary(table, "W3");

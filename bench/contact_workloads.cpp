@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes the workloads of the contact benchmarks, sliced by the toolkit, with the exact answers:
 //   contact_workloads FOLDER [SEED [AREAS VOLUMES]]
-// W2, W2deep: a section of 70 m x 60 m; W3, W3deep: a cube of 20 m; three sets of joints without
-// end. TIMES: so many times the area and the volume, for counts of wrong decisions on more pairs.
+// W2, W2deep: a section of 70 m x 60 m; W3, W3deep: a cube of 20 m; three fully persistent
+// joint sets. TIMES: so many times the area and the volume, for counts of wrong decisions on more
+// pairs.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

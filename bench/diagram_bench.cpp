@@ -17,7 +17,7 @@ using voussoir::DiagramPoint;
 constexpr std::array<double, 6> spacings{9, 11.25, 15, 18, 22.5, 0};        // [deg]; 0: no bolts
 constexpr std::array<double, 6> thicknesses{0, 0.05, 0.1, 0.15, 0.2, 0.3};  // [m]; 0: no lining
 
-/// Range: threads. The rock is generated beforehand, as for all diagrams of one sample.
+/// Range: threads. The rock is generated beforehand, as for all diagrams of one realisation.
 void diagram(benchmark::State& state) {
   const Tunnel before = excavated();
   std::vector<DiagramPoint> points;
@@ -43,7 +43,7 @@ void diagram(benchmark::State& state) {
       worst_estimate = std::max(worst_estimate, point.report.error_estimate);
   }
   state.counters["bodies"] = static_cast<double>(before.mass().bodies.size());
-  state.counters["failed"] = static_cast<double>(failed);  // rock fell: not a design
+  state.counters["failed"] = static_cast<double>(failed);  // rock detached: not a design
   state.counters["undecided"] = static_cast<double>(undecided);
   state.counters["worst_estimate"] = worst_estimate;
   state.counters["steps"] = steps;

@@ -65,7 +65,7 @@ BENCHMARK_CAPTURE(two_level, bolts_4m_18deg, 18, 0, 1)->Unit(benchmark::kMillise
 BENCHMARK_CAPTURE(two_level, bolts_4m_15deg_4_times_wider, 15, 0, 4)->Unit(benchmark::kMillisecond);
 
 /// The same case and the same acceptance by local damping, 0.7, the wall traction taken away over
-/// 2000 steps. The design case stands, so the areas of fallen blocks are not needed.
+/// 2000 steps. The design case stands, so the areas of detached blocks are not needed.
 void explicit_stepping(benchmark::State& state, double bolt_spacing, double thickness) {
   const Tunnel before = design_case(bolt_spacing, thickness);
   Tunnel tunnel = before;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rock slicing of reference masses A and B, and how its cost grows with the area; the same in space
+// Rock slicing of reference masses A and B, and how its cost grows with the area; the same in 3-D
 // with the volume, and what the contacts from shared cuts cost.
 #include <benchmark/benchmark.h>
 
@@ -43,7 +43,7 @@ BENCHMARK_CAPTURE(slicing, mass_b, voussoir::paper::mass_b)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 
-// ---- in space ----------------------------------------------------------------------------------
+// ---- in 3-D ----------------------------------------------------------------------------------
 
 /// Sets 75/010, 25/130 and 60/250 with a standard deviation of 1 degree, 1 m apart.
 std::vector<voussoir::SpatialJointSet> three_sets(voussoir::JointShape shape) {

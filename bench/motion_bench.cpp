@@ -38,7 +38,7 @@ void report(benchmark::State& state, std::size_t contacts, int steps) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// The design case, excavated at once and falling; `found`: contacts are found again.
+/// The design case, excavated at once and falling; `found`: contacts are updated.
 void plane(benchmark::State& state, bool found, ContactPoints points) {
   auto mass = carve(generate(voussoir::paper::mass_a), circular_opening(10), 0.074);
   auto run = moving_rock(mass, joint, InSitu{.density = 2700},

@@ -46,7 +46,7 @@ class PattonJoint {
     state.plastic_slip = load.motion.slip + (now - load.initial.tangential) / (ks * load.weight);
     return -now.dot(state.plastic_slip - from);
   }
-  // What the springs would give back, for the energy account of dynamic runs.
+  // What the springs would give back, for the energy balance of dynamic runs.
   template <int Dim>
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const PointForce<Dim> f = force(load, state);

@@ -16,7 +16,7 @@ using namespace voussoir;
 int main(int argc, char** argv) {
   constexpr double deg = std::numbers::pi / 180;
 
-  // The rock: bedding without end, a steep set of 6 m discs, a third of 8 m x 4 m rectangles.
+  // The rock: fully persistent bedding, a steep set of 6 m discs, a third of 8 m x 4 m rectangles.
   SpatialJointSet bedding{"bedding", 25 * deg, 130 * deg};
   bedding.fisher_concentration = 800;  // about 2 degrees
   bedding.spacing = 1.2;

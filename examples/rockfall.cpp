@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A tunnel that is let go twice, every block moving: bare, and with a ring of shotcrete that is
-// sprayed while a part of the load is still held back. How much rock comes down, and what does the
+// sprayed while a residual wall traction still acts. How much rock comes down, and what does the
 // ring carry?
 //
 //   rockfall [NAME]     writes NAME.svg, the end of both runs
@@ -43,7 +43,7 @@ double fallen(const Run& run, const RockMass<Planar>& rock) {
   return area;
 }
 
-/// The middle of the run as it is now: rock grey, fallen rock red, lining blue.
+/// The middle of the run as it is now: rock grey, detached rock red, lining blue.
 void draw(SvgCanvas& canvas, const Run& run, const ViewRect& frame, const std::string& id,
           const std::string& caption) {
   const ViewRect world{{-5, -3.5}, {5, 6.5}};

@@ -51,10 +51,11 @@ using Quantity = std::function<double(const Outcome&)>;
 /// tunnel [-].
 inline constexpr double force_unit = ground_pressure * diameter;
 
-/// A series over variants along an axis: mean and deviation over the samples that stand.
+/// A series over variants along an axis: mean and deviation over the realisations that stand.
 struct Swept {
   Series series;
-  Series failed;  ///< where a sample has no value: at the mean of the others, NaN if there are none
+  Series failed;  ///< where a realisation has no value: at the mean of the others, NaN if there are
+                  ///< none
   std::vector<Measured> measured;
 };
 /// @param scale  of the values for the plot
@@ -68,7 +69,7 @@ struct Swept {
   study.prepare(variants);
   Swept result;
   result.series = {name, mark, {}, {}, {}};
-  result.failed = {"not all samples stand", Mark::failed, {}, {}, {}};
+  result.failed = {"not all realisations stand", Mark::failed, {}, {}, {}};
   for (std::size_t k = 0; k < axis.size(); ++k) {
     const Measured m = study.measure(variants[k], quantity);
     result.measured.push_back(m);
@@ -85,7 +86,7 @@ struct Swept {
   return result;
 }
 
-/// Draws a series into a plot; where a sample has no value a red cross joins the others of the
+/// Draws a series into a plot; where a realisation has no value a red cross joins the others of the
 /// plot.
 /// @param none  where crosses lie that have no value at all: on the axis
 inline void draw(Plot& plot, const Swept& swept, double none = 0) {
@@ -101,7 +102,8 @@ inline void draw(Plot& plot, const Swept& swept, double none = 0) {
   for (const double y : swept.failed.y) crosses->y.push_back(placed(y));
 }
 
-/// What a plot of curves without crosses must say: "Collapsed: bare 3 of 5 samples." Empty if none.
+/// What a plot of curves without crosses must say: "Collapsed: bare 3 of 5 realisations." Empty if
+/// none.
 [[nodiscard]] inline std::string collapsed_text(
     Study& study, const std::vector<std::pair<std::string, Variant>>& variants) {
   std::string text;
@@ -109,7 +111,8 @@ inline void draw(Plot& plot, const Swept& swept, double none = 0) {
     const Measured m = study.measure(variant, [](const Outcome&) { return 0.0; });
     if (m.collapsed == 0) continue;
     text += (text.empty() ? "Collapsed: " : "; ") + name + " " + std::to_string(m.collapsed) +
-            " of " + std::to_string(m.samples) + (m.samples == 1 ? " sample" : " samples");
+            " of " + std::to_string(m.samples) +
+            (m.samples == 1 ? " realisation" : " realisations");
   }
   return text.empty() ? text : text + ".";
 }
@@ -121,7 +124,7 @@ inline void say_collapsed(Plot& plot, Study& study,
   plot.caption += (plot.caption.empty() || text.empty() ? "" : " ") + text;
 }
 
-/// A comparison of two variants sample by sample, where both stand.
+/// A comparison of two variants realisation by realisation, where both stand.
 [[nodiscard]] inline Measured paired(
     Study& study, const Variant& first, const Variant& second,
     const std::function<double(const Outcome&, const Outcome&)>& compare) {

@@ -21,19 +21,19 @@ Section anchor_strategies(Study& study) {
                   "3.1, 5.2, Figs 4 and 10",
                   {"21 bolts of 7 m whose anchors sit 1.2 bolt diameters from each joint (Lorig), "
                    "midway in the blocks (Garga and Wang) or on the joint itself, in the same "
-                   "samples of the rock."}};
+                   "realisations of the rock."}};
   const Variant lorig{.bolts = with(AnchorPlace::near_joint)};
   const Variant midway{.bolts = with(AnchorPlace::mid_block)};
   const Variant on_joint{.bolts = with(AnchorPlace::on_joint)};
   study.prepare({lorig, midway, on_joint, lorig.as_the_paper(), midway.as_the_paper()});
 
   Plot forces{"anchors_forces",
-              "Largest force of each bolt, mean over samples",
+              "Largest force of each bolt, mean over realisations",
               "angle from the right-hand springing, degrees",
               "F / (p_0 D)",
               {}};
   Plot wall{"anchors_wall",
-            "Convergence of the wall, median over ± 12°, mean over samples",
+            "Convergence of the wall, median over ± 12°, mean over realisations",
             "angle from the right-hand springing, degrees",
             "convergence, mm",
             {}};
@@ -66,7 +66,7 @@ Section anchor_strategies(Study& study) {
                   {{"1.2 diameters", lorig}, {"midway", midway}, {"on the joint", on_joint}});
   section.plots = {forces, wall};
 
-  // The largest difference over bolts, and over places of the wall, in each sample.
+  // The largest difference over bolts, and over places of the wall, in each realisation.
   const auto bolts_apart = [](const Outcome& a, const Outcome& b) {
     return std::abs(b.mean_force() / a.mean_force() - 1);
   };

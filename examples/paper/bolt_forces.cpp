@@ -24,7 +24,7 @@ const std::vector<Pattern>& patterns() {
   return all;
 }
 
-/// Forces of all bolts of all samples in classes of r/a of 0.1, as in the paper.
+/// Forces of all bolts of all realisations in classes of r/a of 0.1, as in the paper.
 struct Binned {
   std::vector<double> r, force, spread;
 };
@@ -72,7 +72,7 @@ Section bolt_forces(Study& study) {
                   "Bolt forces along the radius against elastic theory",
                   "5.1, 5.2, Figs 8 and 11",
                   {"Forces at all joints that the bolts cross, averaged in classes of r/a of 0.1 "
-                   "over all bolts and samples, against ground and smeared bolts in elastic "
+                   "over all bolts and realisations, against ground and smeared bolts in elastic "
                    "equilibrium, for the three moduli of Table 3. Forces are divided by p0 D for "
                    "bolts one metre apart along the tunnel."}};
   std::vector<Variant> variants;
@@ -107,10 +107,11 @@ Section bolt_forces(Study& study) {
     plot.series.push_back(
         {"blocks, as the paper ran it", Mark::linked_points, sudden.r, sudden.force});
     plot.y_range = {{0, 0.05}};
-    plot.caption = "Mean over bolts and " + std::to_string(study.samples()) +
-                   " samples in each class. The elastic force is largest at the wall; that of the "
-                   "blocks rises first, for a joint near the wall has little rock before it to "
-                   "hold.";
+    plot.caption =
+        "Mean over bolts and " + std::to_string(study.samples()) +
+        " realisations in each class. The elastic force is largest at the wall; that of the "
+        "blocks rises first, for a joint near the wall has little rock before it to "
+        "hold.";
     say_collapsed(plot, study,
                   {{"quasi-static", variant}, {"as the paper ran it", variant.as_the_paper()}});
     misfit.push_back(misfit_of(quasi, p.bolts));

@@ -91,7 +91,7 @@ Section bolt_model(Study& study) {
       {"PF-033", agrees_if(never_more),
        "4 m bolts at 15° with a shear spring of " + printed_text(1e-9 * grout.shear) +
            " GN/m (28 mm bar, 42 mm hole, grout of 10 GPa): crown × " + less.text(1, "", 3),
-       never_more ? "" : "in some sample the crown moves more"});
+       never_more ? "" : "in some realisation the crown moves more"});
   const AnchorDistances d = LorigAnchors{1.2 * bolt_diameter}.distances({.before = 1, .after = 1});
   section.findings.push_back({"PF-034", agrees_if(std::abs(d.before + d.after - 0.0672) < 1e-12),
                               "d_init = " + printed_text(1e3 * (d.before + d.after), 4) + " mm"});

@@ -14,12 +14,13 @@ Variant bolted(double spacing, double length = 4) {
 }  // namespace
 
 Section bolt_spacing(Study& study) {
-  Section section{"bolt_spacing",
-                  "Length and spacing of bolts",
-                  "5.2, Figs 7, 9, 12 and 13",
-                  {"The four trials of the paper (7 m at 11.25°, then 4 m at 11.25°, 15° and "
-                   "22.5°), and the unsupported opening. Blocks that move by more than 20 mm fall: "
-                   "they are taken out and counted."}};
+  Section section{
+      "bolt_spacing",
+      "Length and spacing of bolts",
+      "5.2, Figs 7, 9, 12 and 13",
+      {"The four trials of the paper (7 m at 11.25°, then 4 m at 11.25°, 15° and "
+       "22.5°), and the unsupported opening. Blocks that move by more than 20 mm are detached: "
+       "they are taken out and counted."}};
   const std::vector<double> spacings{9, 11.25, 12.86, 15, 18, 22.5, 30};
   const auto at = [](double s) { return bolted(s); };
   const auto sudden_at = [](double s) { return bolted(s).as_the_paper(); };
@@ -63,7 +64,7 @@ Section bolt_spacing(Study& study) {
   for (const Swept* s : {&f, &f_top, &f_sudden}) draw(force_plot, *s);
   crown_plot.y_range = force_plot.y_range = {{0, NAN}};
 
-  // Rock that falls, sample by sample.
+  // Rock that falls, realisation by realisation.
   const auto fallen = [&](const Variant& v) {
     Measured m;
     for (const Outcome& o : study.of(v)) {
@@ -73,7 +74,7 @@ Section bolt_spacing(Study& study) {
     }
     return m;
   };
-  Series shed{"rock that falls, mean of all samples", Mark::linked_points, {}, {}, {}};
+  Series shed{"detached rock, mean of all realisations", Mark::linked_points, {}, {}, {}};
   for (const double s : spacings) {
     const Measured m = fallen(bolted(s));
     shed.x.push_back(s);
@@ -81,7 +82,7 @@ Section bolt_spacing(Study& study) {
     shed.spread.push_back(m.deviation());
   }
   Plot shed_plot{"bolt_spacing_fallen",
-                 "Rock that falls between 4 m bolts",
+                 "Detached rock between 4 m bolts",
                  "bolt spacing θ_b, degrees",
                  "m^2 of section",
                  {shed}};
@@ -90,7 +91,7 @@ Section bolt_spacing(Study& study) {
 
   Table table{"The trials",
               {"support", "crown, mm", "F / (p0 D), mean of largest", "largest, kN",
-               "rock fallen, m² by sample", "stable"},
+               "detached rock, m² by realisation", "stable"},
               {}};
   const auto row = [&](const std::string& name, const Variant& v) {
     std::string by_sample;
@@ -143,11 +144,12 @@ Section bolt_spacing(Study& study) {
       lost22.mean() > 0 && lost22.mean() > 2 * lost15.mean() && lost22.shedding > lost15.shedding;
   section.findings.push_back(
       {"PF-058", agrees_if(ravels),
-       "rock fallen: " + printed_text(lost11.mean(), 2) + ", " + printed_text(lost15.mean(), 2) +
+       "detached rock: " + printed_text(lost11.mean(), 2) + ", " + printed_text(lost15.mean(), 2) +
            ", " + printed_text(lost22.mean(), 2) + " m² at 11.25°, 15°, 22.5°, in " +
            std::to_string(lost11.shedding) + ", " + std::to_string(lost15.shedding) + ", " +
-           std::to_string(lost22.shedding) + " of " + std::to_string(study.samples()) + " samples",
-       ravels ? "" : "the samples shed about as much at both spacings"});
+           std::to_string(lost22.shedding) + " of " + std::to_string(study.samples()) +
+           " realisations",
+       ravels ? "" : "the realisations shed about as much at both spacings"});
   const std::vector<Measured> crowns{study.measure(bolted(11.25), crown),
                                      study.measure(bolted(15), crown),
                                      study.measure(bolted(22.5), crown)};
@@ -180,9 +182,9 @@ Section bolt_spacing(Study& study) {
   for (const double force : design.values) suitable = suitable && force < bolt_strength;
   section.findings.push_back({"PF-065", agrees_if(suitable),
                               "largest force " + design.text(1e-3, "kN") +
-                                  " of 500 kN; rock fallen " + printed_text(lost15.mean(), 2) +
+                                  " of 500 kN; detached rock " + printed_text(lost15.mean(), 2) +
                                   " m² on average",
-                              suitable ? "" : "not every sample stands below the strength"});
+                              suitable ? "" : "not every realisation stands below the strength"});
   const Measured longer = ratio(study, bolted(22.5), bolted(22.5, 7), crown);
   section.findings.push_back({"PF-066", agrees_if(std::abs(longer.mean() - 1) < 0.1),
                               "crown with 7 m over crown with 4 m: " + longer.text(1, "", 3)});

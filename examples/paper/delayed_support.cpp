@@ -14,11 +14,11 @@ Section delayed_support(Study& study) {
       "delayed_support",
       "Support that comes late",
       "8.1",
-      {"The wall is held by a part of the in-situ traction while the rock comes in: the "
+      {"A residual wall traction holds the wall while the rock comes in: the "
        "ground reaction curve. A support installed on the way starts free of force; "
        "what is left of the traction is then taken away. How far the face is belongs to "
        "the longitudinal profile, which is a fit to continuum analyses (Vlachopoulos "
-       "and Diederichs 2009): that of jointed rock needs runs in space.",
+       "and Diederichs 2009): that of jointed rock needs 3-D runs.",
        "Ground that yields: Mohr-Coulomb with G3, nu = 0.37, 35° of friction and 20 kPa "
        "of cohesion, for comparison only; a jointed mass has no such constants."}};
   const std::vector<double> held{1, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.05, 0};
@@ -75,8 +75,8 @@ Section delayed_support(Study& study) {
       [](const Outcome& o) { return o.mean_force(); }, 1 / force_unit);
   const Swept top = swept(study, "blocks, crown in all", at_support, late, crown, 1e3);
   Plot forces{"delayed_forces",
-              "Support installed under a held part of the traction",
-              "part of the in-situ traction held",
+              "Support installed at a residual wall traction",
+              "residual wall traction, part of the in-situ traction",
               "N / (p_0 D), F / (p_0 D)",
               {}};
   for (const Swept* s : {&thrust, &force}) draw(forces, *s);
@@ -94,7 +94,7 @@ Section delayed_support(Study& study) {
   forces.series.push_back(elastic_f);
   Plot crowns{"delayed_crown",
               "Crown, in all, with support installed on the way",
-              "part of the in-situ traction held",
+              "residual wall traction, part of the in-situ traction",
               "convergence, mm",
               {}};
   draw(crowns, top);
@@ -120,9 +120,9 @@ Section delayed_support(Study& study) {
   const double part = half.mean() / whole.mean();
   section.findings.push_back(
       {"PF-102", agrees_if(rises(thrust.measured) && std::abs(part - 0.4) < 0.1),
-       "thrust of a ring installed with 40 % of the traction held: " + printed_text(part, 3) +
+       "thrust of a ring installed at a residual wall traction of 40 %: " + printed_text(part, 3) +
            " of that wished in place (elastic: 0.4); " + means(thrust.measured, 1e-3, "kN/m") +
-           " for 0.1, 0.2, 0.4, 0.6, 0.8, 1 held",
+           " for 0.1, 0.2, 0.4, 0.6, 0.8, 1 of the in-situ traction",
        std::abs(part - 0.4) < 0.1 ? "" : "the ground is not elastic"});
   section.findings.push_back(
       {"PF-104", Agreement::not_testable, "no joint of any run creeps",

@@ -21,18 +21,18 @@ inline constexpr double bolt_diameter = 0.028;      ///< [m]
 inline constexpr double lining_modulus = 25e9;      ///< E_L [Pa]
 inline constexpr double interface_stiffness = 1e9;  ///< K_L [Pa/m]
 inline constexpr double interface_friction = 30 * degree;
-/// A block that has moved so far has fallen [m]. Where a lining may catch it, it is followed
-/// further, contacts found again every 20 mm: a soft ring holds rock that has come down on it.
+/// A block that has moved so far is detached [m]. Where a lining may catch it, it is followed
+/// further, with contact updates every 20 mm: a soft ring holds rock that has come down on it.
 inline constexpr double fall_limit = 0.02, lined_fall_limit = 0.1;
 
-/// A sample under its in-situ stress, before anything is excavated.
+/// A realisation under its in-situ stress, before anything is excavated.
 struct InSituState {
   /// Mean stress of the blocks within a radius of the tunnel centre, from the forces at their
   /// contacts [Pa].
   double vertical, horizontal;
   double gradient;   ///< of the vertical stress with depth, from 5 m above to 5 m below [Pa/m]
   double unbalance;  ///< of the worst block over its weight [-]
-  double drift;      ///< largest displacement on the way to equilibrium [m]
+  double drift;      ///< largest displacement during the equilibrium search [m]
 };
 /// @param surcharge  on the ground surface [Pa]
 [[nodiscard]] InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle,
@@ -62,7 +62,7 @@ struct Lining {
   auto operator<=>(const Lining&) const = default;
 };
 
-/// The way to equilibrium.
+/// The solution procedure.
 enum class Way {
   /// The search with an error estimate, two points a contact: what a design should use.
   quasi_static,
@@ -84,7 +84,7 @@ struct Variant {
   double held_at_support = 1;
   Way way = Way::quasi_static;
   Extent extent = {};
-  double tolerance = 1e-3;  ///< of the error estimate; of the unbalance ten times as much
+  double tolerance = 1e-3;  ///< of the error estimate; ten times that for the force ratio
   auto operator<=>(const Variant&) const = default;
 
   [[nodiscard]] Variant as_the_paper() const {
@@ -110,7 +110,7 @@ struct LiningOutcome {
   double moment;  ///< tension outside positive [N m/m]
 };
 
-/// What came of one tunnel in one sample of the rock.
+/// What came of one tunnel in one realisation of the rock.
 struct Outcome {
   std::uint64_t seed = 0;
   EquilibriumReport report;
@@ -137,9 +137,9 @@ struct Outcome {
   [[nodiscard]] double moment_near(double angle) const;
 };
 
-/// A sample of the rock in its in-situ stress, excavated, nothing moved: the start of every variant
-/// with the same stress, friction, extent and points per contact. Making it costs as much as
-/// solving.
+/// A realisation of the rock in its in-situ stress, excavated, nothing moved: the start of every
+/// variant with the same stress, friction, extent and points per contact. Making it costs as much
+/// as solving.
 class ExcavatedRock {
  public:
   ExcavatedRock(std::uint64_t seed, const Variant& variant);

@@ -48,7 +48,7 @@ struct Extent {
 [[nodiscard]] inline Domain<2> domain(const Extent& extent = {}) {
   return domain_around(circular_opening(diameter), extent.width, cover, extent.below);
 }
-/// One random sample, without the opening.
+/// One random realisation, without the opening.
 [[nodiscard]] inline RockMass<Planar> sliced_rock(const RockReading& reading, std::uint64_t seed,
                                                   const Domain<2>& ground = domain()) {
   return slice(

@@ -32,7 +32,7 @@ Section failure_patterns(Study& study) {
                   "How unsupported tunnels fail",
                   "2, Table 1, Fig. 2",
                   {"24 sets of joints under 50 m of rock, let go at once and followed for one "
-                   "second, contacts found again as blocks move: a free fall of 4.9 m. Rock that "
+                   "second, with contact updates: a free fall of 4.9 m. Rock that "
                    "has moved by 0.3 m is lost. Names follow from measurements by rules that were "
                    "fixed beforehand (docs/failure-patterns.md); \"agrees\" is the same name."}};
   const program::PatternOptions options;
@@ -59,7 +59,7 @@ Section failure_patterns(Study& study) {
 
   section.pictures.push_back(
       {"failure_patterns", program::patterns_sheet(results),
-       "The first sample of every case at the end, with the paper's name and "
+       "The first realisation of every case at the end, with the paper's name and "
        "ours."});
   const auto of_case = [&](int number) {
     std::vector<const PatternResult*> found;
@@ -67,7 +67,7 @@ Section failure_patterns(Study& study) {
       if (r.number == number) found.push_back(&r);
     return found;
   };
-  Table table{"Roof and walls, by sample (m² lost)",
+  Table table{"Roof and walls, by realisation (m² lost)",
               {"case", "roof, paper", "roof, measured", "agree", "walls, paper", "walls, measured",
                "agree"},
               {}};
@@ -99,7 +99,7 @@ Section failure_patterns(Study& study) {
   section.findings.push_back(
       {"PF-019", agrees_if(roofs > runs / 2),
        "roof named as in the paper in " + of_all(roofs) + ", walls in " + of_all(walls),
-       "One run a case cannot be held against one word: samples of the same case differ as much as "
+       "One run a case cannot be compared with one word: realisations of the same case differ as much as "
        "cases do, which is the paper's own conclusion. Sliding of the roof along one set is named "
        "less often here: blocks that ride down together fall straight once they are free."});
   int falls = 0, falls_cases = 0;
@@ -111,12 +111,12 @@ Section failure_patterns(Study& study) {
   }
   section.findings.push_back(
       {"PF-020", agrees_if(falls_cases == 24 && falls > 3 * runs / 4),
-       "rock falls from the roof in " + of_all(falls) + ", in some sample of " +
+       "rock falls from the roof in " + of_all(falls) + ", in some realisation of " +
            std::to_string(falls_cases) + " of 24 cases",
        falls_cases == 24 && falls > 3 * runs / 4
            ? ""
            : "Steep sets with 35° of friction (11 to 16, 24) hold the roof up by horizontal stress "
-             "in some samples."});
+             "in some realisations."});
   int second = 0;
   for (const PatternResult& r : results) second += r.wall != WallFailure::none;
   section.findings.push_back({"PF-021", agrees_if(2 * second > runs),
@@ -147,7 +147,7 @@ Section failure_patterns(Study& study) {
   const bool sixth = moved_along(6, 2) > moved_along(6, 0);
   section.findings.push_back(
       {"PF-023", agrees_if(first && sixth),
-       "roof rock that moved along sets A, B, C, all samples: no. 1 " +
+       "roof rock that moved along sets A, B, C, all realisations: no. 1 " +
            printed_text(moved_along(1, 0), 2) + ", " + printed_text(moved_along(1, 1), 2) + ", " +
            printed_text(moved_along(1, 2), 2) + " m² (80W is C); no. 6 " +
            printed_text(moved_along(6, 0), 2) + ", " + printed_text(moved_along(6, 1), 2) + ", " +
@@ -155,7 +155,7 @@ Section failure_patterns(Study& study) {
        first && sixth
            ? ""
            : "Most of the rock falls straight once it is loose; of the little that slides in "
-             "no. 6 more follows 55E than 45W. The paper shows one sample."});
+             "no. 6 more follows 55E than 45W. The paper shows one realisation."});
   int all_three = 0, third_runs = 0;
   for (const PatternResult* r : of_case(3)) {
     if (r->roof_area < 0.2) continue;
@@ -219,8 +219,8 @@ Section failure_patterns(Study& study) {
            printed_text(c22.second, 2) + " m²; no. 23 " + printed_text(c23.first, 2) + ", " +
            printed_text(c23.second, 2) + " m²",
        moves ? ""
-             : "Half a dozen square metres decide it, and samples differ by more; the "
-               "paper compares one sample of each."});
+             : "Half a dozen square metres decide it, and realisations differ by more; the "
+               "paper compares one realisation of each."});
   bool less = true;
   std::string pair_losses;
   for (const auto& [soft, rough] : {std::pair(11, 12), {13, 14}, {15, 16}}) {
@@ -234,7 +234,7 @@ Section failure_patterns(Study& study) {
   section.findings.push_back(
       {"PF-029", agrees_if(less),
        "mean m² lost with the smaller and the larger friction: " + pair_losses});
-  // Where the sector that loses most lies, from sample to sample.
+  // Where the sector that loses most lies, from realisation to realisation.
   int moving = 0, compared = 0;
   for (const PatternCase& c : program::pattern_cases()) {
     std::vector<long> places;
@@ -248,7 +248,7 @@ Section failure_patterns(Study& study) {
         std::adjacent_find(places.begin(), places.end(), std::not_equal_to<>()) != places.end();
   }
   section.findings.push_back({"PF-030", agrees_if(2 * moving > compared),
-                              "the eighth that loses most differs between samples in " +
+                              "the eighth that loses most differs between realisations in " +
                                   std::to_string(moving) + " of " + std::to_string(compared) +
                                   " cases: where to put a single bolt is not known beforehand"});
   return section;

@@ -35,8 +35,8 @@ Section force_histograms(Study& study) {
       "Scatter of bolt forces",
       "6, Fig. 18",
       {"The largest force of each of the 21 bolts of the reference pattern, F / (p0 D), "
-       "in each sample of the rock and in all together; normal distributions fitted to "
-       "the raw data. The paper has three samples, A, B and C."}};
+       "in each realisation of the rock and in all together; normal distributions fitted to "
+       "the raw data. The paper has three realisations, A, B and C."}};
   const Variant reference{.bolts = reference_bolts};
   study.prepare({reference, reference.as_the_paper()});
   std::vector<const Outcome*> quasi, sudden;
@@ -49,22 +49,23 @@ Section force_histograms(Study& study) {
       !gone.empty())
     section.text.push_back(gone);
   if (quasi.empty() || sudden.empty()) {
-    section.text.push_back("No sample stands: there is nothing to fit.");
+    section.text.push_back("No realisation stands: there is nothing to fit.");
     for (const char* id :
          {"PF-069", "PF-070", "PF-071", "PF-072", "PF-073", "PF-074", "PF-075", "PF-076", "PF-077"})
-      section.findings.push_back({id, Agreement::not_testable, "no sample stands", "see above"});
+      section.findings.push_back(
+          {id, Agreement::not_testable, "no realisation stands", "see above"});
     return section;
   }
   const Sample all = normalised(quasi), all_sudden = normalised(sudden);
   for (const auto& [name, title, sample] :
-       {std::tuple("histogram", "All samples, quasi-static", &all),
-        std::tuple("histogram_explicit", "All samples, as the paper ran it", &all_sudden)}) {
+       {std::tuple("histogram", "All realisations, quasi-static", &all),
+        std::tuple("histogram_explicit", "All realisations, as the paper ran it", &all_sudden)}) {
     const double top = 0.08;
     const double high = std::max(top, sample->largest());
     const Histogram h(*sample, 0, high, static_cast<std::size_t>(std::lround(high / 0.004)));
     const NormalFit fit = fit_normal(*sample);
     Plot plot{name, title, "F / (p_0 D)", "relative frequency over class width", {}};
-    Series bars{"21 bolts of each sample", Mark::bars, {}, {}};
+    Series bars{"21 bolts of each realisation", Mark::bars, {}, {}};
     for (std::size_t k = 0; k < h.counts().size(); ++k) {
       bars.x.push_back(h.middle(k));
       bars.y.push_back(h.density(k));
@@ -100,7 +101,7 @@ Section force_histograms(Study& study) {
       update.spread.push_back(0.5 * belief.mean_interval().width());
     }
     Plot plot{"force_intervals",
-              "The mean, as samples are added (quasi-static)",
+              "The mean, as realisations are added (quasi-static)",
               "samples of 21 bolts",
               "F / (p_0 D)",
               {line, update}};
@@ -108,8 +109,8 @@ Section force_histograms(Study& study) {
     section.plots.push_back(plot);
   }
   Table table{"Largest forces of 21 bolts, F / (p0 D)",
-              {"sample", "quasi-static", "95 % of the mean", "distance to the normal (limit 5 %)",
-               "as the paper ran it"},
+              {"realisation", "quasi-static", "95 % of the mean",
+               "distance to the normal (limit 5 %)", "as the paper ran it"},
               {}};
   for (const Outcome* o : quasi) {
     const Sample s = normalised({o});
@@ -140,21 +141,22 @@ Section force_histograms(Study& study) {
   const char* ids[3] = {"PF-069", "PF-070", "PF-071"};
   for (std::size_t k = 0; k < 3; ++k) {
     if (k >= quasi.size()) {
-      section.findings.push_back(
-          {ids[k], Agreement::not_testable, "fewer than three samples", "run with more samples"});
+      section.findings.push_back({ids[k], Agreement::not_testable, "fewer than three realisations",
+                                  "run with more realisations"});
       continue;
     }
     const Sample s = normalised({quasi[k]});
     section.findings.push_back(
         {ids[k], agrees_if(in_range(s)),
-         "sample " + std::to_string(quasi[k]->seed) + ": " + summary(s), in_range(s) ? "" : gap,
+         "realisation " + std::to_string(quasi[k]->seed) + ": " + summary(s),
+         in_range(s) ? "" : gap,
          k < sudden.size() ? summary(normalised({sudden[k]})) : "did not stand",
          k < sudden.size() ? std::optional(agrees_if(in_range(normalised({sudden[k]}))))
                            : std::nullopt});
   }
-  section.findings.push_back({"PF-072", agrees_if(in_range(all)), "all samples: " + summary(all),
-                              in_range(all) ? "" : gap, summary(all_sudden),
-                              agrees_if(in_range(all_sudden))});
+  section.findings.push_back({"PF-072", agrees_if(in_range(all)),
+                              "all realisations: " + summary(all), in_range(all) ? "" : gap,
+                              summary(all_sudden), agrees_if(in_range(all_sudden))});
   const double d = distance_to_normal(all), limit = lilliefors_limit(all.size());
   const double d_sudden = distance_to_normal(all_sudden);
   const double limit_sudden = lilliefors_limit(all_sudden.size());
@@ -166,8 +168,8 @@ Section force_histograms(Study& study) {
   section.findings.push_back(
       {"PF-073", agrees_if(d < limit),
        "distance of all to the fitted normal " + printed_text(d, 3) + ", 5 % limit " +
-           printed_text(limit, 3) + "; sample by sample " + std::to_string(fitting) + " of " +
-           std::to_string(quasi.size()) + " pass",
+           printed_text(limit, 3) + "; realisation by realisation " + std::to_string(fitting) +
+           " of " + std::to_string(quasi.size()) + " pass",
        d < limit
            ? ""
            : "More values tell more: the merged forces are skewed (skewness " +
@@ -187,7 +189,7 @@ Section force_histograms(Study& study) {
   section.findings.push_back(
       {"PF-075", agrees_if(std::abs(belief.beta / at_once.beta - 1) < 1e-10),
        "mean between " + printed_text(mean95.low) + " and " + printed_text(mean95.high) +
-           " (95 %) after updating sample by sample; all at once: the same to " +
+           " (95 %) after updating realisation by realisation; all at once: the same to " +
            printed_text(std::abs(belief.beta / at_once.beta - 1), 1)});
   section.findings.push_back({"PF-076",
                               agrees_if(std::abs(0.03 * force_unit - 198652.5) < 1 &&
@@ -202,9 +204,9 @@ Section force_histograms(Study& study) {
   const double many = mean_interval(all).width();
   section.findings.push_back(
       {"PF-077", quasi.size() < 2 ? Agreement::not_testable : agrees_if(many < one),
-       "95 % interval of the mean " + printed_text(one, 3) + " wide from one sample, " +
+       "95 % interval of the mean " + printed_text(one, 3) + " wide from one realisation, " +
            printed_text(many, 3) + " from " + std::to_string(quasi.size()),
-       quasi.size() < 2 ? "one sample only" : ""});
+       quasi.size() < 2 ? "one realisation only" : ""});
   return section;
 }
 

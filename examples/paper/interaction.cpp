@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The interaction diagram of bolts and lining, from several samples of the rock: Fig. 24.
+// The interaction diagram of bolts and lining, from several realisations of the rock: Fig. 24.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -46,7 +46,7 @@ Section interaction(Study& study) {
       "Interaction diagram of bolts and lining",
       "8.1, Fig. 24",
       {"Crown convergence over lining thickness and bolt spacing, 4 m bolts: the mean "
-       "of the samples that stand. A point where rock falls in any sample is marked; "
+       "of the realisations that stand. A point where blocks detach in any realisation is marked; "
        "where none stands there is no value. Diamonds: bolts of two thirds and three times "
        "the stiffness at 15° (Figs 25 and 26), drawn at the spacing at which bolts of "
        "28 mm have the same dimensionless stiffness. Elastic theory cannot tell them apart."}};
@@ -68,7 +68,7 @@ Section interaction(Study& study) {
   for (const OtherBolts& other : others) study.prepare({other.at(0.1)});
   // Three tables and three diagrams from the same tunnels.
   const std::string of_samples = ", mean of " + std::to_string(study.samples()) +
-                                 (study.samples() == 1 ? " sample" : " samples");
+                                 (study.samples() == 1 ? " realisation" : " realisations");
   const auto picture_of = [&](const std::string& title) {
     InteractionPicture picture;
     picture.header.title = title + of_samples;
@@ -98,9 +98,10 @@ Section interaction(Study& study) {
     p->values.resize(wide, high);
     p->failed.resize(wide, high);
   }
-  Table crowns{"Crown convergence, mm; R: rock falls in some sample, C: some sample collapses",
-               {"spacing \\ t, cm"},
-               {}};
+  Table crowns{
+      "Crown convergence, mm; R: blocks detach in some realisation, C: some realisation collapses",
+      {"spacing \\ t, cm"},
+      {}};
   Table bolts{"Mean of the bolts' largest forces, kN", {"spacing \\ t, cm"}, {}};
   Table stresses{"Largest compressive stress in the lining, N / t + 6 |M| / t², MPa",
                  {"spacing \\ t, cm"},
@@ -164,7 +165,7 @@ Section interaction(Study& study) {
               "bolt spacing θ_b, degrees",
               "convergence, % of a",
               {}};
-  Series crosses{"not all samples stand", Mark::failed, {}, {}, {}};
+  Series crosses{"not all realisations stand", Mark::failed, {}, {}, {}};
   for (std::size_t i = 0; i < thicknesses().size(); ++i) {
     Series s{
         "t = " + trimmed_text(100 * thicknesses()[i], 1) + " cm", Mark::linked_points, {}, {}, {}};
@@ -201,7 +202,7 @@ Section interaction(Study& study) {
       if (grid[j][i].values.empty()) continue;
       if (i + 1 < grid[j].size())
         by_thickness = by_thickness && grid[j][i + 1].mean() < grid[j][i].mean();
-      // Where lined: without lining rock falls and other samples make the mean.
+      // Where lined: without lining blocks detach and other realisations make the mean.
       if (j + 1 < grid.size() && i > 0)
         by_spacing = by_spacing && grid[j + 1][i].mean() > grid[j][i].mean();
     }
@@ -211,9 +212,9 @@ Section interaction(Study& study) {
       {"PF-091", agrees_if(by_thickness && by_spacing && unlined_failures > 0),
        "falls with t at every spacing: " + std::string(by_thickness ? "yes" : "no") +
            "; rises with spacing at every lined thickness: " + (by_spacing ? "yes" : "no") +
-           "; unlined spacings where rock falls: " + std::to_string(unlined_failures) + " of " +
+           "; unlined spacings where blocks detach: " + std::to_string(unlined_failures) + " of " +
            std::to_string(spacings().size()),
-       by_thickness && by_spacing ? "" : "not monotonic in the mean of the samples"});
+       by_thickness && by_spacing ? "" : "not monotonic in the mean of the realisations"});
   const auto crown_at = [&](double spacing, double thickness) {
     return study.measure(at(spacing, thickness), crown).mean();
   };
@@ -231,12 +232,12 @@ Section interaction(Study& study) {
        "10 cm, 15°: crown " + chosen.text(1e3, "mm") + ", largest bolt force " +
            study.measure(choice, [](const Outcome& o) { return o.largest_force(); })
                .text(1e-3, "kN"),
-       chosen.complete() && !sheds ? "" : "rock falls in some sample"});
-  section.findings.push_back({"PF-103", agrees_if(chosen.values.size() > 1),
-                              "the diagram is the mean of " + std::to_string(study.samples()) +
-                                  " samples; at the chosen point the samples scatter by " +
-                                  percent(chosen.deviation() / chosen.mean()) +
-                                  " of the crown's convergence"});
+       chosen.complete() && !sheds ? "" : "blocks detach in some realisation"});
+  section.findings.push_back(
+      {"PF-103", agrees_if(chosen.values.size() > 1),
+       "the diagram is the mean of " + std::to_string(study.samples()) +
+           " realisations; at the chosen point the realisations scatter by " +
+           percent(chosen.deviation() / chosen.mean()) + " of the crown's convergence"});
   return section;
 }
 

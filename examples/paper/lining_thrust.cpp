@@ -50,7 +50,7 @@ Section lining_thrust(Study& study) {
   for (const Swept* s : {&mean, &sudden}) draw(by_stiffness, *s);
 
   Plot around{"lining_thrust_around",
-              "Thrust around the ring, mean of the samples that stand",
+              "Thrust around the ring, mean of the realisations that stand",
               "angle from the right-hand springing, degrees",
               "N / (p_0 D)",
               {}};

@@ -10,7 +10,7 @@ Section normalised_forces(Study& study) {
                   "Bolt forces normalised by spacing",
                   "5.2, Fig. 14",
                   {"Mean over bolts of each bolt's largest force, divided by p0 D θ_b, 4 m bolts; "
-                   "every sample of the rock for itself. A bolt that carries the whole pressure on "
+                   "every realisation for itself. A bolt that carries the whole pressure on "
                    "its share of the wall has 0.5."}};
   const std::vector<double> spacings{11.25, 15, 22.5};
   const auto at = [](double s) { return Variant{.bolts = Bolts{.spacing = s * degree}}; };
@@ -39,7 +39,7 @@ Section normalised_forces(Study& study) {
     plot.series.push_back(line);
   }
   for (int k = 0; k < study.samples(); ++k) {
-    Series points{"sample " + std::to_string(k + 1), Mark::linked_points, {}, {}};
+    Series points{"realisation " + std::to_string(k + 1), Mark::linked_points, {}, {}};
     for (const double s : spacings) {
       const Outcome& o = study.of(at(s))[static_cast<std::size_t>(k)];
       if (!o.stable()) continue;
@@ -49,7 +49,7 @@ Section normalised_forces(Study& study) {
     if (k < 4) plot.series.push_back(points);
   }
   plot.y_range = {{0, NAN}};
-  plot.caption = "The first four samples.";
+  plot.caption = "The first four realisations.";
   for (const double s : spacings) say_collapsed(plot, study, {{printed_text(s, 4) + "°", at(s)}});
   section.plots.push_back(plot);
 
@@ -83,7 +83,7 @@ Section normalised_forces(Study& study) {
                        o.largest_force() / (ground_pressure * radius * s * degree));
   section.findings.push_back(
       {"PF-061", agrees_if(most <= 1),
-       "largest bolt force of any sample over p0 a θ_b: " + printed_text(most, 3), "",
+       "largest bolt force of any realisation over p0 a θ_b: " + printed_text(most, 3), "",
        printed_text(most_sudden, 3), agrees_if(most_sudden <= 1)});
   return section;
 }

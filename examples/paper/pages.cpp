@@ -69,18 +69,19 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
       "of 104 of its statements: " +
       std::to_string(board.back().agrees) + " agree, " + std::to_string(board.back().differs) +
       " differ, " + std::to_string(board.back().not_testable) +
-      " cannot be tested. Samples of the rock: " + samples + ". " +
+      " cannot be tested. Realisations of the rock: " + samples + ". " +
       std::to_string(study.tunnels_solved()) + " supported tunnels and " +
       std::to_string(24 * study.samples()) + " collapses in " + fixed_text(seconds, 0) +
       " s. This page and those it leads to are written by the last of these commands, the report "
       "and the data behind every plot by the first:\n\n"
       "```sh\n"
       "sudo apt-get install -y gnuplot-nox\n"
-      "build/program/voussoir paper --samples " +
+      "cmake --workflow --preset release\n"
+      "build/release/voussoir paper --samples " +
       samples +
       " --out paper     # paper.html, scoreboard.csv, plots\n"
       "build/release/examples/paper_bolt_spacing                # one analysis by its name\n"
-      "build/program/voussoir paper --samples " +
+      "build/release/voussoir paper --samples " +
       samples + " --out paper --pages docs/paper\n```\n\n## What is assumed\n\n";
   for (const std::string& line : assumptions()) page += "- " + line + "\n";
   page += "\n## Scoreboard\n\n";

@@ -77,10 +77,10 @@ Section pretension(Study& study) {
   }
   for (const Outcome& o : study.of(at22(0))) lost0 += o.fallen() / study.samples();
   section.findings.push_back({"PF-068", agrees_if(shedding > 0),
-                              "rock fallen with 150 kN: " + printed_text(lost, 2) +
+                              "detached rock with 150 kN: " + printed_text(lost, 2) +
                                   " m² on average (" + printed_text(lost0, 2) + " without), in " +
                                   std::to_string(shedding) + " of " +
-                                  std::to_string(study.samples()) + " samples"});
+                                  std::to_string(study.samples()) + " realisations"});
   return section;
 }
 

@@ -31,7 +31,7 @@ int run_program(int argc, char** argv, const char* name, Analysis analysis) {
   int samples = 5;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::string out = ".";
-  app.add_option("--samples", samples, "random samples of the rock mass")
+  app.add_option("--samples", samples, "random realisations of the rock mass")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("-j,--threads", threads, "tunnels computed at a time")

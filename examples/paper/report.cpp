@@ -87,15 +87,15 @@ const std::vector<std::string>& assumptions() {
       "Equilibrium by a search without dynamics (TwoLevel), accepted with an estimated error below "
       "0.1 % of the largest displacement and every block out of balance by less than 1 % of its "
       "weight. Support is wished in place before the rock moves.",
-      "A block that has moved by 20 mm has fallen and is taken out, with its area counted; where a "
-      "lining may catch it it is followed to 100 mm, contacts found again every 20 mm. More than a "
+      "A block that has moved by 20 mm is detached and taken out, with its area counted; where a "
+      "lining may catch it it is followed to 100 mm, with contact updates every 20 mm. More than a "
       "quarter of the opening's area is a collapse.",
       "Bolts one metre apart along the tunnel, anchors 1.2 diameters from each joint; a lining of 72 "
       "Euler-Bernoulli beams, weightless.",
       "\"As the paper ran it\": explicit stepping with all rock taken out at once, local damping of "
-      "0.1 (the paper prints none), one point a contact; blocks fall at 50 mm. The second column, "
+      "0.1 (the paper prints none), one point a contact; blocks are detached at 50 mm. The second column, "
       "where the answer depends on it.",
-      "The 24 unsupported tunnels move with their true masses and contacts that are found again "
+      "The 24 unsupported tunnels move with their true masses and contact updates "
       "(Dynamics), normal dashpots of 0.3 of critical.",
       "Nothing was tuned to agree. Tolerances were proposed before the toolkit was written and are "
       "not the paper's."};
@@ -114,10 +114,10 @@ std::string report_html(const std::vector<Section>& sections, const Drawings& dr
       "<p>Every analysis of C. W. Boon, G. T. Houlsby and S. Utili (Rock Mech. Rock Eng. 48, "
       "603-632, 2015), run with Voussoir " VOUSSOIR_VERSION_STRING " on " +
       std::to_string(study.samples()) +
-      (study.samples() == 1 ? " random sample" : " random samples") +
+      (study.samples() == 1 ? " random realisation" : " random realisations") +
       " of the rock: " + std::to_string(study.tunnels_solved()) + " supported tunnels and " +
       std::to_string(24 * study.samples()) + " collapses in " + fixed_text(seconds, 0) +
-      " s. 104 statements of the paper, in our words, are held against what was measured.</p>\n";
+      " s. 104 statements of the paper, in our words, are compared with what was measured.</p>\n";
   html += "<h3>What is assumed</h3>\n<ul>\n";
   for (const std::string& line : assumptions()) html += element("li", line) + "\n";
   html +=

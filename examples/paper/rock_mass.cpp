@@ -67,7 +67,7 @@ Section rock_mass(Study& study) {
   const Variant untouched{.bolts = Bolts{}, .lining = Lining{}, .held = 1};
   study.prepare({bare, reference, untouched, reference.as_the_paper()});
 
-  Table table{"Samples of the rock", {"", "value"}, {}};
+  Table table{"Realisations of the rock", {"", "value"}, {}};
   const auto row = [&](const std::string& name, const std::string& value) {
     table.rows.push_back({name, value});
   };
@@ -83,15 +83,16 @@ Section rock_mass(Study& study) {
                    2) +
           " · 10⁻¹³");
   section.tables.push_back(table);
-  // Convergence around the unsupported and the bolted opening, sample 1 to n: what "Fig. 7" shows.
+  // Convergence around the unsupported and the bolted opening, realisation 1 to n: what "Fig. 7"
+  // shows.
   Plot wall{"wall_convergence",
-            "Convergence of the bolted opening (7 m, 11.25°), every sample",
+            "Convergence of the bolted opening (7 m, 11.25°), every realisation",
             "angle from the right-hand springing, degrees",
             "convergence, mm",
             {}};
   for (const Outcome& o : study.of(reference)) {
     if (!o.stable() || o.seed > 6) continue;
-    Series s{"sample " + std::to_string(o.seed), Mark::line, {}, {}};
+    Series s{"realisation " + std::to_string(o.seed), Mark::line, {}, {}};
     for (double angle = 0; angle <= 360; angle += 5) {
       const double u = convergence_at(o.wall, angle * degree);
       if (!std::isfinite(u)) continue;
@@ -139,7 +140,7 @@ Section rock_mass(Study& study) {
   section.findings.push_back(
       {"PF-005", agrees_if(std::abs(nearest - 30) < 1e-6 && std::abs(farthest - 30) < 1e-6),
        "outermost corners of blocks at the sides and below: " + printed_text(nearest, 4) + " to " +
-           printed_text(farthest, 4) + " m from the wall, all samples"});
+           printed_text(farthest, 4) + " m from the wall, all realisations"});
   const Measured change =
       study.measure(reference, [](const Outcome& o) { return o.boundary_change; });
   section.findings.push_back(
@@ -169,7 +170,7 @@ Section rock_mass(Study& study) {
            "prescribed, so no angle is needed on the way.",
        short_of.mean() > no_motion
            ? ""
-           : "No joint of these samples is inclined so that four fifths of the angle let it slip."});
+           : "No joint of these realisations is inclined so that four fifths of the angle let it slip."});
   const Measured unbalance = study.measure(
       reference.as_the_paper(), [](const Outcome& o) { return o.report.unbalance_over_weight; });
   const Measured crowns = study.measure(reference, crown);
@@ -184,8 +185,8 @@ Section rock_mass(Study& study) {
            printed_text(1e3 * crowns.mean()) + " mm: how it is damped is part of the answer"});
   section.findings.push_back(
       {"PF-011", Agreement::not_testable, "three unknowns a block, none out of the plane",
-       "A plane model has no motion out of its plane that could be zero; a slice in space with "
-       "that motion held is compared with it in tests/solver/spatial_test.cpp."});
+       "A plane model has no motion out of its plane that could be zero; a 3-D slice with "
+       "that motion fixed is compared with it in tests/solver/spatial_test.cpp."});
   const CoulombJoint law({normal_stiffness, shear_stiffness, friction});
   const auto force = [&](double opening, double slip) {
     PointMotion<2> motion{};

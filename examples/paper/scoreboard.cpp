@@ -42,7 +42,7 @@ std::string second_column(const Finding& f) {
 std::string cause(const Finding& f) {
   if (f.agreement == Agreement::agrees) return "";
   return f.why.empty()
-             ? "The cause has not been looked into; on the samples of docs/paper the claim "
+             ? "The cause has not been looked into; on the realisations of docs/paper the claim "
                "holds."
              : f.why;
 }
@@ -73,7 +73,7 @@ std::string second_column_text(const std::vector<Section>& sections) {
         count(theirs, *f.agreement_as_the_paper);
       }
   return std::to_string(ours.agrees + ours.differs + ours.not_testable) +
-         " of the claims depend on the way to equilibrium. Quasi-statically " +
+         " of the claims depend on the solution procedure. Quasi-statically " +
          std::to_string(ours.agrees) + " of these agree and " + std::to_string(ours.differs) +
          " differ; as the paper ran it " + std::to_string(theirs.agrees) + " agree, " +
          std::to_string(theirs.differs) + " differ, and " + std::to_string(theirs.not_testable) +

@@ -32,7 +32,7 @@ struct Score {
 /// The last entry is the sum of all.
 /// @throws std::logic_error  see `findings_by_claim`
 [[nodiscard]] std::vector<Score> scores(const std::vector<Section>& sections);
-/// Of the claims whose answer depends on the way to equilibrium: what the paper's own way says, as
+/// Of the claims whose answer depends on the solution procedure: what the paper's own way says, as
 /// a sentence.
 [[nodiscard]] std::string second_column_text(const std::vector<Section>& sections);
 /// As a table for the terminal.

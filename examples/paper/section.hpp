@@ -12,7 +12,7 @@ namespace voussoir::paper {
 enum class Mark {
   line,         ///< a theory
   dashed_line,  ///< another
-  points,       ///< measured, with the standard deviation over samples if there is one
+  points,       ///< measured, with the standard deviation over realisations if there is one
   linked_points,
   bars,    ///< a histogram
   failed,  ///< tunnels that did not stand: red crosses

@@ -192,7 +192,7 @@ Section shear_moduli(Study& study) {
       {"PF-045", agrees_if(size),
        "over the whole section: 20 m " + large.text(1, "", 3) + ", 10 m " + small.text(1, "", 3),
        size ? ""
-            : "Blocks along a flat wall are held better than those inside; they weigh more in "
+            : "Blocks along a flat wall are restrained more than those inside; they weigh more in "
               "a small sample."});
   const Measured across = modulus_ratio(4, 0), nu7 = poisson(4);
   section.findings.push_back(

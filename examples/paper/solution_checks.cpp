@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the answer depends on besides the design: nodes, domain, tolerance, method, sample.
+// What the answer depends on besides the design: nodes, domain, tolerance, method, realisation.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,8 +17,8 @@ Section solution_checks(Study& study) {
       "Solution checks",
       "",
       {"The design case (4 m bolts at 15°, 10 cm of lining), one thing of the computation changed at "
-       "a time; means over the samples, ± the standard deviation between them. Another domain is "
-       "another sample of the rock: differences below that deviation mean nothing there. In the "
+       "a time; means over the realisations, ± the standard deviation between them. Another domain is "
+       "another realisation of the rock: differences below that deviation mean nothing there. In the "
        "other rows the rock is the same, and differences are those of the computation.",
        "The crown's convergence depends on the depth of the base: the whole tunnel rises with the "
        "rock that is relieved of its weight. What the tunnel closes, crown and invert together, "
@@ -94,7 +94,7 @@ Section solution_checks(Study& study) {
   draw(base, swept(study, "crown", bases, by_base, crown, 1e3));
   draw(base, swept(study, "crown and invert", bases, by_base, closes, 1e3));
   moment.caption = "Joints are 0.62 m apart, nodes 1.31 m to 0.22 m.";
-  base.caption = "The wider domains are other samples of the rock.";
+  base.caption = "The wider domains are other realisations of the rock.";
   moment.y_range = base.y_range = {{0, NAN}};
   section.plots = {moment, base};
   return section;

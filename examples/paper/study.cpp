@@ -29,7 +29,7 @@ double Measured::mean() const {
 double Measured::deviation() const { return values.size() < 2 ? 0.0 : Sample(values).deviation(); }
 std::string Measured::text(double scale, const std::string& unit, int digits) const {
   const std::string end = unit.empty() ? "" : " " + unit;
-  std::string notes = std::to_string(samples) + (samples == 1 ? " sample" : " samples");
+  std::string notes = std::to_string(samples) + (samples == 1 ? " realisation" : " realisations");
   if (collapsed > 0) notes += "; " + std::to_string(collapsed) + " collapsed";
   if (gone > 0) notes += "; " + std::to_string(gone) + " have lost that rock";
   if (shedding > 0) notes += "; " + std::to_string(shedding) + " shed rock";
@@ -42,7 +42,7 @@ std::string Measured::text(double scale, const std::string& unit, int digits) co
 
 Study::Study(int samples, unsigned threads, Progress progress)
     : samples_(samples), threads_(threads), progress_(std::move(progress)) {
-  require(samples >= 1 && samples <= 1000, "number of samples", samples, "1 to 1000");
+  require(samples >= 1 && samples <= 1000, "number of realisations", samples, "1 to 1000");
 }
 
 void Study::prepare(const std::vector<Variant>& variants) {
@@ -59,7 +59,7 @@ void Study::prepare(const std::vector<Variant>& variants) {
     const std::scoped_lock lock(guard);
     if (!progress("tunnels", static_cast<double>(now) / static_cast<double>(count))) go_on = false;
   };
-  // Some samples at a time: a rock takes ten or twenty megabytes.
+  // Some realisations at a time: a rock takes ten or twenty megabytes.
   constexpr int at_a_time = 8;
   constexpr std::size_t most_rocks = 64;
   for (int first = 0; first < samples_ && go_on; first += at_a_time) {

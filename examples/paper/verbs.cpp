@@ -68,7 +68,7 @@ int paper_verb(const Options& options, int samples, const std::string& pages) {
   if (pages_outputs) pages_outputs->publish();
   if (!options.quiet)
     std::cout << voussoir::paper::score_text(voussoir::paper::scores(sections)) << samples
-              << (samples == 1 ? " sample" : " samples") << " of the rock, "
+              << (samples == 1 ? " realisation" : " realisations") << " of the rock, "
               << study.tunnels_solved() << " supported tunnels, " << static_cast<int>(seconds)
               << " s\n";
   publish(outputs, options, "paper.html, scoreboard.csv, plots (.svg, .csv, .gp)");

@@ -128,9 +128,9 @@ void blocks_in_motion(std::vector<Check>& checks) {
   const int b = knock.add_block(block({1.001, 0}, 1, 1), density);
   knock.set_velocity(a, {1, 0});
   knock.advance(0.02);
-  checks.push_back({Kind::solver, "two blocks knock: velocity handed over [m/s]",
+  checks.push_back({Kind::solver, "impact of two blocks: velocity handed over [m/s]",
                     knock.velocity(b).x(), 1, 2e-3, "second order in the time step"});
-  checks.push_back({Kind::solver, "two blocks knock: momentum [m/s]",
+  checks.push_back({Kind::solver, "impact of two blocks: momentum [m/s]",
                     knock.velocity(a).x() + knock.velocity(b).x(), 1, 1e-12, "rounding"});
 }
 
@@ -206,7 +206,7 @@ void solvers(Study& study, std::vector<Check>& checks) {
                     study.measure(hole, mean_wall).mean(), ground_pressure * radius / (2 * modulus),
                     0.15,
                     "edges that are fixed at 7 radii hold back 9 % (Lame's ring, nu = 0.37); three "
-                    "samples scatter by 8 % / sqrt(3)"});
+                    "realisations scatter by 8 % / sqrt(3)"});
   checks.push_back(
       {Kind::solver, "ring of 10 cm: mean thrust [N/m], eq. (13)",
        study.measure(ring, [](const Outcome& o) { return o.mean_thrust(); }).mean(),

@@ -15,12 +15,12 @@ namespace voussoir::program {
 /// A stage and what came of it.
 struct StageResult {
   std::string name;
-  double wall_traction;        ///< residual: part of the in-situ traction left when it ended [-]
+  double wall_traction;        ///< residual, when it ended [-]
   double wall_traction_asked;  ///< at its end; reached unless the stage ended before [-]
   EquilibriumReport report;
   Convergence convergence;  ///< at its end [m]
 
-  /// False where blocks fell or the search ended while the wall was still being unloaded.
+  /// False where blocks detached or the search ended while the wall was still being unloaded.
   [[nodiscard]] bool fully_unloaded() const {
     return std::abs(wall_traction - wall_traction_asked) < 1e-9;
   }

@@ -325,7 +325,7 @@ void read_run(Section& s, RunInput& run) {
   s.quantity("refind_limit", refind_limit, dimension::length, above(0));
   run.refind_limit = refind_limit.value_or(run.refind_limit);
   if (refind_limit && run.refind_limit >= run.displacement_limit)
-    s.complain("refind_limit", "is never reached: a block that has moved so far has fallen",
+    s.complain("refind_limit", "is never reached: a block that has moved so far is detached",
                "a length below displacement_limit");
   if (const auto value = s.find("max_steps", Need::optional))
     run.max_steps = value->as_integer(1, 2'000'000'000);

@@ -231,7 +231,7 @@ int run_program(int argc, char** argv) {
   int samples = 5;
   std::string pages;
   add_out(paper);
-  paper->add_option("--samples", samples, "random samples of the rock mass")
+  paper->add_option("--samples", samples, "random realisations of the rock mass")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   paper->add_option("--pages", pages,

@@ -32,7 +32,7 @@ std::string computed(const char* format, double value) {
   return std::isfinite(value) ? text(format, value) : "not computed";
 }
 
-/// "3.29" for 3.29e-3 m; "-" where the wall has fallen.
+/// "3.29" for 3.29e-3 m; "-" where the wall is detached.
 std::string millimetres(double metres) {
   return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
 }
@@ -76,13 +76,13 @@ nlohmann::json report_json(const EquilibriumReport& report) {
   return {{"verdict", to_string(report)},
           {"reason", report.reason},
           {"error_estimate", report.error_estimate},
-          {"unbalance_over_weight", report.unbalance_over_weight},
+          {"out_of_balance_force_ratio", report.unbalance_over_weight},
           {"largest_displacement_mm", 1e3 * report.largest_displacement},
           {"force_evaluations", report.steps},
           {"elastic_solves", report.elastic_solves},
           {"factorisations", report.factorisations},
-          {"fallen_bodies", report.fallen.size()},
-          {"fallen_area_m2", report.fallen_measure},
+          {"detached_bodies", report.fallen.size()},
+          {"detached_area_m2", report.fallen_measure},
           {"broken_bolt_springs", report.broken_bolts}};
 }
 
@@ -122,9 +122,10 @@ std::optional<PictureBanner> banner_of(const RunResult& run) {
     case Verdict::stable:
       if (!(fallen > 0)) return std::nullopt;
       return PictureBanner{
-          word, text("%.2f", fallen) + " m² of rock fell before the rest came to rest", "#b45309"};
+          word, text("%.2f", fallen) + " m² of rock detached before the rest came to rest",
+          "#b45309"};
     case Verdict::collapsing:
-      return PictureBanner{word, text("%.2f", fallen) + " m² of rock fell: no equilibrium"};
+      return PictureBanner{word, text("%.2f", fallen) + " m² of rock detached: no equilibrium"};
     case Verdict::undecided:
       break;
   }
@@ -142,8 +143,8 @@ std::string run_json(const Input& input, const RunResult& run) {
   nlohmann::json stages = nlohmann::json::array();
   for (const StageResult& stage : run.stages)
     stages.push_back({{"name", stage.name},
-                      {"wall_traction", stage.wall_traction},
-                      {"wall_traction_asked", stage.wall_traction_asked},
+                      {"residual_wall_traction", stage.wall_traction},
+                      {"residual_wall_traction_asked", stage.wall_traction_asked},
                       {"equilibrium", report_json(stage.report)},
                       {"convergence", convergence_json(stage.convergence)}});
   nlohmann::json json = {
@@ -154,7 +155,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"seed", input.model.seed},
       {"verdict", to_string(run.verdict(), run.fallen_measure())},
       {"error_estimate", run.last().error_estimate},
-      {"fallen_area_m2", run.fallen_measure()},
+      {"detached_area_m2", run.fallen_measure()},
       {"convergence", convergence_json(run.stages.back().convergence)},
       {"stages", stages},
       {"rock",
@@ -175,7 +176,7 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"area_dropped_at_wall_m2", mass.carving.dropped_measure},
         {"blocks_separated_by_the_opening", mass.carving.separated_bodies},
         {"vertical_stress_at_centre_kPa", 1e-3 * centre_stress},
-        {"in_situ_unbalance_over_weight", run.in_situ_unbalance}}},
+        {"in_situ_out_of_balance_force_ratio", run.in_situ_unbalance}}},
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
@@ -314,9 +315,9 @@ std::string interaction_csv(const Input& input, const DiagramResult& diagram) {
   const bool angular = axes.spacing.front() && axes.spacing.front()->is_angle;
   CsvTable table(
       {angular ? "bolt_spacing_deg" : "bolt_spacing_m", "lining_thickness_cm", "verdict", "failed",
-       "crown_convergence_mm", "crown_convergence_percent_of_radius", "fallen_area_m2",
+       "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
        "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
-       "largest_moment_kNm_per_m", "error_estimate", "unbalance_over_weight"},
+       "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio"},
       6);
   const double radius = input.tunnel.half_width();
   for (const DiagramPoint& p : diagram.points) {
@@ -344,7 +345,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   picture.undecided.resize(columns, rows);
   for (const DiagramPoint& p : diagram.points) {
     const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
-    // Where rock fell but a crown remains, its convergence still belongs to the surface; a
+    // Where rock detached but a crown remains, its convergence still belongs to the surface; a
     // collapse has none.
     const bool standing = p.report.verdict == Verdict::stable;
     picture.values(i, j) =
@@ -361,7 +362,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
                           std::to_string(diagram.blocks) + " blocks (seed " +
                           std::to_string(input.model.seed) +
                           "). Largest estimated error of the displacements " +
-                          text("%.2g", 100 * worst) + " %. Red circles: rock falls."};
+                          text("%.2g", 100 * worst) + " %. Red circles: rockfall."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
       {"tunnels that fail",
@@ -372,7 +373,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
     picture.header.key_numbers.push_back({"tunnels undecided", count});
     picture.banner = {{std::to_string(undecided) + " OF " + std::to_string(diagram.points.size()) +
                            " TUNNELS UNDECIDED",
-                       "neither an equilibrium nor falling blocks were found at the points marked "
+                       "neither an equilibrium nor detached blocks were found at the points marked "
                        "with ?: no result there"}};
   }
   picture.diameter = 2 * input.tunnel.half_width();
@@ -403,16 +404,16 @@ std::string run_summary(const Input& input, const RunResult& run) {
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
     out += " of " + text("%.2f m2", run.fallen_measure());
   out += ": " + last.reason + "\n";
-  out += "         error estimate " + computed("%.1e", last.error_estimate) + ", worst unbalance " +
-         computed("%.1e of a block's weight", last.unbalance_over_weight) + ", " +
-         text("%.2f s\n", run.equilibrium_seconds);
+  out += "         error estimate " + computed("%.1e", last.error_estimate) +
+         ", worst out-of-balance force ratio " + computed("%.1e", last.unbalance_over_weight) +
+         ", " + text("%.2f s\n", run.equilibrium_seconds);
   if (run.fallen_measure() > 0)
-    out += "fallen   " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
+    out += "detached " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
   out += "wall     crown " + millimetres(c.crown) + " mm, springings " +
          millimetres(c.right_springing) + " and " + millimetres(c.left_springing) + " mm, invert " +
          millimetres(c.invert) + " mm";
   const bool fallen = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
-  out += fallen ? " (-: the wall there has fallen)\n" : "\n";
+  out += fallen ? " (-: the wall there is detached)\n" : "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +

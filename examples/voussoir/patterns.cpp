@@ -460,8 +460,8 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
   const double row = side + 84;
   const auto rows = static_cast<double>((by_case.size() + columns - 1) / columns);
   header.lines = {
-      "The first sample of each case. Below it what the paper sees at the roof and at the walls, and "
-      "what samples 1 to 3 do, with m\u00b2 lost."};
+      "The first realisation of each case. Below it what the paper sees at the roof and at the walls, and "
+      "what realisations 1 to 3 do, with m\u00b2 lost."};
   std::map<int, std::vector<std::string>> captions;
   double size = 10.5;  // one for all captions
   for (const auto& [number, runs] : by_case) {

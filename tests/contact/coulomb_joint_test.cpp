@@ -191,7 +191,7 @@ TEST_SUITE("contact/coulomb_joint") {
     CHECK((last.tangential - first.tangential).norm() <= 4 * eps * 0.4 * ks * 1.2345e-3);
   }
 
-  TEST_CASE("in space the strength is the same in every direction") {
+  TEST_CASE("in 3-D the strength is the same in every direction") {
     const CoulombJoint law = joint();
     PointLoad<3> load{0.4, {}, {0, Vec<2>::Zero()}};
     load.initial.normal = 1e5;

@@ -108,7 +108,7 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
     CHECK(law.commit(at(0.99 * strain), state) == 0);
     CHECK(law.force(at(1.01 * strain), state).normal == 0);
     CHECK(law.commit(at(1.01 * strain), state) ==
-          doctest::Approx(0.5 * w * 1e5 * 1e5 / kn));  // what it held
+          doctest::Approx(0.5 * w * 1e5 * 1e5 / kn));  // what it stored
     CHECK(law.force(at(0.5 * strain), state).normal == 0);
     CHECK(law.force(at(-strain), state).normal == doctest::Approx(1e5 * w));
   }

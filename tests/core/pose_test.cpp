@@ -86,7 +86,7 @@ TEST_SUITE("core/pose") {
     CHECK((rotation_by(turn) * Vec2(3, 1) - Vec2(3, 1) - turned(turn, Vec2(3, 1))).norm() < 1e-15);
   }
 
-  TEST_CASE("rotations about one axis add up, in the plane and in space") {
+  TEST_CASE("rotations about one axis add up, in 2-D and 3-D") {
     Random random(3);
     for (int trial = 0; trial < 50; ++trial) {
       const double first = 3 * random.normal(), second = 3 * random.normal();

@@ -523,7 +523,7 @@ TEST_SUITE("detection/face_contacts: known contacts") {
     CHECK(touching > 20);
   }
 
-  TEST_CASE("corner on edge in the plane: the part of the corner's side that has entered") {
+  TEST_CASE("corner on edge in 2-D: the part of the corner's side that has entered") {
     // A square on its corner, 0.01 m deep in the middle of a side: 0.01 m of its side, seen along
     // the normal.
     PlainPair<2> pair{plain(rectangle(4, 2)), plain(rectangle(1, 1)), {}, {}};

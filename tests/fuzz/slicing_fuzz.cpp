@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: any ground, joints and limits, sliced in the plane and in space.
+// libFuzzer target: any ground, joints and limits, sliced in 2-D and 3-D.
 //
 // Either the input is refused (InvalidInput), or the blocks fill the ground, are convex, keep the
 // limits, and touch each other and the sides all over their faces.

@@ -179,7 +179,7 @@ TEST_SUITE("geometry/joint_plane") {
     CHECK(std::abs(parts.above->area() - 1) < 1e-15);
   }
 
-  TEST_CASE("a joint without end covers any ball, and stays in its plane") {
+  TEST_CASE("a fully persistent joint covers any ball, and stays in its plane") {
     Random random(3);
     for (int trial = 0; trial < 50; ++trial) {
       const Vec3 point = random_point(random, 30), centre = random_point(random, 30);

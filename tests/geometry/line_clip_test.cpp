@@ -176,7 +176,7 @@ TEST_SUITE("geometry/line_clip") {
     }
   }
 
-  TEST_CASE("in the plane a line along a face goes to the block on its left") {
+  TEST_CASE("in 2-D a line along a face goes to the block on its left") {
     const ConvexPolygon left = voussoir_test::polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
     const ConvexPolygon right = voussoir_test::polygon({{0, -1}, {1, -1}, {1, 0}, {0, 0}});
     double from = 0, to = 0;

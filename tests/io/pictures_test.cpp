@@ -79,7 +79,7 @@ TEST_SUITE("io/blocks_picture") {
     const std::string bolted = draw_blocks_picture(picture);
     CHECK(xml_fault(bolted) == "");
     for (const std::string text :
-         {"Case &lt;A&gt; &amp; B", "Stable.", "slipped joint", "opened joint", "fallen block",
+         {"Case &lt;A&gt; &amp; B", "Stable.", "slipped joint", "opened joint", "detached block",
           "bolt yields", "bolt ruptured", "force in bolt, 50 kN", "Greatest force in each bolt"}) {
       CAPTURE(text);
       CHECK(contains(bolted, text));
@@ -180,7 +180,7 @@ TEST_SUITE("io/interaction_picture") {
     const std::string text = draw_interaction_picture(small_diagram());
     CHECK(xml_fault(text) == "");
     for (const std::string part :
-         {">20.4<", ">4.20<", ">no bolts<", ">7.5°<", "blocks fall", "% of a", "t / D"}) {
+         {">20.4<", ">4.20<", ">no bolts<", ">7.5°<", "blocks detach", "% of a", "t / D"}) {
       CAPTURE(part);
       CHECK(contains(text, part));
     }
@@ -238,7 +238,7 @@ TEST_SUITE("io/interaction_picture") {
     CHECK(xml_fault(text) == "");
     CHECK(contains(text, "stiffer &lt;bar&gt;: 12.3"));
     CHECK_FALSE(contains(text, "beyond the axis"));
-    CHECK(contains(text, "bare: blocks fall"));
+    CHECK(contains(text, "bare: blocks detach"));
     CHECK_FALSE(contains(text, "nan"));
     CHECK(contains(text, "other bars"));
     CHECK_FALSE(contains(draw_interaction_picture(small_diagram()), "other"));

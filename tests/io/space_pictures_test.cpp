@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Views and ParaView files of tunnels in space.
+// Views and ParaView files of tunnels in 3-D.
 #include <doctest/doctest.h>
 
 #include <regex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements in space, pinned bars and bonded chains.
+// Elements in 3-D, pinned bars and bonded chains.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>

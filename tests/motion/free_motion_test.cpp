@@ -177,7 +177,7 @@ TEST_SUITE("motion/free_motion") {
     CHECK(std::abs(run.energy().relative_imbalance()) < 2e-3);
   }
 
-  TEST_CASE("so does one in space") {
+  TEST_CASE("so does one in 3-D") {
     Space run(joint, {.gravity = 0, .safety = 0.05});
     for (int k = 0; k < 8; ++k) {
       const Vec3 place = 1.2 * Vec3(k & 1, (k >> 1) & 1, (k >> 2) & 1);
@@ -196,7 +196,8 @@ TEST_SUITE("motion/free_motion") {
 
   TEST_CASE("turned and moved a million metres away, the same heap does the same") {
     // Vertices at 1e6 m are rounded to 1e-10 m, and every collision enlarges what is different.
-    // Contacts are found again at every step: when else is a matter of boxes along the axes.
+    // Contacts are updated at every step: else the time of an update is a matter of boxes along the
+    // axes.
     Plane here = heap(Vec2::Zero(), 0);
     const Vec2 far(1e6, -2e6);
     const double turn = 0.7;
@@ -248,11 +249,12 @@ TEST_SUITE("motion/free_motion") {
     run.advance(0.2);
     CHECK(run.position(late).y() == doctest::Approx(1.8 - 0.5 * 9.81 * 0.04).epsilon(1e-12));
     run.advance(0.1);
-    // 0.2 % is lost in the knocks, in each of which a joint closes and opens within some steps.
+    // 0.2 % is lost in the impacts, in each of which a joint closes and opens within some steps.
     CHECK(std::abs(run.energy().relative_imbalance()) < 5e-3);
     run.set_local_damping(0.8);
     run.advance(1);
-    // At rest the account is held against what was at stake: the fall, seen every 100 steps.
+    // At rest the energy balance is compared with what was at stake: the fall, seen every 100
+    // steps.
     CHECK(run.energy().highest_kinetic == doctest::Approx(2700 * 9.81 * 0.3).epsilon(0.2));
     CHECK(run.energy().scale() >= run.energy().highest_kinetic);
     const double weight = 2700 * 9.81;

@@ -158,7 +158,7 @@ TEST_SUITE("motion/lining") {
 
   // A mass M that falls by h on a light spring k: deflection d (1 + sqrt(1 + 2 h / d)), d = M g /
   // k; k is that of a beam clamped at both ends, 192 E I / L^3, in a row with the joint, k_n b. The
-  // beam has 1 % of the mass, whose knock may cost so much: sqrt of it in the deflection, 0.5 %.
+  // beam has 1 % of the mass, whose impact may cost so much: sqrt of it in the deflection, 0.5 %.
   TEST_CASE("a block that lands on a beam bends it as much as its energy says") {
     for (const double height : {0.0, 0.02, 0.1}) {
       CAPTURE(height);

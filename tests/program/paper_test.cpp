@@ -27,7 +27,7 @@ using voussoir_test::Folder;
 
 namespace {
 
-/// A tunnel that stands in every sample and is quick.
+/// A tunnel that stands in every realisation and is quick.
 const Variant quick{.bolts = Bolts{}, .lining = Lining{}};
 
 Section all_decided() {
@@ -101,7 +101,7 @@ TEST_SUITE("program/paper") {
     CHECK(cause(explained) == "because");
   }
 
-  TEST_CASE("measured over samples: what collapsed or fell is counted and said") {
+  TEST_CASE("measured over realisations: what collapsed or detached is counted and said") {
     Measured m;
     Outcome stands, collapses;
     stands.report.verdict = voussoir::Verdict::stable;
@@ -116,11 +116,11 @@ TEST_SUITE("program/paper") {
     CHECK(m.deviation() == 2);
     CHECK_FALSE(m.complete());
     CHECK(m.text(10, "mm", 3) ==
-          "30.0 ± 20 mm (5 samples; 1 collapsed; 1 have lost that rock; 1 shed rock)");
+          "30.0 ± 20 mm (5 realisations; 1 collapsed; 1 have lost that rock; 1 shed rock)");
     Measured none;
     none.add(collapses, 1);
     CHECK(std::isnan(none.mean()));
-    CHECK(none.text(1, "mm") == "no value (1 sample; 1 collapsed)");
+    CHECK(none.text(1, "mm") == "no value (1 realisation; 1 collapsed)");
   }
 
   TEST_CASE("the same outcomes on one thread and two; every tunnel computed once") {
@@ -186,7 +186,7 @@ TEST_SUITE("program/paper") {
                          std::runtime_error);
   }
 
-  TEST_CASE("samples that collapse have their mark in a plot, never a gap") {
+  TEST_CASE("realisations that collapse have their mark in a plot, never a gap") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Plot plot{"p", "P", "x", "y", {}};
     draw(plot, {{"whole", Mark::points, {1, 2}, {5, 6}, {}}, {"gone", Mark::failed, {}, {}}, {}});
@@ -199,7 +199,7 @@ TEST_SUITE("program/paper") {
     CHECK(plot.series[2].y == std::vector<double>{6, 0.5});
     CHECK(plot.series[3].name == "none");
 
-    // The tunnel without support: of the first two samples one stands.
+    // The tunnel without support: of the first two realisations one stands.
     Study study(2, 2);
     const Swept bare = swept(
         study, "bare", {1}, [](double) { return Variant{}; }, crown, 1e3);
@@ -207,7 +207,7 @@ TEST_SUITE("program/paper") {
     CHECK(bare.failed.x == std::vector<double>{1});
     CHECK(collapsed_text(study, {{"held", quick}}).empty());
     CHECK(collapsed_text(study, {{"held", quick}, {"bare", Variant{}}}) ==
-          "Collapsed: bare " + std::to_string(bare.measured[0].collapsed) + " of 2 samples.");
+          "Collapsed: bare " + std::to_string(bare.measured[0].collapsed) + " of 2 realisations.");
   }
 
   TEST_CASE("the report holds every section, plot and claim, and no other file") {

@@ -38,7 +38,7 @@ RockMass<Planar> bricks() {
   return slice({{0, 0}, {4, 4}}, joints, {});
 }
 
-/// Column and row of the brick that a passage runs in.
+/// Column and row of the brick that an intersection runs in.
 std::vector<Vec2> cells(const RockMass<Planar>& mass, const std::vector<Passage>& passages) {
   std::vector<Vec2> result;
   for (const Passage& p : passages)
@@ -49,7 +49,8 @@ std::vector<Vec2> cells(const RockMass<Planar>& mass, const std::vector<Passage>
 /// Ordered, without gap or overlap, from `from` to `to`, and each in the body it names.
 void check_covered(const RockMass<Planar>& mass, const Segment& line, double from, double to,
                    const std::vector<Passage>& passages) {
-  // Passages shorter than the tolerance are left out, and lines are clipped to it at every face.
+  // Intersections shorter than the tolerance are left out, and lines are clipped to it at every
+  // face.
   const double slack = 4 * mass.domain.tolerance();
   REQUIRE_FALSE(passages.empty());
   CHECK(std::abs(passages.front().from - from) <= slack);
@@ -78,7 +79,7 @@ void check_covered(const RockMass<Planar>& mass, const Segment& line, double fro
 }  // namespace
 
 TEST_SUITE("rockmass/pierce") {
-  TEST_CASE("random bars: passages are in order, without gap, as long as the bar") {
+  TEST_CASE("random bars: intersections are in order, without gap, as long as the bar") {
     Random random(1);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const auto mass = jointed_rock(ground, seed);
@@ -132,7 +133,7 @@ TEST_SUITE("rockmass/pierce") {
     }
   }
 
-  TEST_CASE("a bar inside one block has one passage, its whole length") {
+  TEST_CASE("a bar inside one block has one intersection, its whole length") {
     const auto passages = pierce(bricks(), {{1.2, 2.3}, {1.8, 2.9}});
     REQUIRE(passages.size() == 1);
     CHECK(passages[0].from == 0);
@@ -160,7 +161,7 @@ TEST_SUITE("rockmass/pierce") {
     CHECK(std::abs(passages[1].to - passages[1].from - std::sqrt(2.0)) < 1e-14);
   }
 
-  TEST_CASE("outside the domain there is no passage") {
+  TEST_CASE("outside the domain there is no intersection") {
     const auto mass = bricks();
     const Segment across{{-1, 0.5}, {6, 0.5}};
     const auto passages = pierce(mass, across);
@@ -174,7 +175,7 @@ TEST_SUITE("rockmass/pierce") {
     CHECK(pierce(mass, {{4, 3.5}, {4, 0.5}}).empty());
   }
 
-  TEST_CASE("an opening is a gap, and parts of one body are one passage") {
+  TEST_CASE("an opening is a gap, and parts of one body are one intersection") {
     // One block round a square hole: cut into parts by the lines of the outline, yet one body.
     const auto mass =
         carve(slice(ground, {}, {}), SimplePolygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), 0);
@@ -203,7 +204,7 @@ TEST_SUITE("rockmass/pierce") {
     }
   }
 
-  TEST_CASE("turning a bar round gives the same passages the other way") {
+  TEST_CASE("turning a bar round gives the same intersections the other way") {
     Random random(6);
     const auto mass = jointed_rock(ground, 6);
     for (int k = 0; k < 100; ++k) {

@@ -243,8 +243,8 @@ TEST_SUITE("rockmass/slicing") {
   TEST_CASE("the reference masses have the block counts and spacings of the study") {
     // Another program measured, with its own random numbers: mass A (r 0.25, L 1, mr 5) s = 0.63, B
     // (0.36, 2, 5) s = 0.775, C (0.5, 5, none) 2041 blocks, s = 0.99, and for r 0.25, L 1 without a
-    // limit 5759 blocks, s = 0.60. Samples differ by about 0.01 in s and 1 % in number; three are
-    // averaged, and the bounds are 0.03 (0.04 for B) and 3 %.
+    // limit 5759 blocks, s = 0.60. Realisations differ by about 0.01 in s and 1 % in number; three
+    // are averaged, and the bounds are 0.03 (0.04 for B) and 3 %.
     struct Reference {
       double radius, elongation, extent, blocks, spacing, margin;
     };
@@ -268,7 +268,7 @@ TEST_SUITE("rockmass/slicing") {
 
   TEST_CASE("slicing set by set gives another, useless rock") {
     // The study, r 0.5 and L 5: shuffled 0.95 vertical against 1.08 horizontal, ratio 0.88; set 1
-    // first 1.63 against 0.69, ratio 2.4. The bounds lie far from both, for samples scatter.
+    // first 1.63 against 0.69, ratio 2.4. The bounds lie far from both, for realisations scatter.
     const auto shuffled = jointed_rock(paper_ground, 1, {0.5, inf}, 5);
     auto sorted_joints = shuffled.joints;
     std::stable_sort(sorted_joints.begin(), sorted_joints.end(),
@@ -578,7 +578,7 @@ TEST_SUITE("rockmass/slicing") {
       CHECK_THROWS_AS((void)slice(bad, {}, {}), InvalidInput);
   }
 
-  TEST_CASE("a joint that is not finite is refused by its number, in the plane and in space") {
+  TEST_CASE("a joint that is not finite is refused by its number, in 2-D and 3-D") {
     const double nan = std::nan("");
     const std::vector<Joint> flat{{{{0, 1}, {4, 1}}, 0}, {{{0, nan}, {4, 2}}, 2}};
     CHECK_THROWS_WITH_AS((void)slice({{0, 0}, {4, 4}}, flat, {}),

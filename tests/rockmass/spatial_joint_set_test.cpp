@@ -136,7 +136,7 @@ TEST_SUITE("rockmass/spatial_joint_set") {
         },
         "dip_length = inf must be > 0 and finite");
     refused([](Set& s) { s.shape = PersistentJoints{}; },
-            "count_per_volume = 1 must be 0 for joints without end, which have no centre: "
+            "count_per_volume = 1 must be 0 for fully persistent joints, which have no centre: "
             "give spacing or area_per_volume");
     CHECK_THROWS_AS((void)joint_network({discs()}, {{0, 0, 0}, {1, 0, 1}}, 1), InvalidInput);
   }
@@ -231,7 +231,8 @@ TEST_SUITE("rockmass/spatial_joint_set") {
     }
   }
 
-  TEST_CASE("joints without end: P32 is 1 / spacing, or as given, whatever their orientation") {
+  TEST_CASE(
+      "fully persistent joints: P32 is 1 / spacing, or as given, whatever their orientation") {
     const Domain<3> ground{{-3, -4, -5}, {6, 5, 4}};
     for (const double dip : {0.0, 35.0, 90.0}) {
       CAPTURE(dip);

@@ -171,7 +171,7 @@ TEST_SUITE("rockmass/spatial_slicing") {
     }
   }
 
-  TEST_CASE("upright joints cut in space what their traces cut in the plane") {
+  TEST_CASE("upright joints cut in 3-D what their traces cut in 2-D") {
     // The section's rock, 20 m thick: a trace from a to b is a rectangle on a - b and all of y.
     const Domain<2> section{{-5, -4}, {6, 5}};
     const Domain<3> ground{{-5, -10, -4}, {6, 10, 5}};

@@ -58,7 +58,8 @@ TEST_SUITE("solver/equilibrium_methods") {
     for (const double damping : {0.7, 0.3, 0.1}) {
       Solver<> sudden = bolted_tunnel();
       const EquilibriumReport report = find(sudden, explicit_run(damping, 0));
-      CHECK(report.verdict == Verdict::stable);  // with as good an unbalance as anybody's
+      CHECK(report.verdict ==
+            Verdict::stable);  // with as good an out-of-balance force ratio as any
       CHECK(report.unbalance_over_weight < 1e-2);
       crown.push_back(crown_ratio(sudden));
     }

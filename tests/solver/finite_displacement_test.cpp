@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Equilibrium after displacements that are not small: contacts found again on the way, by every
+// Equilibrium after displacements that are not small: contact updates during the search, by every
 // method; and turning everything as a whole changes nothing.
 #include <doctest/doctest.h>
 
@@ -85,7 +85,8 @@ TEST_SUITE("solver/finite_displacement") {
     REQUIRE(report.verdict == Verdict::stable);
     CHECK(report.fallen.empty());
     // The block comes to rest where the stop's spring k_n h carries W sin a. Nothing rubs, so the
-    // way there does not matter; the unbalance of 1e-4 W leaves 2e-4 of the spring's closure.
+    // way there does not matter; the out-of-balance force of 1e-4 W leaves 2e-4 of the spring's
+    // closure.
     const double weight = scene.system.body(b).weight;
     const double closure = weight * std::sin(slope) / (kn * 0.2);
     CHECK(std::abs(scene.system.displacement[3 * b] - gap - closure) <= 1e-3 * closure);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts of whole tunnels found again: where nothing has moved far, nothing may change.
+// Contact updates of whole tunnels: where nothing has moved far, nothing may change.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ double unbalance(Tunnel& tunnel) {
 TEST_SUITE("solver/found_again") {
   TEST_CASE("rock in its in-situ stress stays in equilibrium, whatever the reach") {
     // Facets come from the detector instead of the cuts: they differ by its tolerance, 1e-8 m. In
-    // space it also finds slivers along edges, 2e-5 of the area, that no cut was made for.
+    // 3-D it also finds slivers along edges, 2e-5 of the area, that no cut was made for.
     for (const double reach : {1e-6, 0.04}) {
       Solver<> tunnel = bolted_tunnel();
       const std::size_t before = tunnel.system().joints.contacts().size();
@@ -63,7 +63,7 @@ TEST_SUITE("solver/found_again") {
       CHECK_THROWS_AS((void)tunnel.equilibrium(0, TwoLevel{}, bad), InvalidInput);
   }
 
-  TEST_CASE("to find them again often on the way to equilibrium changes nothing") {
+  TEST_CASE("to update them often during the search changes nothing") {
     for (const double limit : {1e-3, 2e-4}) {
       CAPTURE(limit);
       Solver<> tunnel = bolted_tunnel();

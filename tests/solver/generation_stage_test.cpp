@@ -80,7 +80,7 @@ TEST_SUITE("solver/generation_stage") {
     }
   }
 
-  TEST_CASE("a tunnel taken out of it converges; sides that are held do not move") {
+  TEST_CASE("a tunnel taken out of it converges; sides that are fixed do not move") {
     auto made = generation_stage(rock(), opening, joint(1 * degree), shallow,
                                  {.overlap_limit = 0.3}, {.unbalance = 0.02});
     made.fix_sides();
@@ -106,7 +106,7 @@ TEST_SUITE("solver/generation_stage") {
     CHECK(made.run.contact_load(made.inside.front()).force.norm() == 0);
     made.run.advance(0.01);
     CHECK(made.run.position(made.inside.front()) == gone);
-    // A fault right after a block was held is found before anything moves.
+    // A fault right after a block was fixed is found before anything moves.
     made.run.fix(0);
     const double time = made.run.time();
     made.run.set_velocity(1, {std::nan(""), 0});

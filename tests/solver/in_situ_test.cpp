@@ -22,7 +22,8 @@ using voussoir_test::jointed_rock;
 
 namespace {
 
-/// Worst unbalanced force over the weight of its block; worst moment over weight times gyration.
+/// Worst out-of-balance force over the weight of its block; worst moment over weight times
+/// gyration.
 struct Unbalance {
   double force = 0, moment = 0;
 };
@@ -114,7 +115,7 @@ TEST_SUITE("solver/in_situ") {
                     CoulombJoint({5e9, 5e8, 60 * degree}), {.density = 2700, .k0 = 0.7});
     solver.excavate(opening, 0.01);
     const auto& system = solver.system();
-    CHECK(unbalance(solver).force < 1e-12);  // with all of the traction left
+    CHECK(unbalance(solver).force < 1e-12);  // with the whole wall traction
     std::vector<char> at_wall(static_cast<std::size_t>(system.body_count()), 0);
     Vec2 wall_force = Vec2::Zero();
     for (const auto& piece : wall_pieces(solver.mass()))

@@ -74,8 +74,9 @@ TEST_SUITE("solver/incline") {
       const double lighter = 0.5 * down - 0.5 * height * along / (width / std::sqrt(3.0));
       REQUIRE(0.5 * along < lighter * std::tan(friction));
       CHECK(system.displacement.segment<3>(0).norm() == 0);
-      // An unbalance of 1e-9 of the weight leaves 1e-9 of the displacement, over the softest
-      // spring. A relaxation swings past it and may slip on the way; it only has to hold the block.
+      // An out-of-balance force of 1e-9 of the weight leaves 1e-9 of the displacement, over the
+      // softest spring. A relaxation swings past it and may slip on the way; it only has to hold
+      // the block.
       if constexpr (std::is_same_v<Method, TwoLevel>)
         CHECK((system.displacement.segment<3>(3) - expected).norm() <= 1e-8 * expected.norm());
       CHECK(system.displacement[3] >= (1 - 1e-8) * expected[0]);
@@ -98,10 +99,10 @@ TEST_SUITE("solver/incline") {
                         [&](const auto&, const auto&, const auto&, const PointForce<2>& f) {
                           shear += std::abs(f.tangential[0]);
                         });
-    CHECK(std::abs(shear - along) <= 0.01 * weight);  // the acceptance on the unbalance
+    CHECK(std::abs(shear - along) <= 0.01 * weight);  // the acceptance on the force ratio
   }
 
-  TEST_CASE_TEMPLATE("it does not stay for tan a > mu: it falls, is removed and counted", Method,
+  TEST_CASE_TEMPLATE("it does not stay for tan a > mu: it detaches, is removed and counted", Method,
                      TwoLevel, Relaxation, Explicit) {
     Incline system = block_on_plane(40 * degree, 35 * degree);
     const EquilibriumReport report = Method{}.find(system, context());
@@ -112,7 +113,7 @@ TEST_SUITE("solver/incline") {
     CHECK(report.verdict == Verdict::stable);
   }
 
-  TEST_CASE_TEMPLATE("fallen rock beyond the limit is a collapse", Method, TwoLevel, Relaxation,
+  TEST_CASE_TEMPLATE("detached rock beyond the limit is a collapse", Method, TwoLevel, Relaxation,
                      Explicit) {
     Incline system = block_on_plane(40 * degree, 35 * degree);
     SearchContext strict = context();

@@ -117,7 +117,7 @@ TEST_SUITE("solver/lined_rock") {
     CHECK(b.largest_moment == 0);
   }
 
-  TEST_CASE("so do ribs in space") {
+  TEST_CASE("so do ribs in 3-D") {
     const Domain<3> ground{{-6, 0, -6}, {6, 2, 7}};
     SpatialJointSet a{"J1", 75 * degree, 80 * degree}, b{"J2", 25 * degree, 100 * degree},
         c{"J3", 80 * degree, 5 * degree};

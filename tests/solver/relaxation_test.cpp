@@ -13,7 +13,7 @@ using namespace voussoir_test;
 
 TEST_SUITE("solver/relaxation") {
   TEST_CASE("a committing relaxation overshoots as a sudden excavation does") {
-    // It commits slip on the way; hence it only finds out what falls. Measured crown: +13 %.
+    // It commits slip on the way; hence it only finds out what detaches. Measured crown: +13 %.
     Solver<> tunnel = bolted_tunnel();
     const EquilibriumReport report = find(tunnel, Relaxation{});
     CHECK(report.verdict == Verdict::stable);

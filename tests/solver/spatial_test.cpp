@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The solver in space: equilibrium before excavation, prismatic openings, a slice against the plane
+// The solver in 3-D: equilibrium before excavation, prismatic openings, a slice against the plane
 // analysis, bolts and linings.
 #include <doctest/doctest.h>
 

@@ -258,7 +258,7 @@ TEST_SUITE("solver/system") {
     CHECK((felt.segment<2>(3 * 2) - 3e8 / 1.25 * across).norm() <= 1e-9 * felt.norm());
   }
 
-  TEST_CASE("a system turned in space feels turned forces") {
+  TEST_CASE("a system turned in 3-D feels turned forces") {
     const AxialBolt tensioned({.axial_stiffness = 2e8, .pretension = 1e5});
     Wall upright(tensioned, 30 * degree), turned(tensioned, 30 * degree, 0.7);
     for (const double size : {1e-6, 1e-4, 1e-3}) {
@@ -464,7 +464,7 @@ TEST_SUITE("solver/system") {
     CHECK(system.relative_correction(u, u) == doctest::Approx(1e3));
   }
 
-  TEST_CASE("unbalance is force plus moment over gyration, over the weight") {
+  TEST_CASE("the out-of-balance force ratio is force plus moment over gyration, over the weight") {
     Wall wall(bar());
     Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * wall.system.body_count());
     f.segment<3>(3) << 300, -400, -20;  // on B: 500 N and 20 N m at a gyration of sqrt(1/6) m

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// One bolted tunnel, for every way to its equilibrium: a 5 m opening under 10 m of cover in 35 m x
+// One bolted tunnel, for every solution procedure: a 5 m opening under 10 m of cover in 35 m x
 // 30 m of rock like reference mass A, 1420 blocks, seed 2. Differences are relative L2 norms over
 // the displacements of all blocks.
 #include <doctest/doctest.h>

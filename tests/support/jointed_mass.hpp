@@ -13,7 +13,7 @@
 
 #include "support/degree.hpp"
 
-/// Jointed rock in space to test with.
+/// Jointed rock in 3-D to test with.
 namespace voussoir_test {
 
 using voussoir::Vec3;

@@ -74,7 +74,7 @@ TEST_SUITE("tunnel/interaction_diagram") {
     CHECK(interaction_diagram(0, 6, 2, labelled).empty());
   }
 
-  TEST_CASE("a point is no design if rock fell or no equilibrium was found") {
+  TEST_CASE("a point is no design if rock detached or no equilibrium was found") {
     DiagramPoint point = labelled(0, 0);
     CHECK(!point.failed());
     point.report.fallen_measure = 0.1;

@@ -73,7 +73,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
       CHECK(at.force <= 2e8 * 0.5 * 0.0672 * 1e-6);
   }
 
-  TEST_CASE("the wall is measured once, all of it, and without what has fallen") {
+  TEST_CASE("the wall is measured once, all of it, and without what is detached") {
     Solver<> tunnel = tunnel_in_rock();
     const auto pieces = wall_pieces(tunnel.mass());
     CHECK(wall_motion(tunnel).size() == pieces.size());

@@ -26,7 +26,7 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
 
 /// Chooses the two anchors of a bolt at every joint it crosses.
 ///
-/// What the compiler cannot check: anchors stay inside the passages, 0 <= distance <= length.
+/// What the compiler cannot check: anchors stay inside the intersections, 0 <= distance <= length.
 ///
 /// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
 template <class Anchors>

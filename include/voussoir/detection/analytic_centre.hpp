@@ -38,7 +38,7 @@ namespace voussoir {
 /// dips by d into a face makes a triangle with feet at p < 0 < q from below the tip (|p| <= q); its
 /// centre is the centroid, where the triangle is d (2 q - p) / (3 q) thick: d for an upright
 /// corner, 2 d / 3 where one side is upright, as where a block has turned on its neighbour. In
-/// space the same goes down to d / 2. The normal adds to it: between two corners it leans to the
+/// 3-D the same goes down to d / 2. The normal adds to it: between two corners it leans to the
 /// diagonal, and a chord that leans is longer. Measured on masses of three joint sets, blocks of
 /// about 1 m moved at random by 0.1 mm and 0.1 mrad, and by 30 mm and 20 mrad:
 ///
@@ -55,7 +55,7 @@ namespace voussoir {
 /// Two deviations from the source. It takes the normal from a smooth "inner potential particle"
 /// whose corners have a radius, a parameter; this is `Pair`'s `rounding`, and the default is the
 /// barrier itself, which needs no parameter and leans less: with a radius of 0.1 m a quarter of the
-/// normals in the plane are more than 24 degrees off and depths reach 300 times the least. And
+/// normals in 2-D are more than 24 degrees off and depths reach 300 times the least. And
 /// rays meet planes in closed form instead of by bracketing.
 ///
 /// Decisions are as good as the planes, which are rounded to about 1e-14 m (at 100 m): right for
@@ -63,7 +63,7 @@ namespace voussoir {
 /// a corner, 1e-10 m for needles of 1e-4 rad.
 ///
 /// @cost  a candidate pair of a rock mass, of which a fifth to a third touch: with memory 0.16 to
-///        0.27 us, without 0.7 us in the plane and 1.5 us in space (g++ 12, -O3 -march=native)
+///        0.27 us, without 0.7 us in 2-D and 1.5 us in 3-D (g++ 12, -O3 -march=native)
 ///
 /// Source: Boon, Houlsby and Utili (2012), A new algorithm for contact detection between convex
 /// polygonal and polyhedral particles in the discrete element method, Computers and Geotechnics 44,

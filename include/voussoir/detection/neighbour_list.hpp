@@ -46,8 +46,9 @@ template <int Dim>
 /// soon: boxes are enlarged by half the margin, and the list holds good until one leaves its
 /// enlarged box. Boxes are found in a grid of cells about as large as they are.
 ///
-/// Within a pair the shape whose home lies lower in x (then y, z) comes first, so that what is
-/// computed from a pair depends neither on how shapes are numbered nor on where they have been.
+/// Within a pair the shape whose reference position lies lower in x (then y, z) comes first, so
+/// that what is computed from a pair depends neither on how shapes are numbered nor on where they
+/// have been.
 template <int Dim>
 class NeighbourList {
  public:

@@ -45,7 +45,7 @@ class ConvexPolyhedron {
   ///                       convex, no volume, a clockwise face, a vertex above a face, an edge
   ///                       without a second face; the message names the face or vertex, the value
   ///                       and the rule. Lengths are compared with 1e-9 of the size.
-  /// @cost  O(vertices * (vertices + faces)): all of them are held against each other
+  /// @cost  O(vertices * (vertices + faces)): all of them are compared with each other
   ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
                    const std::vector<int>& cuts) {
     if (cuts.size() != faces.size())

@@ -18,14 +18,14 @@
 
 namespace voussoir {
 
-/// The extent of a joint in space: a convex polygon in its plane, or the whole plane.
+/// The extent of a joint in 3-D: a convex polygon in its plane, or the whole plane.
 struct JointPlane {
   HalfSpace<3> plane;         ///< its normal points out of the rock below the joint
   std::vector<Vec3> corners;  ///< anticlockwise seen against the normal [m]; none: without end
 
   [[nodiscard]] bool is_unbounded() const { return corners.empty(); }
 
-  /// Area [m^2]; infinite for a joint without end.
+  /// Area [m^2]; infinite for a fully persistent joint.
   [[nodiscard]] double area() const {
     if (is_unbounded()) return std::numeric_limits<double>::infinity();
     double doubled = 0;
@@ -144,7 +144,7 @@ inline constexpr int disc_corners = 32;
   return joint;
 }
 
-/// The part of a joint without end that covers the ball given; other joints as they are.
+/// The part of a fully persistent joint that covers the ball given; other joints as they are.
 [[nodiscard]] inline JointPlane covering(const JointPlane& joint, const Vec3& centre,
                                          double radius) {
   if (!joint.is_unbounded()) return joint;
@@ -164,7 +164,7 @@ struct JointPlaneSplit {
 /// @cost  linear in the corners; allocates only where the plane crosses the joint
 [[nodiscard]] inline JointPlaneSplit split(JointPlane&& joint, const HalfSpace<3>& side,
                                            double tolerance) {
-  VOUSSOIR_ASSERT(!joint.is_unbounded(), "a joint without end is covered before it is split");
+  VOUSSOIR_ASSERT(!joint.is_unbounded(), "a fully persistent joint is covered before it is split");
   const auto snapped = [&](const Vec3& corner) {
     const double d = side.distance(corner);
     return std::abs(d) <= tolerance ? 0.0 : d;

@@ -15,10 +15,10 @@
 
 namespace voussoir {
 
-/// A tunnel in space: a section of any outline, drawn along y.
+/// A tunnel in 3-D: a section of any outline, drawn along y.
 ///
-/// The section's x and y are x and z in space. A tunnel without end goes through all the rock; one
-/// that ends has a face there.
+/// The section's x and y are x and z in 3-D. A tunnel of unlimited length goes through all the
+/// rock; one that ends has a face there.
 class PrismaticOpening {
  public:
   static constexpr double endless = std::numeric_limits<double>::infinity();

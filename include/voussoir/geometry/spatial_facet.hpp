@@ -11,7 +11,7 @@
 
 namespace voussoir {
 
-/// A flat convex polygon in space: a contact, a piece of a face, a piece of tunnel wall.
+/// A flat convex polygon in 3-D: a contact, a piece of a face, a piece of tunnel wall.
 struct SpatialFacet {
   std::vector<Vec3> vertices;  ///< anticlockwise seen from where the area vector points [m]
 

@@ -5,7 +5,7 @@
 
 namespace voussoir {
 
-/// A straight piece of line in space: a bolt, a scanline.
+/// A straight piece of line in 3-D: a bolt, a scanline.
 struct SpatialLine {
   Vec3 start, end;  ///< [m]
 

@@ -78,7 +78,7 @@ inline std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
                      box("#9aa3ab", "#222")});
   if (std::any_of(picture.blocks.begin(), picture.blocks.end(),
                   [](const PictureBlock& block) { return block.is_fallen; })) {
-    items.push_back({"fallen block", box("url(#hatch)", fallen_colour)});
+    items.push_back({"detached block", box("url(#hatch)", fallen_colour)});
   }
   if (!picture.bolts.empty()) items.push_back({"bolt", dash("black", 2)});
   if (forces.sample() > 0) {
@@ -113,7 +113,7 @@ inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const Pag
   canvas.begin_layer("joints");
   draw_joints(canvas, picture, map, std::clamp(0.075 * map.scale(), 0.6, 1.6));
   canvas.end_layer();
-  canvas.begin_layer("fallen-blocks");
+  canvas.begin_layer("detached-blocks");
   draw_fallen_blocks(canvas, picture, map);
   canvas.end_layer();
   canvas.begin_layer("opening");

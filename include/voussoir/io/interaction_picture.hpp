@@ -118,7 +118,7 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
   std::vector<LegendItem> items = {
       {"computed, " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
-  if (any_failed) items.push_back({"blocks fall", draw_failed_mark});
+  if (any_failed) items.push_back({"blocks detach", draw_failed_mark});
   if (any_undecided) items.push_back({"undecided: no result", draw_undecided_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
   if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});

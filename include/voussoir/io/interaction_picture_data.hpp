@@ -46,10 +46,10 @@ struct InteractionPicture {
   /// (thickness, spacing), SI: crown convergence, into the opening positive, unless `quantity` says
   /// what else; NaN: none.
   Eigen::MatrixXd values;
-  /// (thickness, spacing): blocks fall. Empty: nowhere. A failed point counts in the contours only
-  /// if it has a value.
+  /// (thickness, spacing): blocks detach. Empty: nowhere. A failed point counts in the contours
+  /// only if it has a value.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
-  /// (thickness, spacing): sought and not found, neither an equilibrium nor falling blocks. Such a
+  /// (thickness, spacing): sought and not found, neither an equilibrium nor detached blocks. Such a
   /// point has no value and is not failed. Empty: nowhere.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> undecided = {};
   std::optional<PictureBanner> banner = {};          ///< between header and diagram
@@ -57,7 +57,7 @@ struct InteractionPicture {
   /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
   struct Other {
     double thickness, spacing;  ///< as on the axes; drawn if within them
-    double value;               ///< SI, beside the label; NaN: "blocks fall"
+    double value;               ///< SI, beside the label; NaN: "blocks detach"
     std::string label;
   };
   std::vector<Other> others = {};

@@ -18,7 +18,7 @@
 
 namespace voussoir {
 
-/// How a rock mass in space is to be drawn.
+/// How a rock mass in 3-D is to be drawn.
 struct MassPicture {
   PictureHeader header;
   std::vector<std::string> set_names;       ///< by number of the set; "set 3" where there is none

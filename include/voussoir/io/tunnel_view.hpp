@@ -26,11 +26,11 @@ struct SupportLine {
   double force;   ///< [N]; decides the width
 };
 
-/// A tunnel in space, cut open along a vertical plane, as it is to be drawn.
+/// A tunnel in 3-D, cut open along a vertical plane, as it is to be drawn.
 struct TunnelView {
   PictureHeader header;
   std::vector<double> displacement;  ///< of every body of the mass [m]; colours the rock
-  std::vector<char> is_gone;         ///< bodies that have fallen; none if empty
+  std::vector<char> is_gone;         ///< bodies that are detached; none if empty
   std::vector<SupportLine> bolts, lining;
   double section_x = 0;                      ///< the rock at higher x is left out [m]
   double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
@@ -86,7 +86,7 @@ namespace detail {
   const ColourMap colours = ColourMap::straw_to_blue();
 
   // What can be seen: the section, the wall of the tunnel, the sides of the model, and where a
-  // block has fallen the faces around it.
+  // block is detached the faces around it.
   std::vector<char> is_bare(mass.cuts.size(), 0);
   for (std::size_t c = 0; c < mass.cuts.size(); ++c)
     is_bare[c] = mass.cuts[c].kind != Cut::Kind::joint;

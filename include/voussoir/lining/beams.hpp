@@ -22,7 +22,7 @@ namespace detail {
                         0,      vt, far,  0,      -vt, near});
 }
 
-/// The frame element in space: the plane one about both axes of the section, and torsion. Axes as
+/// The frame element in 3-D: the plane one about both axes of the section, and torsion. Axes as
 /// in `frame_axes`: bending_stiffness acts in the plane of x and y.
 [[nodiscard]] inline ElementMatrix<6> space_frame(const LiningSection& section, double length,
                                                   bool shears) {
@@ -93,7 +93,7 @@ struct TimoshenkoBeam {
 /// still does.
 ///
 /// The rock pushes on the pins themselves (`is_pinned`). A pin does not turn: its rotation, which
-/// nothing loads, is held by a spring to nowhere so that there is an answer for it, zero.
+/// nothing loads, is fixed by a spring to nowhere so that there is an answer for it, zero.
 struct PinnedBar {
   using role = roles::Lining;
   static constexpr const char* name = "PinnedBar";

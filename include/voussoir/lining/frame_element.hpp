@@ -7,7 +7,7 @@
 
 namespace voussoir {
 
-/// The axes of an element, in rows. The first runs along it. In space the second lies in the plane
+/// The axes of an element, in rows. The first runs along it. In 3-D the second lies in the plane
 /// of the element and `outward`, on its side.
 /// @param along  from the first node to the second, of any length
 template <int Dim>
@@ -63,8 +63,8 @@ struct FrameElement {
   Rotation<dim> at_rest;  ///< its axes, in rows
   Matrix turn;            ///< world to element axes
   Matrix local;           ///< stiffness in element axes
-  /// Forces on the ends at displacement zero, element axes: not zero once contacts have been found
-  /// again, and the element has turned.
+  /// Forces on the ends at displacement zero, element axes: not zero once contacts have been
+  /// updated and the element has turned.
   Values start = Values::Zero();
 
   /// Forces on the two ends in element axes at displacement `u`.

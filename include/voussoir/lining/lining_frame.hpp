@@ -20,7 +20,7 @@ struct LiningContact {
 template <class Geometry>
 struct LiningMember {
   int first, second;  ///< node numbers
-  /// In space: towards the rock, about perpendicular to the member; bending in the plane of this
+  /// In 3-D: towards the rock, about perpendicular to the member; bending in the plane of this
   /// and the member is that of `LiningSection::bending_stiffness`.
   Vec<Geometry::dim> outward = Vec<Geometry::dim>::Zero();
   int section = 0;  ///< index into the sections given

@@ -15,8 +15,8 @@ struct LiningSection {
   double bending_stiffness;  ///< E I [N m^2]
   double shear_stiffness;    ///< kappa G A [N]
   double mass = 0;           ///< per length of lining [kg/m]; 0: weightless, as in the paper
-  double lateral_bending_stiffness = 0;  ///< in space: E I out of the plane of the section [N m^2]
-  double torsional_stiffness = 0;        ///< in space: G J [N m^2]
+  double lateral_bending_stiffness = 0;  ///< in 3-D: E I out of the plane of the section [N m^2]
+  double torsional_stiffness = 0;        ///< in 3-D: G J [N m^2]
 
   /// A rectangular section: shotcrete or concrete of thickness t, one metre wide, kappa = 5/6.
   /// @param thickness      [m], > 0 and <= 10
@@ -38,7 +38,7 @@ struct LiningSection {
     return {young_modulus * thickness, young_modulus * thickness * thickness * thickness / 12,
             5.0 / 6.0 * young_modulus / (2 * (1 + poisson_ratio)) * thickness};
   }
-  /// In space: a strip of shotcrete of this thickness and width, or a rectangular rib.
+  /// In 3-D: a strip of shotcrete of this thickness and width, or a rectangular rib.
   ///
   /// Torsion of a thin rectangle, width b >= thickness t: J = b t^3 (1/3 - 0.21 t/b (1 - t^4/(12
   /// b^4))). Source: Roark's formulas for stress and strain.

@@ -90,7 +90,7 @@ class ContactNetwork {
     });
   }
 
-  /// Finds contacts again where bodies have moved.
+  /// Updates contacts where bodies have moved.
   /// @param roles   of every body
   /// @param law_of  law_of(shape, normal): index of the law of the face of a shape that looks
   /// there
@@ -172,7 +172,7 @@ class ContactNetwork {
     return sum;
   }
 
-  /// A bound on the largest eigenvalue of M^-1 K of every body, all others held, its contacts
+  /// A bound on the largest eigenvalue of M^-1 K of every body, all others fixed, its contacts
   /// closed and sticking: the largest sum of a row [1/s^2].
   [[nodiscard]] const std::vector<double>& stiffness_over_mass(const Bodies& bodies) {
     for (std::size_t b = 0; b < bodies.size(); ++b)

@@ -31,7 +31,7 @@ struct WeightedPoint {
   double weight;   ///< [m], [m^2]
 };
 
-/// The points of a contact in the plane, from one end to the other.
+/// The points of a contact in 2-D, from one end to the other.
 ///
 ///   corners: Simpson's rule, 1/6, 4/6, 1/6: exact for polynomials of degree 3, as two Gauss points
 inline void place_points(ContactPoints rule, std::span<const Vec2> ends, double length,
@@ -53,7 +53,7 @@ inline void place_points(ContactPoints rule, std::span<const Vec2> ends, double 
   }
 }
 
-/// The points of a contact in space.
+/// The points of a contact in 3-D.
 ///
 ///   corners: the triangles of a fan about the centroid, each with 1/12 of its area on every corner
 ///   and 3/4 on its centroid: exact for polynomials of degree 2

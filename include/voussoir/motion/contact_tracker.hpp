@@ -36,7 +36,7 @@ class ContactTracker {
   };
 
   /// @param reach    contacts may be so far open [m]
-  /// @param refresh  how far the bodies of a contact move before it is looked at again [m]
+  /// @param refresh  how far the bodies of a contact move before it is updated [m]
   /// @param margin   see NeighbourList [m]
   ContactTracker(double reach, double refresh, double margin)
       : reach_(reach),

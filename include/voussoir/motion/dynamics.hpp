@@ -29,7 +29,7 @@
 
 namespace voussoir {
 
-/// Blocks that move: finite displacements and rotations, contacts found again as they go.
+/// Blocks that move: finite displacements and rotations, contact updates as they move.
 ///
 /// Velocity Verlet (kick, drift, kick) with a step that is stable for the masses and stiffnesses
 /// there are. Forces of contacts are computed first and then summed body by body in a fixed order:

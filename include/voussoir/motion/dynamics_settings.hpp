@@ -17,11 +17,11 @@ struct DynamicsSettings {
   ContactPoints points = ContactPoints::corners;
   bool find_contacts = true;  ///< false: the contacts stay those of the beginning
   double reach = 0;           ///< contacts are listed up to this gap [m]; 0: 2 % of the mean radius
-  /// Bodies of a contact move so far before it is found again [m]; 0: a quarter of the reach.
+  /// Bodies of a contact move so far before its contact update [m]; 0: a quarter of the reach.
   double refresh = 0;
   double overlap_limit = 0.05;  ///< of the smaller block's radius, beyond which the run stops [-]
   double speed_limit = 0;  ///< beyond which it stops [m/s]; 0: what a fall through all can give
-  int check_every = 100;   ///< steps between looks at the health of the run
+  int check_every = 100;   ///< steps between run diagnostics
   unsigned threads = 1;
 
   /// @throws InvalidInput  a value out of range

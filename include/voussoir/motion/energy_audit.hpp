@@ -13,9 +13,9 @@ namespace voussoir {
 /// shrinks with the square of the step while nothing slides; with the step itself where dashpots
 /// act, whose velocity is half a step old.
 struct EnergyAudit {
-  double kinetic = 0;    ///< held by the bodies, difference to the beginning
-  double contacts = 0;   ///< held by the springs of joints, difference to the beginning
-  double supports = 0;   ///< held by bolts and lining, or lost by yielding bolts
+  double kinetic = 0;    ///< stored in the bodies, difference to the beginning
+  double contacts = 0;   ///< stored in the springs of joints, difference to the beginning
+  double supports = 0;   ///< stored in bolts and lining, or lost by yielding bolts
   double gravity = 0;    ///< work done by the weight
   double loads = 0;      ///< work done by all other loads
   double friction = 0;   ///< lost to slip
@@ -24,7 +24,7 @@ struct EnergyAudit {
   double refound = 0;    ///< given to the springs where contacts were found anew in another form
   double highest_kinetic = 0;  ///< of the differences seen at checks so far: what has been at stake
 
-  /// What is held and lost, less the work done: zero but for the error of the steps.
+  /// What is stored and lost, less the work done: zero but for the error of the steps.
   [[nodiscard]] double imbalance() const {
     return kinetic + contacts + supports + friction + viscosity + damping - gravity - loads -
            refound;

@@ -59,7 +59,7 @@ struct MovingBody {
     }
     return std::sqrt(linear) + std::sqrt(angular) * radius;
   }
-  /// A spin or moment from the world's axes to the body's, and back; in the plane there is one.
+  /// A spin or moment from the world's axes to the body's, and back; in 2-D there is one.
   [[nodiscard]] Spin<Dim> to_body(const Spin<Dim>& v) const {
     if constexpr (Dim == 2)
       return v;
@@ -81,7 +81,7 @@ struct MovingBody {
   ///
   /// In 3-D the turn is composed of turns about the principal axes, 3-2-1-2-3, each with the
   /// angular momentum about it held: symmetric, hence of second order and reversible; it keeps the
-  /// angular momentum in space to rounding.
+  /// angular momentum in 3-D to rounding.
   ///
   /// Source: Dullweber, Leimkuhler & McLachlan (1997), J. Chem. Phys. 107, 5840-5851.
   void drift(double step) {

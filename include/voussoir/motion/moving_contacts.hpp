@@ -139,7 +139,7 @@ class MovingContacts {
       return rotation * moment;
   }
 
-  /// The same in the plane, number by number: Eigen's two-vectors are carried through memory by
+  /// The same in 2-D, number by number: Eigen's two-vectors are carried through memory by
   /// g++ 12 when they are put together from parts, which doubles the time.
   template <class Body>
   [[nodiscard]] Reaction<Dim> react_in_plane(const Contact& c, const Body& a, const Body& b,

@@ -15,7 +15,7 @@ namespace voussoir::detail {
 /// The lengths and the speed that a run goes by, where its settings leave them to be chosen.
 struct RunSizes {
   double reach;        ///< contacts are listed up to this gap [m]
-  double refresh;      ///< bodies of a contact move so far before it is found again [m]
+  double refresh;      ///< bodies of a contact move so far before its contact update [m]
   double speed_limit;  ///< nothing can be faster, unless the run has gone bad [m/s]
 
   /// @throws InvalidInput  no body can move

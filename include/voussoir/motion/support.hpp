@@ -37,7 +37,7 @@ class Support {
     return [] {};
   }
   /// Adds to every body's number a bound on the largest eigenvalue of M^-1 K [1/s^2], K its own
-  /// stiffness with all other bodies held.
+  /// stiffness with all other bodies fixed.
   virtual void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const = 0;
 };
 
@@ -65,7 +65,7 @@ class SupportSet {
     force += loads_[b].force;
     moment += loads_[b].moment;
   }
-  /// Held, and lost to yield, since each of them was added or `start` was called [J].
+  /// Stored, and lost to yield, since each of them was added or `start` was called [J].
   [[nodiscard]] double energy(const Bodies& bodies) const { return sum(bodies) - at_start_; }
   void start(const Bodies& bodies) { at_start_ = sum(bodies); }
   /// What brings all histories back to what they are now.

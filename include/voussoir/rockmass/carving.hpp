@@ -20,7 +20,7 @@ namespace voussoir {
 
 namespace detail {
 
-// What carving asks of an opening, in the plane and in space: its outline piece by piece, and
+// What carving asks of an opening, in 2-D and 3-D: its outline piece by piece, and
 // whether a piece runs through the inside of a block.
 
 [[nodiscard]] inline Segment outline_piece(const SimplePolygon& opening, std::size_t k,
@@ -297,7 +297,7 @@ struct WallPiece {
   return pieces;
 }
 
-/// The same in space: pieces of the faces of the rock on the sides of the last opening (not on its
+/// The same in 3-D: pieces of the faces of the rock on the sides of the last opening (not on its
 /// ends); `from` and `to` are those of the edge that they belong to.
 [[nodiscard]] inline std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass) {
   if (mass.openings.empty()) return {};

@@ -49,7 +49,7 @@ struct Domain {
 
 /// The sides of the domain, as labels of the faces of the uncut ground.
 enum class Side { left = 0, bottom = 1, right = 2, top = 3 };
-/// The same in space: x points East, y North, z up.
+/// The same in 3-D: x points East, y North, z up.
 enum class SpatialSide { west = 0, bottom = 1, east = 2, top = 3, south = 4, north = 5 };
 template <int Dim>
 using SideOf = std::conditional_t<Dim == 2, Side, SpatialSide>;

@@ -32,7 +32,7 @@ namespace detail {
 
 /// A joint in the plane of a section: its trace.
 using Joint = JointOf<2>;
-/// A joint in space: a piece of plane.
+/// A joint in 3-D: a piece of plane.
 using SpatialJoint = JointOf<3>;
 
 }  // namespace voussoir

@@ -18,7 +18,7 @@
 
 namespace voussoir {
 
-/// The direction in which a joint falls, in the plane of the section.
+/// The direction in which a joint dips, in the plane of the section.
 enum class DipDirection { east, west };  ///< east: down to the right; west: down to the left
 
 /// A family of joints of similar orientation, as borehole and scanline surveys describe it.

@@ -15,13 +15,13 @@ struct Passage {
   double from, to;  ///< distance from the start of the line [m]
 };
 
-/// Two passages nearer to each other than so many tolerances touch: each end is off by at most the
-/// tolerance over the sine of the angle at which the line meets the face.
+/// Two intersections nearer to each other than so many tolerances touch: each end is off by at most
+/// the tolerance over the sine of the angle at which the line meets the face.
 inline constexpr double same_point = 10;
 
 /// The bodies that a straight line runs through, in the order of their distance from its start.
 ///
-/// Passages through several parts of one body are joined. Gaps (outside the domain, inside an
+/// Intersections through several parts of one body are joined. Gaps (outside the domain, inside an
 /// opening) simply do not appear. A line along a joint belongs to one side of it, see `clip`.
 ///
 /// @cost  one bounding test per body

@@ -274,7 +274,7 @@ class Slicer {
 /// @param progress  told how many of the joints are through, asked whether to go on
 /// @throws InvalidInput  domain or limits out of range, a joint that is not finite
 /// @throws Stopped
-/// @cost   about 10 microseconds per block in the plane, 5 in space (`slice<Spatial>`); linear
+/// @cost   about 10 microseconds per block in 2-D, 5 in 3-D (`slice<Spatial>`); linear
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 2.1 (rock slicing).
 template <class Geometry = Planar>

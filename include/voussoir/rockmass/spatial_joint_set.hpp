@@ -22,7 +22,7 @@
 
 namespace voussoir {
 
-/// Joints without end.
+/// Fully persistent joints.
 struct PersistentJoints {};
 /// Joints as circular discs.
 struct DiscJoints {
@@ -35,7 +35,7 @@ struct RectangularJoints {
 };
 using JointShape = std::variant<PersistentJoints, DiscJoints, RectangularJoints>;
 
-/// A family of joints of similar orientation in space, as borehole and scanline surveys describe
+/// A family of joints of similar orientation in 3-D, as borehole and scanline surveys describe
 /// it. Exactly one of `spacing`, `area_per_volume` and `count_per_volume` says how many there are;
 /// orientations scatter in one of two ways, or not at all.
 struct SpatialJointSet {
@@ -74,7 +74,7 @@ namespace detail {
   return 0.5 * repeatable::norm<2>(Vec2(sides.strike_length, sides.dip_length));
 }
 
-/// The directions of a plane in space.
+/// The directions of a plane in 3-D.
 struct PlaneFrame {
   Vec3 normal;  ///< upward
   Vec3 down;    ///< down the dip
@@ -204,7 +204,7 @@ inline void SpatialJointSet::check() const {
   }
   if (std::holds_alternative<PersistentJoints>(shape))
     rule(!(count_per_volume > 0), "count_per_volume", count_per_volume,
-         "0 for joints without end, which have no centre: give spacing or area_per_volume");
+         "0 for fully persistent joints, which have no centre: give spacing or area_per_volume");
 }
 
 /// Joints of one set that reach the domain.
@@ -214,8 +214,8 @@ inline void SpatialJointSet::check() const {
 /// alone would leave too little. Their number is the expected one, rounded; a spacing s and a joint
 /// area A amount to 1 / (s A) centres per volume, P32 to P32 / A.
 ///
-/// Joints without end are equidistant with a random first one if a spacing is given, and placed
-/// independently of each other (uniform along the mean normal) if P32 is.
+/// Fully persistent joints are equidistant with a random first one if a spacing is given, and
+/// placed independently of each other (uniform along the mean normal) if P32 is.
 ///
 /// @param index  of the set: its stream of random numbers, and the label of its joints
 /// @param progress  asked now and then whether to go on

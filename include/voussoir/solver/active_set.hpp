@@ -15,7 +15,7 @@ namespace voussoir {
 /// The bodies that are not yet in equilibrium, their neighbours, and all elements that touch them.
 ///
 /// After an elastic solve only blocks near slip and openings are out of balance. Relaxing those
-/// alone, everything else held, gives the same equilibrium for a fraction of the work; the
+/// alone, everything else fixed, gives the same equilibrium for a fraction of the work; the
 /// certification afterwards is always on the whole system.
 template <class System>
 class ActiveSet {
@@ -24,7 +24,7 @@ class ActiveSet {
   static constexpr int dof = System::dof;
 
   /// @param f          out-of-balance forces of the whole system
-  /// @param threshold  a body is active if its unbalance over its weight exceeds this
+  /// @param threshold  a body is active if its out-of-balance force ratio exceeds this
   /// @param rings      how many generations of neighbours to add
   ActiveSet(System& system, const Eigen::VectorXd& f, double threshold, int rings)
       : system_(&system),
@@ -70,13 +70,13 @@ class ActiveSet {
     for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
   }
 
-  /// Largest unbalance over weight of an active body.
+  /// Largest out-of-balance force ratio of an active body.
   [[nodiscard]] double worst_unbalance(const Eigen::VectorXd& f) const {
     double worst = 0;
     for (const int b : bodies_) worst = std::max(worst, system_->unbalance_of(f, b, lightest_));
     return worst;
   }
-  /// Sum of the squared unbalances over weight: what the Newton steps bring down.
+  /// Sum of the squared out-of-balance force ratios: what the Newton steps bring down.
   [[nodiscard]] double squared_unbalance(const Eigen::VectorXd& f) const {
     double sum = 0;
     for (const int b : bodies_) {
@@ -94,7 +94,7 @@ class ActiveSet {
     return std::sqrt(squared);
   }
 
-  /// Solves (tangent + anchor) du = f on the active bodies, all others held.
+  /// Solves (tangent + anchor) du = f on the active bodies, all others fixed.
   ///
   /// @param reach  every body is anchored by a spring that yields its weight at this displacement
   ///               of its own [m]: nothing beside a joint's stiffness, but it keeps a block that
@@ -185,7 +185,7 @@ class ActiveSet {
   System* system_;
   double lightest_ = 0;
   std::vector<char> active_;
-  std::vector<int> number_;  ///< among the active bodies, -1: held
+  std::vector<int> number_;  ///< among the active bodies, -1: fixed
   std::vector<int> bodies_, joints_, boundary_, interface_;
   std::vector<std::size_t> bolts_, frames_;
 };

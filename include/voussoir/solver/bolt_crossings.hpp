@@ -21,8 +21,8 @@ struct BoltCrossingPoint {
 
 /// The joints that a bar crosses on its way through these bodies.
 ///
-/// Across a hole (a block that has fallen) the bar goes on; at a joint the two faces are one place,
-/// and the span exactly what the anchors say, not the rounding of two positions.
+/// Across a hole (a block that is detached) the bar goes on; at a joint the two faces are one
+/// place, and the span exactly what the anchors say, not the rounding of two positions.
 /// @param passages   in the order of their distance from the head
 /// @param tolerance  of the domain [m]
 template <class Line, class Anchors>

@@ -51,7 +51,7 @@ class ContactGroup {
     double weight;    ///< [m] or [m^2]
     PointForce<dim>
         initial;  ///< in the in-situ state, or minus what the installation must not feel
-    /// Opening and slips at displacement zero: not zero once contacts have been found again [m].
+    /// Opening and slips at displacement zero: not zero once contacts have been updated [m].
     Vec<dim> start = Vec<dim>::Zero();
     [[no_unique_address]] State state{};
   };
@@ -285,7 +285,7 @@ class ContactGroup {
     add_at<dof - dim>(f + dof * c.a + dim, -(moment + moment_of(c.arm_a, force)));
   }
 
-  /// The same in the plane, number by number and in the axes of the contact: half the time, for
+  /// The same in 2-D, number by number and in the axes of the contact: half the time, for
   /// g++ 12 carries Eigen's two-vectors through memory when they are put together from parts.
   template <class History>
   void add_force_in_plane(const Contact& c, const double* u, double* f) requires(dim == 2) {

@@ -13,8 +13,8 @@ namespace voussoir {
 
 /// What is known about a state after equilibrium was sought.
 enum class Verdict {
-  stable,      ///< all three tests passed, possibly after blocks fell: see `to_string(report)`
-  collapsing,  ///< more rock fell than the limit
+  stable,      ///< all three tests passed, possibly after blocks detached: see `to_string(report)`
+  collapsing,  ///< more rock detached than the limit
   undecided,   ///< no answer was found, or none was sought: the reason says why
 };
 
@@ -30,9 +30,9 @@ enum class Verdict {
   return "undecided";
 }
 
-/// The verdict as people read it. A tunnel that stands after rock has fallen from it is other news
-/// than one that stands: everything that is shown or written takes its word from here.
-/// @param fallen_measure  rock that fell on the way, over all stages [m^2], [m^3]
+/// The verdict as people read it. A tunnel that stands after rock has detached from it is other
+/// news than one that stands: everything that is shown or written takes its word from here.
+/// @param fallen_measure  rock that detached on the way, over all stages [m^2], [m^3]
 [[nodiscard]] constexpr const char* to_string(Verdict verdict, double fallen_measure) {
   return verdict == Verdict::stable && fallen_measure > 0 ? "stable after rockfall"
                                                           : to_string(verdict);
@@ -42,14 +42,14 @@ enum class Verdict {
 struct Acceptance {
   double error_estimate = 1e-3;         ///< largest elastic correction / largest displacement [-]
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
-  /// A body that moved further has fallen [m]. Beyond some centimetres answers depend on the path.
+  /// A body that moved further is detached [m]. Beyond some centimetres answers depend on the path.
   double displacement_limit = 0.02;
-  /// Contacts are found again when a block has moved so far since they were last found [m]: as far
+  /// Contacts are updated when a block has moved so far since they were last found [m]: as far
   /// as contacts and levers are good for blocks of half a metre; a quarter of it is better where
   /// blocks turn. Without effect unless below the displacement limit. A block that has lost all
-  /// contacts within twice this has fallen.
+  /// contacts within twice this is detached.
   double refind_limit = 0.02;
-  double collapse_measure = 20;  ///< more fallen rock than this is a collapse [m^2], [m^3]
+  double collapse_measure = 20;  ///< more detached rock than this is a collapse [m^2], [m^3]
 
   /// @throws InvalidInput  a limit out of range
   void check() const {
@@ -72,7 +72,7 @@ struct EquilibriumReport {
   int steps = 0;                    ///< force evaluations
   int elastic_solves = 0;
   int factorisations = 0;
-  std::vector<int> fallen;    ///< blocks removed because they fell, in this search
+  std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
   int broken_bolts = 0;       ///< bolt springs that ruptured
   bool stopped = false;       ///< the caller asked to stop
@@ -86,9 +86,9 @@ struct EquilibriumReport {
 /// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.
 struct SearchContext {
   Acceptance acceptance;
-  /// Area or volume of each body: what is lost if it falls [m^2], [m^3]; 0 for lining nodes.
+  /// Area or volume of each body: what is lost if it detaches [m^2], [m^3]; 0 for lining nodes.
   const std::vector<double>* measures = nullptr;
-  double wall_fraction = 0;  ///< part of the in-situ wall traction left when the stage has ended
+  double wall_fraction = 0;  ///< residual wall traction at the end, over the in-situ one
   Progress progress;
 };
 

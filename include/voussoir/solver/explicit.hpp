@@ -17,8 +17,8 @@ namespace voussoir {
 ///
 /// Here to compare with the paper and to show what dynamics do to the answer: a sudden, lightly
 /// damped excavation overshoots, slips on the way, and ends with a crown that has moved 10 to 50 %
-/// further although its unbalanced force is as small as anybody's. The wall traction is therefore
-/// taken away along a ramp unless `ramp_steps` is zero.
+/// further although its out-of-balance force is as small as after any other. The wall traction is
+/// therefore taken away along a ramp unless `ramp_steps` is zero.
 ///
 /// Masses are density-scaled so that the critical step is the same for every unknown (quarter of
 /// the Gershgorin row sums): steps are no physical time; `Dynamics` has true ones. Local damping
@@ -49,7 +49,7 @@ class Explicit {
   }
 
   /// Accepts on the same three tests as `TwoLevel`; a factor is made for the estimate alone, when
-  /// the unbalance test has passed.
+  /// the out-of-balance test has passed.
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
@@ -99,7 +99,7 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
   Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
   Eigen::VectorXd mass = masses(system), inverse_mass = mass.cwiseInverse();
   double step = stable_step(system, mass);
-  double next_estimate = 1e300;  // look again only once the unbalance has fallen well below
+  double next_estimate = 1e300;  // look again only once the force ratio is well below
   while (report.steps < params_.max_steps) {
     const bool ramping = report.steps < params_.ramp_steps;
     const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
@@ -147,7 +147,8 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
     if (report.error_estimate < accept.error_estimate) {
       if (detail::find_when_due(system, accept, true)) continue;
       report.verdict = Verdict::stable;
-      report.reason = "error estimate, unbalance and displacements are within their limits";
+      report.reason =
+          "error estimate, out-of-balance force ratio and displacements are within their limits";
       break;
     }
     next_estimate = 0.5 * report.unbalance_over_weight;

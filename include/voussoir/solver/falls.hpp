@@ -11,7 +11,7 @@
 
 namespace voussoir::detail {
 
-// What has fallen, and whether that can be told: one answer for every equilibrium method.
+// What is detached, and whether that can be told: one answer for every equilibrium method.
 
 /// Blocks that moved beyond the limit.
 template <class System>
@@ -48,10 +48,10 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   for (const int b : remove_with_loose(system, bodies)) enter(b);
 }
 
-/// True, with the reason, if the rock as a whole is about to move so far that falling blocks cannot
-/// be told by their displacement: if more than one block in a hundred would have moved beyond half
-/// the limit after one elastic step to the end of the stage. Blocks that slid so far in an earlier
-/// stage count too: fewer than that do not matter.
+/// True, with the reason, if the rock as a whole is about to move so far that detached blocks
+/// cannot be told by their displacement: if more than one block in a hundred would have moved
+/// beyond half the limit after one elastic step to the end of the stage. Blocks that slid so far in
+/// an earlier stage count too: fewer than that do not matter.
 ///
 /// @param solve  solve(f) turns forces into elastic displacements, in place
 template <class System, class Solve>
@@ -79,7 +79,7 @@ template <class System, class Solve>
   std::snprintf(
       text, sizeof text,
       "with joints that slip and open no further the rock would have moved %.3g mm, more than "
-      "half the displacement limit of %.3g mm, and blocks that fall could not be told from it: "
+      "half the displacement limit of %.3g mm, and detached blocks could not be told from it: "
       "raise displacement_limit",
       1e3 * *place, 1e3 * limit);
   report.reason = text;
@@ -87,17 +87,18 @@ template <class System, class Solve>
   return true;
 }
 
-/// True, with the verdict, if more has fallen than a tunnel can lose.
+/// True, with the verdict, if more is detached than a tunnel can lose.
 template <int Dim>
 [[nodiscard]] bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
   if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
   const char* unit = Dim == 2 ? "m2" : "m3";
   char text[160];
-  std::snprintf(text, sizeof text,
-                "%zu block%s of %.3g %s fell before the others came to rest; more than %.3g %s is "
-                "a collapse",
-                report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure,
-                unit, acceptance.collapse_measure, unit);
+  std::snprintf(
+      text, sizeof text,
+      "%zu block%s of %.3g %s detached before the others came to rest; more than %.3g %s is "
+      "a collapse",
+      report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure, unit,
+      acceptance.collapse_measure, unit);
   report.verdict = Verdict::collapsing;
   report.reason = text;
   return true;

@@ -301,17 +301,17 @@ void find_contacts_again(System& system, double reach) {
 
 namespace detail {
 
-/// Whether blocks have moved so far that contacts are to be found again. Where the limit on that is
-/// no shorter than the one beyond which a block has fallen, they never are.
+/// Whether blocks have moved so far that contacts are to be updated. Where the limit on that is
+/// no shorter than the one beyond which a block is detached, they never are.
 template <class System>
 [[nodiscard]] bool is_due(const System& system, const Acceptance& acceptance, double share = 1) {
   return system.shapes != nullptr && acceptance.refind_limit < acceptance.displacement_limit &&
          system.moved_since_found() > share * acceptance.refind_limit;
 }
 
-/// Finds contacts again if it is due.
+/// Updates contacts if it is due.
 ///
-/// Where contacts have been found again before, an equilibrium is looked at from near by: rotations
+/// Where contacts have been updated before, an equilibrium is looked at from near by: rotations
 /// are finite there, and linear ones are off by half their square.
 /// @param at_rest  the search is about to end here
 /// @return  true if it has

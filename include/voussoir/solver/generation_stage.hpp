@@ -61,7 +61,8 @@ template <class JointLaw>
     const InSitu& in_situ, DynamicsSettings settings = {}, const GenerationSettings& how = {}) {
   in_situ.check();
   require(how.segment > 0, "segment of the sides", how.segment, "> 0 m");
-  require(how.unbalance > 0, "unbalance at the end of the generation", how.unbalance, "> 0");
+  require(how.unbalance > 0, "out-of-balance force ratio at the end of the generation",
+          how.unbalance, "> 0");
   require(how.longest > 0, "longest generation", how.longest, "> 0 s");
   settings.gravity = in_situ.gravity;
   settings.local_damping = how.local_damping;

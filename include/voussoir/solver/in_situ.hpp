@@ -16,11 +16,11 @@ namespace voussoir {
 /// force and moment, to rounding: no generation stage has to be simulated.
 struct InSitu {
   double density;         ///< rho [kg/m^3], > 0
-  double k0 = 1;          ///< horizontal (in space: along x) / vertical stress [-], >= 0
+  double k0 = 1;          ///< horizontal (in 3-D: along x) / vertical stress [-], >= 0
   double surcharge = 0;   ///< pressure on the ground surface [Pa], >= 0
   double gravity = 9.81;  ///< g [m/s^2], > 0
-  double k0_y = -1;       ///< in space: along y / vertical [-], >= 0; -1: as along x
-  double k0_xy = 0;       ///< in space: sigma_xy / vertical [-]
+  double k0_y = -1;       ///< in 3-D: along y / vertical [-], >= 0; -1: as along x
+  double k0_xy = 0;       ///< in 3-D: sigma_xy / vertical [-]
 
   /// The same with these principal horizontal stresses.
   /// @param major, minor  over the vertical stress [-]

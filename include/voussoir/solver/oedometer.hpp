@@ -54,7 +54,7 @@ struct Press {
                    any_units)),
         wall_stiffness(params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()) {
     for (const auto& body : mass.bodies) {
-      // What a body out of balance is held against: the force of the stresses that are meant.
+      // What an out-of-balance force is compared with: the force of the stresses that are meant.
       const double weight = 1e4 * body.properties.measure;
       system.add_body({body.properties.centroid, weight, 1.0, true});
       measures.push_back(body.properties.measure);
@@ -137,8 +137,8 @@ void check_press(const RockMass<Geometry>& mass, const OedometerParams& params) 
 /// the base, over the length of the sample; the walls give way by sigma_3 / k, 1 % of eps_1 in 70
 /// m.
 ///
-/// The blocks along a flat wall are held better than those inside. G of the paper's joint sets, 0.6
-/// m apart on a scanline, pressed vertically in samples 35, 70, 140 and 210 m wide, is 0.567,
+/// The blocks along a flat wall are restrained more than those inside. G of the paper's joint sets,
+/// 0.6 m apart on a scanline, pressed vertically in samples 35, 70, 140 and 210 m wide, is 0.567,
 /// 0.554, 0.543 and 0.536 GPa; with walls 1000 times as stiff 0.596, 0.569, 0.550 and 0.541.
 ///
 /// @throws InvalidInput    no bodies, an opening was carved, or a parameter out of range

@@ -14,13 +14,13 @@
 
 namespace voussoir {
 
-/// Follows falling blocks: damped motion that commits slip at every step and removes what has
-/// fallen, on the blocks that are out of balance and their neighbours only.
+/// Follows detached blocks: damped motion that commits slip at every step and removes
+/// them, on the blocks that are out of balance and their neighbours only.
 ///
 /// Local damping acts on every unknown by itself, so a block that slides past rattling neighbours
 /// keeps its speed; methods that stop all motion at once (FIRE, kinetic damping) hold it up for
 /// ever. The answer overshoots a little (about 2 %), because slip made on the way stays: `TwoLevel`
-/// uses it to learn which blocks fall and then starts anew without them.
+/// uses it to learn which blocks detach and then starts anew without them.
 class Relaxation {
  public:
   using role = roles::Equilibrium;
@@ -43,12 +43,12 @@ class Relaxation {
     require(params.rings >= 0, "rings", params.rings, ">= 0");
   }
 
-  /// Accepts when the unbalance test has passed and no block is beyond the displacement limit; no
-  /// error estimate, because the slip made on the way is not in it.
+  /// Accepts when the out-of-balance test has passed and no block is beyond the displacement limit;
+  /// no error estimate, because the slip made on the way is not in it.
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
-  /// The same without asking first whether falling blocks can be told by their displacement, for
+  /// The same without asking first whether detached blocks can be told by their displacement, for
   /// a caller that has. Adds to what is in the report.
   template <class System>
   void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
@@ -100,7 +100,7 @@ void Relaxation::follow(System& system, const SearchContext& context,
     if (report.unbalance_over_weight < accept.unbalance_over_weight) {
       if (detail::find_when_due(system, accept, true)) continue;
       report.verdict = Verdict::stable;
-      report.reason = "every block is in equilibrium within the unbalance limit";
+      report.reason = "every block is in equilibrium within the out-of-balance force ratio limit";
       break;
     }
     if (context.progress && !context.progress(-1.0)) {

@@ -80,7 +80,7 @@ class ComposedSolver {
                       const std::vector<LiningSection>& sections,
                       const CoulombJoint& interface_law);
 
-  /// Lets the rock and its supports find their equilibrium with a part of the in-situ traction left
+  /// Lets the rock and its supports find their equilibrium at a residual wall traction
   /// on the wall (relaxation before support: > 0; the final state: 0).
   /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before; a limit of
   ///                         the acceptance out of range
@@ -93,7 +93,7 @@ class ComposedSolver {
     double time;  ///< since the call [s]
     EquilibriumReport report;
   };
-  /// Lets joints creep, equilibrium found again after every step: convergence against time.
+  /// Lets joints creep, a new equilibrium after every step: convergence against time.
   /// A step is a fifth of the shortest creep time: longer ones overshoot where blocks cannot
   /// follow.
   /// @param duration  [s], > 0
@@ -124,7 +124,7 @@ class ComposedSolver {
   [[nodiscard]] const SystemType& system() const { return system_; }
   [[nodiscard]] SystemType& system() { return system_; }
   [[nodiscard]] int bolt_count() const { return bolt_count_; }
-  /// Bodies that fell, in the order in which they did.
+  /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
   /// Number of the first lining node among the bodies of the system; -1 without lining.
   [[nodiscard]] int first_lining_node() const { return first_node_; }
@@ -171,7 +171,7 @@ class ComposedSolver {
     }
   }
 
-  /// The passages of a bar without the bodies that have fallen.
+  /// The intersections of a bar without the bodies that are detached.
   [[nodiscard]] std::vector<Passage> passages_of_present_rock(
       const typename Geometry::Line& bar) const;
 
@@ -312,7 +312,7 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
   }
   typename SystemType::Interface interface({interface_law});
   for (const LiningContact<Geometry>& c : frame.contacts) {
-    if (!system_.body(c.body).movable) continue;  // that block has fallen
+    if (!system_.body(c.body).movable) continue;  // that block is detached
     const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
     const int node = first_node_ + c.node;
     // A pin is pushed in its middle, wherever on its stretch the rock touches it.

@@ -69,7 +69,7 @@ class System {
   std::vector<BoltSpring<Geometry, BoltLaw>> bolts;
   std::vector<FrameElement<Geometry>> frames;
   /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
-  /// contacts cannot be found again.
+  /// contacts cannot be updated.
   std::shared_ptr<const Shapes> shapes;
   /// For every label of their faces the index of the joint law; null: the first for all.
   std::shared_ptr<const std::vector<int>> law_of_cut;
@@ -115,7 +115,7 @@ class System {
     const Vec<dim> arm = point - body(b).centre;
     return has_found_again() ? Vec<dim>(turned_[static_cast<std::size_t>(b)] * arm) : arm;
   }
-  /// Whether contacts have been found again since the in-situ state.
+  /// Whether contacts have been updated since the in-situ state.
   [[nodiscard]] bool has_found_again() const { return found_at_.size() > 0; }
   /// The displacement at which they were; empty if never.
   [[nodiscard]] const Eigen::VectorXd& found_at() const { return found_at_; }
@@ -258,7 +258,7 @@ class System {
       if (b.movable && b.weight > 0) lightest = std::min(lightest, b.weight);
     return lightest;
   }
-  /// Unbalanced force of one body over its weight; a moment counts as a force at the radius of
+  /// Out-of-balance force of one body over its weight; a moment counts as a force at the radius of
   /// gyration. Zero for a body that cannot move.
   [[nodiscard]] double unbalance_of(const Eigen::VectorXd& f, int b, double lightest) const {
     const Body& it = body(b);
@@ -301,7 +301,7 @@ class System {
   }
 
   std::vector<Body> bodies_;
-  Eigen::VectorXd found_at_;           ///< displacement at which contacts were found again
+  Eigen::VectorXd found_at_;           ///< displacement at which contacts were updated
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 

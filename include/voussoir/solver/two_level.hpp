@@ -19,12 +19,12 @@
 
 namespace voussoir {
 
-/// The default way to equilibrium: local searches corrected by global elastic solves.
+/// The default solution procedure: local searches corrected by global elastic solves.
 ///
 ///   factor K (all contacts closed and sticking);  u += K^-1 F(u)
-///   repeat  local search on the bodies out of balance, all others held, history frozen
+///   repeat  local search on the bodies out of balance, all others fixed, history frozen
 ///           d = K^-1 F(u);  estimate = max|d| / max|u|
-///           accept if the estimate, the unbalance of every block and the displacements pass
+///           accept if estimate, out-of-balance force ratios and displacements pass
 ///           u += d
 ///   commit slip
 ///
@@ -32,13 +32,14 @@ namespace voussoir {
 /// anchored Newton steps with the unsymmetric tangent. The elastic solve settles what is
 /// long-ranged, and its correction d measures the error of the displacements. The history is frozen
 /// during the search, so the answer does not depend on the path the search took: on increments and
-/// the fallback only, where blocks fall.
+/// the fallback only, where blocks detach.
 ///
-/// d is blind to mechanisms: a key block that falls has a tiny elastic correction. Hence the test
-/// on every block's unbalance. A block that nothing holds runs away under the Newton steps until it
-/// passes the displacement limit, is removed, and the search goes on without it. Where many blocks
-/// fall at once `Relaxation` finds out which, and the search starts anew without them. Falls are
-/// judged in increments of the unloading: in a single one marginal blocks are lost that stay.
+/// d is blind to mechanisms: a key block that detaches has a tiny elastic correction. Hence the
+/// test on every block's out-of-balance force ratio. A block that nothing holds runs away under the
+/// Newton steps until it passes the displacement limit, is removed, and the search goes on without
+/// it. Where many blocks detach at once `Relaxation` finds out which, and the search starts anew
+/// without them. Detached blocks are judged in increments of the unloading: in a single one
+/// marginal blocks are lost that stay.
 class TwoLevel {
  public:
   using role = roles::Equilibrium;
@@ -49,9 +50,9 @@ class TwoLevel {
     int newton_steps = 8;        ///< at most, in a local search
     double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
     int rings = 2;               ///< generations of neighbours searched with a body out of balance
-    int max_bursts = 14;         ///< local searches without a fall or an end before the fallback
-    int increments = 5;          ///< of the unloading, where blocks fall in one step
-    int max_restarts = 8;        ///< searches after the first, without what has fallen
+    int max_bursts = 14;         ///< local searches without detachment or end before the fallback
+    int increments = 5;          ///< of the unloading, where blocks detach in one step
+    int max_restarts = 8;        ///< searches after the first, without what is detached
     Fire::Params fire{};
     Relaxation::Params fallback{};
   };
@@ -115,8 +116,8 @@ class TwoLevel {
                                                    Elastic<System>& elastic) const {
     EquilibriumReport report;
     const Acceptance& accept = context.acceptance;
-    const System start = system;  // where a search without the fallen blocks begins
-    // The fallback mostly has to tell what falls: blocks at a tenth of their weight do not. One
+    const System start = system;  // where a search without the detached blocks begins
+    // The fallback mostly has to tell what detaches: blocks at a tenth of their weight do not. One
     // that creeps to its rest is followed more closely.
     double follow_to = std::max(0.1, accept.unbalance_over_weight);
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
@@ -136,8 +137,8 @@ class TwoLevel {
       report.error_estimate = std::numeric_limits<double>::quiet_NaN();
       if (detail::has_collapsed<System::dim>(report, accept)) break;
       if (fall.verdict == Verdict::undecided) {
-        report.reason =
-            fall.stopped ? fall.reason : "falling blocks were followed without end: " + fall.reason;
+        report.reason = fall.stopped ? fall.reason
+                                     : "detached blocks were followed without end: " + fall.reason;
         break;
       }
       if (attempt == params_.max_restarts) break;
@@ -146,16 +147,16 @@ class TwoLevel {
         detail::remove_with_loose(system, report.fallen);
         continue;
       }
-      // Nothing fell: the search goes on from the slip that the fallback has committed.
+      // Nothing detached: the search goes on from the slip that the fallback has committed.
       if (attempt > 0 && follow_to <= accept.unbalance_over_weight) {
-        report.reason = "neither an equilibrium nor falling blocks were found";
+        report.reason = "neither an equilibrium nor detached blocks were found";
         break;
       }
       follow_to = std::max(0.3 * follow_to, accept.unbalance_over_weight);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason = "no equilibrium in " + std::to_string(params_.max_restarts + 1) +
-                      " searches, what fell taken out in between";
+                      " searches, detached blocks taken out in between";
     for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
     return report;
   }
@@ -232,7 +233,8 @@ class TwoLevel {
           continue;
         }
         report.verdict = Verdict::stable;
-        report.reason = "error estimate, unbalance and displacements are within their limits";
+        report.reason =
+            "error estimate, out-of-balance force ratio and displacements are within their limits";
         return Outcome::decided;
       }
       if (context.progress && !context.progress(progress_of(report, accept, burst))) {
@@ -250,7 +252,7 @@ class TwoLevel {
     return std::min(accept.displacement_limit, accept.refind_limit);
   }
 
-  /// Settles the bodies that are out of balance, all others held.
+  /// Settles the bodies that are out of balance, all others fixed.
   ///
   /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far
   /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
@@ -377,8 +379,8 @@ EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) c
   const bool unloading = from != to && params_.increments > 1;
   add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
   if (unloading && whole.reason.empty()) {
-    // Something fell, or no end was found. The elastic start of one large step opens joints that
-    // a gradual unloading keeps closed, so only what falls then has fallen. Most falls when
+    // Something detached, or no end was found. The elastic start of one large step opens joints
+    // that a gradual unloading keeps closed, so only what detaches then counts. Most detaches when
     // little traction is left: the increments shrink with it.
     system = start;
     for (int k = 1; k <= params_.increments; ++k) {
@@ -392,7 +394,7 @@ EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) c
   if (whole.verdict == Verdict::collapsing)
     (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
   if (whole.verdict == Verdict::stable && !whole.fallen.empty())
-    whole.reason = "within all limits after loose blocks had fallen";
+    whole.reason = "within all limits after blocks had detached";
   return whole;
 }
 

@@ -76,7 +76,7 @@ struct OedometerModuli {
           lateral_stress / (axial_stress + lateral_stress), axial_stress / axial_strain};
 }
 
-/// A set of parallel joints without end in the plane of the section.
+/// A set of parallel fully persistent joints in the plane of the section.
 struct PersistentSet {
   double dip;      ///< from the horizontal, positive towards +x (East), negative towards -x [rad]
   double spacing;  ///< [m], > 0

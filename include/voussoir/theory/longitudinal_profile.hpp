@@ -14,7 +14,7 @@ namespace voussoir {
 ///   x >= 0:  u = 1 - (1 - u0) exp(-1.5 x / R)      behind it, R = r_p / a
 ///
 /// Source: Vlachopoulos & Diederichs (2009), Rock Mech. Rock Eng. 42, a fit to continuum analyses.
-/// No more can be claimed for jointed rock: its profile needs runs in space.
+/// No more can be claimed for jointed rock: its profile needs runs in 3-D.
 ///
 /// @param distance        X / a from the face, positive towards the excavated side [-]
 /// @param plastic_radius  r_p / a of the unsupported opening [-], >= 1

@@ -76,7 +76,7 @@ struct BoltPattern {
   return bars;
 }
 
-/// The bars of rows of bolts along a tunnel in space, row by row; the first row lies half a spacing
+/// The bars of rows of bolts along a tunnel in 3-D, row by row; the first row lies half a spacing
 /// from its beginning.
 /// @param row_spacing  along the tunnel [m], > 0
 /// @param from, to     the stretch of the tunnel to bolt [m]

@@ -23,7 +23,7 @@ struct DiagramPoint {
   double largest_moment = 0;   ///< absolute value, of the lining [N m/m]
   EquilibriumReport report;
 
-  /// Rock fell, or no equilibrium was found: not a design.
+  /// Rock detached, or no equilibrium was found: not a design.
   [[nodiscard]] bool failed() const {
     return report.verdict != Verdict::stable || report.fallen_measure > 0;
   }

@@ -144,7 +144,7 @@ struct OutlinePart {
   return frame;
 }
 
-/// A lining in space: ribs, lattice girders or strips of shotcrete across the tunnel, and what
+/// A lining in 3-D: ribs, lattice girders or strips of shotcrete across the tunnel, and what
 /// joins them along it.
 struct LiningRibs {
   LiningRing ring{};   ///< one rib

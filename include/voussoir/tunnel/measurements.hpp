@@ -21,7 +21,7 @@ struct WallMotion {
   double convergence;  ///< towards the tunnel centre, positive inwards [m]
 };
 
-/// All pieces of the wall that have not fallen.
+/// All pieces of the wall that are not detached.
 template <class Solver>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
   std::vector<WallMotion> motion;

@@ -48,7 +48,7 @@ struct ShallowFace {
 ///
 /// Where the linear program finds two shapes apart, a convex combination of its active normals is
 /// 0; the part of it that comes from a is the direction in which a ends before b begins. In the
-/// plane one shape has a single active plane, whose normal this is. In space two may come from
+/// plane one shape has a single active plane, whose normal this is. In 3-D two may come from
 /// each; then it is perpendicular to the edge that each two meet in.
 ///
 /// A positive separation along any direction proves the shapes apart, so nothing has to be checked

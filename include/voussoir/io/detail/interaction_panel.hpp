@@ -99,7 +99,7 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
       const Vec2 at = map({other.thickness, other.spacing});
       const std::string value = std::isfinite(other.value)
                                     ? printed_text(other.value * shown.point_scale)
-                                    : "blocks fall";
+                                    : "blocks detach";
       others.emplace_back(at, other.label + ": " + value);
       taken.take(text_room(at + Vec2(13, 4), others.back().second, beside).grown(2));
     }
