@@ -57,8 +57,8 @@ std::vector<std::string> split_lines(std::string_view text) {
 }
 
 std::string nesting_limit() {
-  return "at most " + std::to_string(deepest_nesting) +
-         " names in a dotted key and brackets inside each other";
+  const std::string most = "at most " + std::to_string(deepest_nesting);
+  return most + " names in a dotted key, " + most + " brackets inside each other";
 }
 
 /// What must not reach toml++ 3.3, whose behaviour is undefined at letters beyond ASCII outside

@@ -337,6 +337,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   const DiagramInput& axes = *input.diagram;
   InteractionPicture picture;
   double worst = 0;
+  bool estimated = false;
   std::size_t failed = 0, undecided = 0;
   const auto columns = static_cast<Eigen::Index>(axes.thickness.size());
   const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
@@ -354,15 +355,20 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
     picture.failed(i, j) = p.failed() && !picture.undecided(i, j);
     undecided += picture.undecided(i, j);
     failed += picture.failed(i, j);
-    if (standing) worst = std::max(worst, p.report.error_estimate);
+    if (standing && std::isfinite(p.report.error_estimate)) {
+      worst = std::max(worst, p.report.error_estimate);
+      estimated = true;
+    }
   }
   picture.header.title = "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
-  picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
-                          std::to_string(diagram.points.size()) + " tunnels in " +
-                          std::to_string(diagram.blocks) + " blocks (seed " +
-                          std::to_string(input.model.seed) +
-                          "). Largest estimated error of the displacements " +
-                          text("%.2g", 100 * worst) + " %. Red circles: rockfall."};
+  picture.header.lines = {
+      "Convergence of the crown over lining thickness and bolt spacing, " +
+      std::to_string(diagram.points.size()) + " tunnels in " + std::to_string(diagram.blocks) +
+      " blocks (seed " + std::to_string(input.model.seed) + "). " +
+      (estimated
+           ? "Largest estimated error of the displacements " + text("%.2g", 100 * worst) + " %. "
+           : "Error of the displacements not estimated. ") +
+      "Red circles: rockfall."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
       {"tunnels that fail",
@@ -428,11 +434,10 @@ std::string run_summary(const Input& input, const RunResult& run) {
 
 std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
   const DiagramInput& axes = *input.diagram;
-  std::string out =
-      "crown convergence [mm] of " + std::to_string(diagram.points.size()) + " tunnels in " +
-      std::to_string(diagram.blocks) + " blocks" +
-      text(", computed in %.1f s; R: stable after rockfall, C: collapse, ?: undecided\n\n",
-           diagram.seconds);
+  std::string out = "crown convergence [mm] of " + std::to_string(diagram.points.size()) +
+                    " tunnels in " + std::to_string(diagram.blocks) + " blocks" +
+                    text(", computed in %.1f s; ", diagram.seconds) +
+                    "R: stable after rockfall, C: collapse, ?: undecided\n\n";
   out += "spacing \\ lining";
   for (const double t : axes.thickness) out += text("%9.3g cm", 1e2 * t);
   out += "\n";

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 
 #include "harness.hpp"
 

@@ -449,7 +449,8 @@ TEST_SUITE("program/run") {
     CHECK(rows[1].at("verdict") == "stable");
     CHECK(rows[2].at("verdict") == "stable after rockfall");
     CHECK(rows[2].at("failed") == "1");
-    CHECK(outcome.out.find("R: stable after rockfall") != std::string::npos);
+    CHECK(outcome.out.find("R: stable after rockfall, C: collapse, ?: undecided\n") !=
+          std::string::npos);
     CHECK(read_file(folder / "out/interaction.svg").find("UNDECIDED") == std::string::npos);
   }
 
