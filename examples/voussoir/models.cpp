@@ -91,3 +91,8 @@ std::string composition_of(const Input& input) {
 }
 
 }  // namespace voussoir::program
+
+template class voussoir::ComposedSolver<voussoir::Planar, voussoir::CutContacts,
+                                        voussoir::CoulombJoint, voussoir::program::ChosenAnchors,
+                                        voussoir::AxialShearBolt, voussoir::TimoshenkoBeam,
+                                        voussoir::program::ChosenMethod>;

@@ -61,3 +61,9 @@ using Tunnel =
 [[nodiscard]] std::string composition_of(const Input& input);
 
 }  // namespace voussoir::program
+
+/// Compiled once, in models.cpp, for every file of the program and of the paper's analyses.
+extern template class voussoir::ComposedSolver<
+    voussoir::Planar, voussoir::CutContacts, voussoir::CoulombJoint,
+    voussoir::program::ChosenAnchors, voussoir::AxialShearBolt, voussoir::TimoshenkoBeam,
+    voussoir::program::ChosenMethod>;
