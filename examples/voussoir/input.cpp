@@ -32,7 +32,7 @@ constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};      // below it roun
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};  // [m]
 constexpr Range surcharge_range{.low = 0, .high = 1e9};         // [Pa]
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
-constexpr double thinnest_lining = 1e-3;                                    // [m]
+constexpr Range thickness_range{.low = 1e-3, .high = 10};                   // of a lining [m]
 
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
@@ -272,8 +272,7 @@ void read_bolts(Section& s, BoltsInput& bolts) {
 }
 
 void read_lining(Section& s, LiningInput& lining, int facets) {
-  s.quantity("thickness", lining.thickness, dimension::length, at_least(thinnest_lining),
-             Need::required);
+  s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
            {.low = -1, .high = 0.5, .low_included = false, .high_included = false}, Need::optional);
@@ -378,10 +377,9 @@ void read_diagram(Section& s, DiagramInput& diagram) {
     for (std::size_t i = 0; entries && i < entries->size(); ++i) {
       const auto thickness = entries->at(i).as_quantity(dimension::length, at_least(0));
       if (!thickness) continue;
-      if (*thickness > 0 && *thickness < thinnest_lining) {
+      if (*thickness > 0 && !thickness_range.contains(*thickness)) {
         entries->at(i).refuse("is outside the accepted range",
-                              "0 for no lining, or " +
-                                  format_quantity(thinnest_lining, dimension::length) + " or more");
+                              "0 for no lining, or " + thickness_range.text(&dimension::length));
         continue;
       }
       if (!diagram.thickness.empty() && !(*thickness > diagram.thickness.back()))

@@ -123,7 +123,7 @@ struct BoltsInput {
 
 /// [support.lining]
 struct LiningInput {
-  double thickness = 0;        ///< [m], >= 1e-3, less than half the opening's width
+  double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
   double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
   double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
   LiningBeam beam = LiningBeam::euler_bernoulli;
@@ -156,7 +156,7 @@ struct RunInput {
 /// [diagram] The axes of the interaction diagram, each rising, with two or more entries.
 struct DiagramInput {
   std::vector<std::optional<BoltSpacing>> spacing;  ///< none: no bolts, always last
-  std::vector<double> thickness;                    ///< 0: no lining; otherwise >= 1e-3 [m]
+  std::vector<double> thickness;                    ///< 0: no lining; otherwise 1e-3 to 10 [m]
 };
 
 /// A whole input file, checked: every number is in the range given above, and they fit together.

@@ -487,7 +487,7 @@ TEST_SUITE("program/input") {
         {"stiffness = \"0.2 GN/m\"", "stiffness = \"1e300 N/m\"", 26, "support.bolts.stiffness",
          "from 1 kN/m to 1000 GN/m"},
         {"thickness = \"10 cm\"", "thickness = \"0 cm\"", 28, "support.lining.thickness",
-         "1 mm or more"},
+         "from 1 mm to 10 m"},
         {"E = \"25 GPa\"", "E = \"25 GN\"", 29, "is a force, not a stress", "25 GPa"},
         {"E = \"25 GPa\"", "E = \"1e-300 Pa\"", 29, "support.lining.E", "from 1 MPa to 1000 GPa"},
         {"kn = \"1 GPa/m\"", "kn = \"1e300 Pa/m\"", 30, "support.lining.interface.kn",
@@ -536,7 +536,7 @@ TEST_SUITE("program/input") {
         {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"-5 cm\", \"5 cm\"]", 41,
          "diagram.thickness[0]", "0 or more"},
         {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"0.1 mm\", \"5 cm\"]", 41,
-         "diagram.thickness[1]", "1 mm or more"},
+         "diagram.thickness[1]", "from 1 mm to 10 m"},
     });
   }
 

@@ -479,6 +479,42 @@ TEST_SUITE("program/run") {
     CHECK(stands.outcome.out.find("asked for") == std::string::npos);
   }
 
+  TEST_CASE("values at the ends of their ranges give a verdict, or are named where there is none") {
+    for (const char* set : {"model.gravity=1 m/s^2",
+                            "run.tolerance=1e-6",
+                            "run.tolerance=0.1",
+                            "rock.density=1 kg/m^3",
+                            "rock.density=100000 kg/m^3",
+                            "joint.kn=1000 GPa/m",
+                            "joint.ks=1 kPa/m",
+                            "joint.ks=1000 GPa/m",
+                            "support.bolts.stiffness=1 kN/m",
+                            "support.bolts.stiffness=1000 GN/m",
+                            "support.bolts.out_of_plane=1 cm",
+                            "support.bolts.out_of_plane=1000 m",
+                            "support.bolts.pretension=500 N",
+                            "support.lining.E=1 MPa",
+                            "support.lining.E=1000 GPa",
+                            "support.lining.thickness=1 mm",
+                            "support.lining.interface.kn=1 kPa/m",
+                            "support.lining.interface.kn=1000 GPa/m",
+                            "support.lining.interface.ks=1 kPa/m",
+                            "support.lining.interface.ks=1000 GPa/m"}) {
+      CAPTURE(set);
+      (void)results_of(supported, {"--set", set});
+    }
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", supported);
+    for (const std::string& key : {std::string("joint.kn"), std::string("model.gravity")}) {
+      const std::string value = key == "joint.kn" ? "1 kPa/m" : "1000 m/s^2";
+      const Outcome outcome =
+          run_program({"run", file, "--out", folder / "out", "--set", key + "=" + value});
+      CHECK(outcome.status == 3);
+      CHECK(outcome.out.find("undecided, and " + key + " = " + value + " is unusual") !=
+            std::string::npos);
+    }
+  }
+
   TEST_CASE("undecided is written across the pictures") {
     const Folder folder;
     InputText input;
