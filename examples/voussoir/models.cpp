@@ -22,7 +22,8 @@ AxialShearBolt bolt_of(const BoltsInput& bolts) {
   if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
   if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;
   const double shear = bolts.law == BoltLaw::axial_shear ? bolts.shear_stiffness : 0.0;
-  return AxialShearBolt({.axial = axial, .shear_stiffness = shear});
+  // The input names its units: "500 N" is no slip for 500 kN.
+  return AxialShearBolt({.axial = axial, .shear_stiffness = shear}, any_units);
 }
 
 LiningSection section_of(const LiningInput& lining, double thickness) {
