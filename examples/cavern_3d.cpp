@@ -117,7 +117,8 @@ int main(int argc, char** argv) {
       CoulombJoint({1e10, 1e10, 35 * deg}));
   const EquilibriumReport with = supported.equilibrium();
   std::printf(
-      "%s\n%zu blocks, %zu lining nodes, %d bolt crossings; unsupported: %s, crown %.2f mm; supported: %s, "
+      "%s\n%zu blocks, %zu lining nodes, %d bolt crossings; unsupported: %s, crown %.2f mm; "
+      "supported: %s, "
       "crown %.2f mm, error estimate %.2g\n",
       Cavern::composition().c_str(), block_count(supported),
       supported.system().movable_bodies().size() - block_count(supported), crossings,

@@ -123,6 +123,10 @@ TEST_SUITE("program/run") {
     CHECK(r.json.at("error_estimate") < 1e-3);
   }
 
+  TEST_CASE("a small force with its unit is not taken for one in another unit") {
+    CHECK(crown(results_of(supported, {"--set", "support.bolts.pretension=500 N"})) > 0);
+  }
+
   TEST_CASE("the program computes what the same calls in C++ compute") {
     using namespace voussoir;
     constexpr double deg = std::numbers::pi / 180;
