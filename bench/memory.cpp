@@ -38,8 +38,7 @@ int main(int argc, char** argv) {
   const long end = peak();
   const auto blocks = static_cast<double>(tunnel.mass().bodies.size());
   std::printf("%.0f blocks, %zu contacts, %s, error estimate %.1e\n", blocks,
-              tunnel.system().joints.contacts().size(), to_string(report),
-              report.error_estimate);
+              tunnel.system().joints.contacts().size(), to_string(report), report.error_estimate);
   std::printf("%-28s %8ld kB\n", "program alone", start);
   std::printf("%-28s %8ld kB %7.2f kB per block\n", "peak, rock and supports", built,
               static_cast<double>(built - start) / blocks);

@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
       "%s\n%zu blocks, %d bolt crossings; unsupported: %s, crown %.2f mm; supported: %s, "
       "crown %.2f mm, error estimate %.2g\n",
       Cavern::composition().c_str(), supported.system().movable_bodies().size(), crossings,
-      to_string(without), 1e3 * crown(bare), to_string(with),
-      1e3 * crown(supported), with.error_estimate);
+      to_string(without), 1e3 * crown(bare), to_string(with), 1e3 * crown(supported),
+      with.error_estimate);
   if (argc > 1) write_pictures(supported, argv[1], with);
   const bool is_exact = std::abs(removed / expected - 1) < 1e-9;
   const bool helps = with.verdict == Verdict::stable && crown(supported) < 0.8 * crown(bare);

@@ -29,7 +29,7 @@ int main() {
 
   const double crown = 1e3 * convergence(tunnel).crown;
   std::printf("%s\n%zu blocks, %s: crown %.2f mm, error estimate %.1e\n",
-              Tunnel::composition().c_str(), tunnel.mass().bodies.size(), to_string(result),
-              crown, result.error_estimate);
+              Tunnel::composition().c_str(), tunnel.mass().bodies.size(), to_string(result), crown,
+              result.error_estimate);
   return result.verdict == Verdict::stable && crown > 1 && crown < 4 ? 0 : 1;
 }

@@ -24,11 +24,11 @@
 #endif
 
 /// The searches for equilibrium in one kind of system.
-#define VOUSSOIR_SEARCHES(WORD, ...)                                                         \
-  WORD EquilibriumReport TwoLevel::find(System<__VA_ARGS__>&, const SearchContext&) const;   \
-  WORD EquilibriumReport Relaxation::find(System<__VA_ARGS__>&, const SearchContext&) const; \
-  WORD void Relaxation::follow(System<__VA_ARGS__>&, const SearchContext&,                   \
-                               EquilibriumReport&) const;                                    \
+#define VOUSSOIR_SEARCHES(WORD, ...)                                                           \
+  WORD EquilibriumReport TwoLevel::find(System<__VA_ARGS__>&, const SearchContext&) const;     \
+  WORD EquilibriumReport Relaxation::find(System<__VA_ARGS__>&, const SearchContext&) const;   \
+  WORD void Relaxation::follow(System<__VA_ARGS__>&, const SearchContext&, EquilibriumReport&) \
+      const;                                                                                   \
   WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
 
 namespace voussoir {
