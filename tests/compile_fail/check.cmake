@@ -5,13 +5,17 @@
 cmake_minimum_required(VERSION 3.25)
 file(READ "${SOURCE}" text)
 set(ENV{LC_ALL} C)
+set(first "")
+if(FIRST_FOLDER)
+  set(first "-I${FIRST_FOLDER}")
+endif()
 set(no_source_lines -fno-diagnostics-show-caret)
 if(COMPILER_ID MATCHES "Clang")
   set(no_source_lines -fno-caret-diagnostics)
 endif()
 execute_process(
   COMMAND "${COMPILER}" -std=c++20 -fsyntax-only ${no_source_lines} -fmessage-length=0
-          -fdiagnostics-color=never "@${OPTIONS}" "${SOURCE}"
+          -fdiagnostics-color=never ${first} "@${OPTIONS}" "${SOURCE}"
   RESULT_VARIABLE failed
   OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
