@@ -51,7 +51,7 @@ double crown(const Cavern& cavern) {
   return sum / area;
 }
 
-/// Blocks that have not fallen; the nodes of the lining move too, but are none.
+/// Blocks that are not detached; the nodes of the lining move too, but are none.
 std::size_t block_count(const Cavern& cavern) {
   std::size_t count = 0;
   for (std::size_t b = 0; b < cavern.mass().bodies.size(); ++b)
