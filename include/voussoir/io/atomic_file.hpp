@@ -13,7 +13,7 @@
 #include <vector>
 
 #if __has_include(<unistd.h>)
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX, not of C++
 #include <unistd.h>
 #define VOUSSOIR_HAS_PROCESSES 1  // NOLINT
 #endif
