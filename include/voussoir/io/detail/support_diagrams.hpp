@@ -101,8 +101,15 @@ inline void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
   canvas.path(ring, {.stroke = "#222", .stroke_width = 1.6});
 
   // The extremes: marked on the curve, their numbers below, where nothing can cover them.
+  // What is small beside the full scale is given to a thousandth of it.
+  const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(largest))));
+  const auto number = [&](double value) {
+    if (std::abs(value) >= 0.1 * largest) return printed_text(value);
+    const std::string text = trimmed_text(value, decimals);
+    return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
+  };
   const auto extreme_text = [&](const char* name, std::size_t i) {
-    return std::string(name) + " " + printed_text(values[i]) + " at " +
+    return std::string(name) + " " + number(values[i]) + " at " +
            fixed_text(direction_degrees(diagram.centre, axis[i]), 0) + "°";
   };
   const auto max_i = static_cast<std::size_t>(max_at - values.begin());
