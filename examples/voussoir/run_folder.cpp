@@ -84,7 +84,8 @@ std::string with_column(const std::string& table, const std::string& name,
 
 std::string with_run_id(const std::string& file_name, std::string text, const std::string& run_id) {
   const std::string kind = std::filesystem::path(file_name).extension().string();
-  const std::string words = std::string("voussoir ") + VOUSSOIR_VERSION_STRING + ", run " + run_id;
+  std::string words = "voussoir " VOUSSOIR_VERSION_STRING ", run ";
+  words += run_id;
   if (kind == ".csv") return with_column(text, "run_id", run_id);
   if (kind == ".json" && text.starts_with("{\n"))
     return text.insert(2, "  \"run_id\": \"" + run_id + "\",\n");

@@ -58,6 +58,8 @@ class LevelSpring : public Support<2> {
 /// what it slid with.
 class TwoFrictions {
  public:
+  using role = roles::ContactLaw;
+  static constexpr const char* name = "TwoFrictions";
   template <int Dim>
   struct State {
     Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();

@@ -32,12 +32,15 @@ using Stress = Eigen::Matrix<double, Dim, Dim>;
 
 /// Cross product of two vectors. In 2-D its z component, twice the signed area of the triangle
 /// (0, a, b); in 3-D the area vector of the parallelogram.
-[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-[[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-          a.x() * b.y() - a.y() * b.x()};
+template <int Dim>
+requires(Dim == 2 || Dim == 3)
+    [[nodiscard]] inline auto cross(const Fixed<Dim, 1>& a, const Fixed<Dim, 1>& b) {
+  if constexpr (Dim == 2) {
+    return a.x() * b.y() - a.y() * b.x();
+  } else {
+    return Vec3(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+                a.x() * b.y() - a.y() * b.x());
+  }
 }
 
 template <class A, class B>
