@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <voussoir/core/bodies.hpp>
 
 namespace voussoir {
 
@@ -79,7 +80,22 @@ inline const DimensionWords* find_words(const Dimension& dimension) {
   return nullptr;
 }
 
-inline std::string base_units(const Dimension& dimension) {
+VOUSSOIR_INLINE std::string base_units(const Dimension& dimension);
+
+}  // namespace detail
+
+/// "a length, such as "4 m", "10 cm" or "28 mm"": what to write for a quantity of this dimension.
+[[nodiscard]] inline std::string accepted_examples(const Dimension& dimension) {
+  const detail::DimensionWords* words = detail::find_words(dimension);
+  if (words == nullptr) return "a quantity in " + detail::base_units(dimension);
+  return std::string(words->name) + ", such as " + std::string(words->examples);
+}
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE std::string base_units(const Dimension& dimension) {
   std::string text;
   const auto add = [&](std::string_view symbol, int exponent) {
     if (exponent == 0) return;
@@ -96,11 +112,6 @@ inline std::string base_units(const Dimension& dimension) {
 
 }  // namespace detail
 
-/// "a length, such as "4 m", "10 cm" or "28 mm"": what to write for a quantity of this dimension.
-[[nodiscard]] inline std::string accepted_examples(const Dimension& dimension) {
-  const detail::DimensionWords* words = detail::find_words(dimension);
-  if (words == nullptr) return "a quantity in " + detail::base_units(dimension);
-  return std::string(words->name) + ", such as " + std::string(words->examples);
-}
+#endif
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 
 /// Arithmetic of which every bit is the same whatever compiler, flags and mathematical library a
@@ -133,7 +134,14 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
 [[nodiscard]] inline double cosine(double x) { return detail::shifted_sine(x, 1); }
 
 /// e^x - 1 for x <= 0, exact where x is small.
-[[nodiscard]] inline double expm1(double x) {
+[[nodiscard]] VOUSSOIR_INLINE double expm1(double x);
+
+/// log(1 + x) for -1 < x <= 0, exact where x is small.
+[[nodiscard]] VOUSSOIR_INLINE double log1p(double x);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double expm1(double x) {
   using detail::Pair;
   if (x < -100) return -1;  // to rounding
   const double count = std::floor(product(x, 1 / detail::log_of_2[0]) + 0.5);
@@ -146,8 +154,7 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
       .high;
 }
 
-/// log(1 + x) for -1 < x <= 0, exact where x is small.
-[[nodiscard]] inline double log1p(double x) {
+VOUSSOIR_INLINE double log1p(double x) {
   using detail::Pair;
   Pair argument = detail::exact_sum(1, x), beyond{x, 0};  // 1 + x, and what it has beyond 1
   int count = 0;
@@ -168,5 +175,7 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
           detail::exact_product(k, detail::log_of_2[1]))
       .high;
 }
+
+#endif
 
 }  // namespace voussoir::repeatable

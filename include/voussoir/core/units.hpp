@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/dimension.hpp>
 #include <voussoir/core/unit_parser.hpp>
 
@@ -35,8 +36,25 @@ struct Quantity {
 ///
 /// @throws UnitError  no number, no unit, unknown unit, text behind the unit, NaN, or too large for
 ///                    a double; the message then holds no accepted examples
-[[nodiscard]] inline Quantity parse_quantity(std::string_view text,
-                                             Infinity infinity = Infinity::refused) {
+[[nodiscard]] VOUSSOIR_INLINE Quantity parse_quantity(std::string_view text,
+                                                      Infinity infinity = Infinity::refused);
+
+/// Reads a quantity of a known dimension into SI, angles in rad.
+///
+/// @param infinity  `allowed` takes "inf" (no unit needed: no unit would change it)
+/// @throws UnitError  as above, and a dimension other than the expected one; the message says what
+///                    was found and shows accepted examples
+[[nodiscard]] VOUSSOIR_INLINE double parse_quantity(std::string_view text,
+                                                    const Dimension& expected,
+                                                    Infinity infinity = Infinity::refused);
+
+/// Writes an SI value in the unit an engineer expects: 5e9 Pa/m as "5 GPa/m", 0.61 rad as
+/// "34.9504 deg". Six significant digits, for reading; not for storing. Infinity is "inf".
+[[nodiscard]] VOUSSOIR_INLINE std::string format_quantity(double value, const Dimension& dimension);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE Quantity parse_quantity(std::string_view text, Infinity infinity) {
   const auto fail = [&](const std::string& complaint) {
     throw UnitError(detail::UnitParser::printable(text), complaint, "");
   };
@@ -65,13 +83,8 @@ struct Quantity {
   return {value, unit.dimension()};
 }
 
-/// Reads a quantity of a known dimension into SI, angles in rad.
-///
-/// @param infinity  `allowed` takes "inf" (no unit needed: no unit would change it)
-/// @throws UnitError  as above, and a dimension other than the expected one; the message says what
-///                    was found and shows accepted examples
-[[nodiscard]] inline double parse_quantity(std::string_view text, const Dimension& expected,
-                                           Infinity infinity = Infinity::refused) {
+VOUSSOIR_INLINE double parse_quantity(std::string_view text, const Dimension& expected,
+                                      Infinity infinity) {
   if (infinity == Infinity::allowed && (text == "inf" || text == "+inf" || text == "infinity"))
     return HUGE_VAL;
   Quantity quantity;
@@ -95,9 +108,7 @@ struct Quantity {
       accepted_examples(expected));
 }
 
-/// Writes an SI value in the unit an engineer expects: 5e9 Pa/m as "5 GPa/m", 0.61 rad as
-/// "34.9504 deg". Six significant digits, for reading; not for storing. Infinity is "inf".
-[[nodiscard]] inline std::string format_quantity(double value, const Dimension& dimension) {
+VOUSSOIR_INLINE std::string format_quantity(double value, const Dimension& dimension) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   const detail::DimensionWords* words = detail::find_words(dimension);
@@ -124,5 +135,7 @@ struct Quantity {
   (void)status;  // 32 characters hold every %.6g
   return std::string(buffer.data(), end) + " " + std::string(unit);
 }
+
+#endif
 
 }  // namespace voussoir

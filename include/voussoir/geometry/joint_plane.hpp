@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
@@ -39,29 +40,13 @@ struct JointPlane {
 /// The plane through `point` without end.
 /// @param normal  of any length > 0
 /// @throws InvalidInput  not finite, or a normal of no length
-[[nodiscard]] inline JointPlane unbounded_joint(const Vec3& point, const Vec3& normal) {
-  const double length = repeatable::norm<3>(normal);
-  if (!(is_finite(point) && std::isfinite(length) && length > 0))
-    throw InvalidInput("joint plane through " + text_of<3>(point) +
-                       " m: needs a finite point and a normal of length > 0, not " +
-                       text_of<3>(normal));
-  const Vec3 unit = normal / length;
-  return {{unit, repeatable::dot<3>(unit, point)}, {}};
-}
+[[nodiscard]] VOUSSOIR_INLINE JointPlane unbounded_joint(const Vec3& point, const Vec3& normal);
 
 /// Rectangle with the half sides `along` and `across`, which must be perpendicular [m]; its normal
 /// is along x across.
 /// @throws InvalidInput  not finite, no area, or sides that are not perpendicular
-[[nodiscard]] inline JointPlane joint_rectangle(const Vec3& centre, const Vec3& along,
-                                                const Vec3& across) {
-  JointPlane joint = unbounded_joint(centre, repeatable::cross(along, across));
-  if (!(std::abs(along.dot(across)) <= 1e-9 * along.norm() * across.norm()))
-    throw InvalidInput("joint rectangle at " + text_of<3>(centre) +
-                       " m: its sides must be perpendicular");
-  joint.corners = {centre - along - across, centre + along - across, centre + along + across,
-                   centre - along + across};
-  return joint;
-}
+[[nodiscard]] VOUSSOIR_INLINE JointPlane joint_rectangle(const Vec3& centre, const Vec3& along,
+                                                         const Vec3& across);
 
 /// Corners of the polygon that stands for a disc.
 inline constexpr int disc_corners = 32;
@@ -75,8 +60,64 @@ inline constexpr int disc_corners = 32;
 /// discs; its corners lie 0.32 % outside the circle, the middles of its sides 0.16 % inside.
 /// @param diameter  [m]
 /// @throws InvalidInput  not finite, a diameter that is not > 0, a normal of no length
-[[nodiscard]] inline JointPlane joint_disc(const Vec3& centre, const Vec3& normal,
-                                           double diameter) {
+[[nodiscard]] VOUSSOIR_INLINE JointPlane joint_disc(const Vec3& centre, const Vec3& normal,
+                                                    double diameter);
+
+/// A joint of any convex outline, as a survey gives it.
+/// @param corners  in either direction; the first must not be repeated at the end [m]
+/// @throws InvalidInput  fewer than 3, not finite, no area, a corner further than 1e-6 of the
+///                       joint's size from the common plane, or a corner that is not convex
+[[nodiscard]] VOUSSOIR_INLINE JointPlane joint_polygon(std::vector<Vec3> corners);
+
+/// The part of a fully persistent joint that covers the ball given; other joints as they are.
+[[nodiscard]] inline JointPlane covering(const JointPlane& joint, const Vec3& centre,
+                                         double radius) {
+  if (!joint.is_unbounded()) return joint;
+  const Vec3 foot = centre - joint.plane.distance(centre) * joint.plane.normal;
+  const TangentBasis<3> axes = radius * tangent_basis(joint.plane.normal);
+  const Vec3 u = column(axes, 0), v = column(axes, 1);
+  return {joint.plane, {foot - u - v, foot + u - v, foot + u + v, foot - u + v}};
+}
+
+/// The parts of a joint on the two sides of a plane.
+struct JointPlaneSplit {
+  std::optional<JointPlane> below, above;  ///< inside and outside the half space
+};
+
+/// Clips a bounded joint by a plane. The joint is passed on where it lies on one side.
+/// @param tolerance  a part that reaches less far than this from the plane is not counted [m]
+/// @cost  linear in the corners; allocates only where the plane crosses the joint
+[[nodiscard]] VOUSSOIR_INLINE JointPlaneSplit split(JointPlane&& joint, const HalfSpace<3>& side,
+                                                    double tolerance);
+[[nodiscard]] inline JointPlaneSplit split(const JointPlane& joint, const HalfSpace<3>& side,
+                                           double tolerance) {
+  return split(JointPlane(joint), side, tolerance);
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE JointPlane unbounded_joint(const Vec3& point, const Vec3& normal) {
+  const double length = repeatable::norm<3>(normal);
+  if (!(is_finite(point) && std::isfinite(length) && length > 0))
+    throw InvalidInput("joint plane through " + text_of<3>(point) +
+                       " m: needs a finite point and a normal of length > 0, not " +
+                       text_of<3>(normal));
+  const Vec3 unit = normal / length;
+  return {{unit, repeatable::dot<3>(unit, point)}, {}};
+}
+
+VOUSSOIR_INLINE JointPlane joint_rectangle(const Vec3& centre, const Vec3& along,
+                                           const Vec3& across) {
+  JointPlane joint = unbounded_joint(centre, repeatable::cross(along, across));
+  if (!(std::abs(along.dot(across)) <= 1e-9 * along.norm() * across.norm()))
+    throw InvalidInput("joint rectangle at " + text_of<3>(centre) +
+                       " m: its sides must be perpendicular");
+  joint.corners = {centre - along - across, centre + along - across, centre + along + across,
+                   centre - along + across};
+  return joint;
+}
+
+VOUSSOIR_INLINE JointPlane joint_disc(const Vec3& centre, const Vec3& normal, double diameter) {
   JointPlane joint = unbounded_joint(centre, normal);
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InvalidInput("joint disc at " + text_of<3>(centre) + " m: diameter " +
@@ -108,11 +149,7 @@ inline constexpr int disc_corners = 32;
   return joint;
 }
 
-/// A joint of any convex outline, as a survey gives it.
-/// @param corners  in either direction; the first must not be repeated at the end [m]
-/// @throws InvalidInput  fewer than 3, not finite, no area, a corner further than 1e-6 of the
-///                       joint's size from the common plane, or a corner that is not convex
-[[nodiscard]] inline JointPlane joint_polygon(std::vector<Vec3> corners) {
+VOUSSOIR_INLINE JointPlane joint_polygon(std::vector<Vec3> corners) {
   const auto fail = [](std::size_t k, const char* rule) {
     throw InvalidInput("joint polygon: corner " + std::to_string(k) + " " + rule);
   };
@@ -144,26 +181,8 @@ inline constexpr int disc_corners = 32;
   return joint;
 }
 
-/// The part of a fully persistent joint that covers the ball given; other joints as they are.
-[[nodiscard]] inline JointPlane covering(const JointPlane& joint, const Vec3& centre,
-                                         double radius) {
-  if (!joint.is_unbounded()) return joint;
-  const Vec3 foot = centre - joint.plane.distance(centre) * joint.plane.normal;
-  const TangentBasis<3> axes = radius * tangent_basis(joint.plane.normal);
-  const Vec3 u = column(axes, 0), v = column(axes, 1);
-  return {joint.plane, {foot - u - v, foot + u - v, foot + u + v, foot - u + v}};
-}
-
-/// The parts of a joint on the two sides of a plane.
-struct JointPlaneSplit {
-  std::optional<JointPlane> below, above;  ///< inside and outside the half space
-};
-
-/// Clips a bounded joint by a plane. The joint is passed on where it lies on one side.
-/// @param tolerance  a part that reaches less far than this from the plane is not counted [m]
-/// @cost  linear in the corners; allocates only where the plane crosses the joint
-[[nodiscard]] inline JointPlaneSplit split(JointPlane&& joint, const HalfSpace<3>& side,
-                                           double tolerance) {
+VOUSSOIR_INLINE JointPlaneSplit split(JointPlane&& joint, const HalfSpace<3>& side,
+                                      double tolerance) {
   VOUSSOIR_ASSERT(!joint.is_unbounded(), "a fully persistent joint is covered before it is split");
   const auto snapped = [&](const Vec3& corner) {
     const double d = side.distance(corner);
@@ -203,9 +222,7 @@ struct JointPlaneSplit {
   }
   return parts;
 }
-[[nodiscard]] inline JointPlaneSplit split(const JointPlane& joint, const HalfSpace<3>& side,
-                                           double tolerance) {
-  return split(JointPlane(joint), side, tolerance);
-}
+
+#endif
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
@@ -28,7 +29,49 @@ struct MassProperties {
 ///
 /// Works relative to the first vertex: at mine-grid coordinates (1e6 m) the textbook sum loses all
 /// digits of the polar moment of a 1 m block.
-[[nodiscard]] inline MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
+[[nodiscard]] VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices);
+
+[[nodiscard]] inline MassProperties<2> mass_properties(const ConvexPolygon& polygon) {
+  return mass_properties(std::span<const Vec2>(polygon.vertices()));
+}
+
+/// Volume, centroid and inertia tensor, from tetrahedra between one vertex and the faces that do
+/// not meet it.
+///
+/// @cost  O(vertices), no allocation
+///
+/// Works relative to that vertex, for the reason given above.
+[[nodiscard]] VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron);
+
+/// Properties of several shapes that move as one rigid body (parallel-axis theorem).
+template <class Shape>
+[[nodiscard]] MassProperties<Shape::dim> mass_properties(const std::vector<Shape>& parts) {
+  constexpr int dim = Shape::dim;
+  if (parts.size() == 1) return mass_properties(parts.front());
+  std::vector<MassProperties<dim>> each;
+  MassProperties<dim> whole;
+  for (const Shape& part : parts) {
+    each.push_back(mass_properties(part));
+    whole.measure += each.back().measure;
+    // Relative to the first part: far from the origin a centroid has few digits to lose.
+    whole.centroid += each.back().measure * (each.back().centroid - each.front().centroid);
+  }
+  whole.centroid = each.front().centroid + whole.centroid / whole.measure;
+  for (const MassProperties<dim>& part : each) {
+    const Vec<dim> r = part.centroid - whole.centroid;
+    whole.second_moment += part.second_moment;
+    if constexpr (dim == 2) {
+      whole.second_moment(0, 0) += part.measure * r.squaredNorm();
+    } else {
+      whole.second_moment += part.measure * (diagonal_of<dim>(r.squaredNorm()) - outer(r, r));
+    }
+  }
+  return whole;
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
   double area = 0, polar = 0;
   Vec2 first_moment = Vec2::Zero();
   const Vec2& origin = vertices.front();
@@ -47,17 +90,7 @@ struct MassProperties {
   return result;
 }
 
-[[nodiscard]] inline MassProperties<2> mass_properties(const ConvexPolygon& polygon) {
-  return mass_properties(std::span<const Vec2>(polygon.vertices()));
-}
-
-/// Volume, centroid and inertia tensor, from tetrahedra between one vertex and the faces that do
-/// not meet it.
-///
-/// @cost  O(vertices), no allocation
-///
-/// Works relative to that vertex, for the reason given above.
-[[nodiscard]] inline MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron) {
+VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron) {
   const Vec3 origin = polyhedron.vertex(0);
   double volume = 0;
   Vec3 first_moment = Vec3::Zero();
@@ -94,30 +127,6 @@ struct MassProperties {
   return result;
 }
 
-/// Properties of several shapes that move as one rigid body (parallel-axis theorem).
-template <class Shape>
-[[nodiscard]] MassProperties<Shape::dim> mass_properties(const std::vector<Shape>& parts) {
-  constexpr int dim = Shape::dim;
-  if (parts.size() == 1) return mass_properties(parts.front());
-  std::vector<MassProperties<dim>> each;
-  MassProperties<dim> whole;
-  for (const Shape& part : parts) {
-    each.push_back(mass_properties(part));
-    whole.measure += each.back().measure;
-    // Relative to the first part: far from the origin a centroid has few digits to lose.
-    whole.centroid += each.back().measure * (each.back().centroid - each.front().centroid);
-  }
-  whole.centroid = each.front().centroid + whole.centroid / whole.measure;
-  for (const MassProperties<dim>& part : each) {
-    const Vec<dim> r = part.centroid - whole.centroid;
-    whole.second_moment += part.second_moment;
-    if constexpr (dim == 2) {
-      whole.second_moment(0, 0) += part.measure * r.squaredNorm();
-    } else {
-      whole.second_moment += part.measure * (diagonal_of<dim>(r.squaredNorm()) - outer(r, r));
-    }
-  }
-  return whole;
-}
+#endif
 
 }  // namespace voussoir

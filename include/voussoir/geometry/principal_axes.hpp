@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -21,7 +22,11 @@ struct PrincipalAxes {
 /// @param tensor  symmetric; the lower triangle is read
 /// @cost  some 5 sweeps of 3 rotations
 /// Source: Golub & Van Loan (2013), Matrix computations, 8.5.
-[[nodiscard]] inline PrincipalAxes principal_axes(const Fixed<3, 3>& tensor) {
+[[nodiscard]] VOUSSOIR_INLINE PrincipalAxes principal_axes(const Fixed<3, 3>& tensor);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE PrincipalAxes principal_axes(const Fixed<3, 3>& tensor) {
   double a[3][3];
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) a[r][c] = tensor(std::max(r, c), std::min(r, c));
@@ -63,5 +68,7 @@ struct PrincipalAxes {
     set_column(axes.directions, 0, Vec3(-first));
   return axes;
 }
+
+#endif
 
 }  // namespace voussoir

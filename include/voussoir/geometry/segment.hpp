@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 
@@ -49,8 +50,13 @@ struct SegmentSplit {
 };
 
 /// @param tolerance  a part that reaches less far than this from the line is not counted [m]
-[[nodiscard]] inline SegmentSplit split(const Segment& segment, const HalfSpace<2>& side,
-                                        double tolerance) {
+[[nodiscard]] VOUSSOIR_INLINE SegmentSplit split(const Segment& segment, const HalfSpace<2>& side,
+                                                 double tolerance);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE SegmentSplit split(const Segment& segment, const HalfSpace<2>& side,
+                                   double tolerance) {
   const double from = side.distance(segment.start), to = side.distance(segment.end);
   const bool below = from < -tolerance || to < -tolerance;
   const bool above = from > tolerance || to > tolerance;
@@ -61,5 +67,7 @@ struct SegmentSplit {
   if (from < to) return {first, second};
   return {second, first};
 }
+
+#endif
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
@@ -21,7 +22,12 @@ namespace voussoir {
   return ConvexPolygon({facet.start, facet.end, facet.end + in, facet.start + in}, {0, 0, 0, 0});
 }
 
-[[nodiscard]] inline ConvexPolyhedron slab_behind(const SpatialFacet& facet, double thickness) {
+[[nodiscard]] VOUSSOIR_INLINE ConvexPolyhedron slab_behind(const SpatialFacet& facet,
+                                                           double thickness);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ConvexPolyhedron slab_behind(const SpatialFacet& facet, double thickness) {
   const Vec3 in = -thickness * facet.area_vector().normalized();
   const int count = static_cast<int>(facet.vertices.size());
   std::vector<Vec3> vertices = facet.vertices;
@@ -36,5 +42,7 @@ namespace voussoir {
   const std::vector<int> cuts(faces.size(), 0);
   return ConvexPolyhedron(std::move(vertices), faces, cuts);
 }
+
+#endif
 
 }  // namespace voussoir

@@ -15,6 +15,8 @@
 #if __has_include(<unistd.h>)
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX, not of C++
 #include <unistd.h>
+
+#include <voussoir/core/bodies.hpp>
 #define VOUSSOIR_HAS_PROCESSES 1  // NOLINT
 #endif
 
@@ -28,37 +30,14 @@ namespace detail {
 
 /// Writes all of `content` and closes the file.
 /// @return  0, or the errno of the first step that failed
-inline int write_and_close(std::FILE* file, std::string_view content) {
-  errno = 0;
-  const bool is_written =
-      std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
-      std::fflush(file) == 0;  // a full disk shows here, not in fwrite, which only fills a buffer
-  int reason = is_written ? 0 : (errno != 0 ? errno : EIO);
-  errno = 0;
-  if (std::fclose(file) != 0 && reason == 0) reason = errno != 0 ? errno : EIO;  // network drives
-  return reason;
-}
+VOUSSOIR_INLINE int write_and_close(std::FILE* file, std::string_view content);
 
 inline std::string error_text(int error_number) {
   return std::generic_category().message(error_number);
 }
 
 /// "4711@host": this process, as part files are named; "0@" where processes cannot be told.
-inline std::string process_name() {
-#ifdef VOUSSOIR_HAS_PROCESSES
-  char host[256] = {};
-  if (gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
-  std::string name = std::to_string(getpid()) + "@";
-  for (const char* c = host; *c != '\0'; ++c) {
-    const bool plain =
-        (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z');
-    name += plain ? *c : '-';  // dots part the fields
-  }
-  return name;
-#else
-  return "0@";
-#endif
-}
+VOUSSOIR_INLINE std::string process_name();
 
 /// The hidden neighbour in which the content of `file_name` waits:
 /// ".NAME.PROCESS@HOST.RANDOM.part". 64 random bits: two runs that write one path at a time must
@@ -70,51 +49,13 @@ inline std::string part_name(const std::string& file_name) {
 }
 
 /// Whether a file is a part of ours whose process, of this host, has ended.
-inline bool is_abandoned_part(const std::string& file_name) {
-#ifdef VOUSSOIR_HAS_PROCESSES
-  const std::string end = ".part";
-  if (!file_name.starts_with('.') || !file_name.ends_with(end)) return false;
-  const std::string name = file_name.substr(0, file_name.size() - end.size());
-  const auto all_digits = [](const std::string& text) {
-    return !text.empty() && text.size() <= 20 &&
-           text.find_first_not_of("0123456789") == std::string::npos;
-  };
-  const std::size_t random = name.find_last_of('.');
-  if (random == 0 || random == std::string::npos || !all_digits(name.substr(random + 1)))
-    return false;
-  const std::size_t process = name.find_last_of('.', random - 1);
-  if (process == 0 || process == std::string::npos) return false;  // a name must stand before
-  const std::string owner = name.substr(process + 1, random - process - 1), own = process_name();
-  const std::size_t at = owner.find('@');
-  if (at == std::string::npos || !all_digits(owner.substr(0, at)) || at > 9 ||
-      owner.substr(at) != own.substr(own.find('@')))
-    return false;
-  const auto id = static_cast<pid_t>(std::stol(owner.substr(0, at)));
-  return id > 0 && kill(id, 0) != 0 && errno == ESRCH;
-#else
-  (void)file_name;
-  return false;
-#endif
-}
+VOUSSOIR_INLINE bool is_abandoned_part(const std::string& file_name);
 }  // namespace detail
 
 /// Removes from a folder the part files that killed processes have left there. Those of processes
 /// that run, or ran on another host, stay, and so does every file with another pattern of name.
 /// @return  how many were removed
-inline int clear_abandoned_parts(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;  // what cannot be read or removed stays
-  std::vector<fs::path> abandoned;
-  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-       entry.increment(ignored))
-    if (detail::is_abandoned_part(entry->path().filename().string()))
-      abandoned.push_back(entry->path());
-  int removed = 0;
-  for (const fs::path& path : abandoned)
-    if (fs::is_regular_file(fs::symlink_status(path, ignored)))
-      removed += fs::remove(path, ignored) ? 1 : 0;
-  return removed;
-}
+VOUSSOIR_INLINE int clear_abandoned_parts(const std::filesystem::path& folder);
 
 /// Content on its way to a file: it lies, complete and checked, in a hidden neighbour of the
 /// target until `publish` renames it. Destroyed before that, it leaves no trace; what a killed
@@ -244,5 +185,82 @@ class OutputSet {
  private:
   std::vector<StagedFile> files_;
 };
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE int write_and_close(std::FILE* file, std::string_view content) {
+  errno = 0;
+  const bool is_written =
+      std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+      std::fflush(file) == 0;  // a full disk shows here, not in fwrite, which only fills a buffer
+  int reason = is_written ? 0 : (errno != 0 ? errno : EIO);
+  errno = 0;
+  if (std::fclose(file) != 0 && reason == 0) reason = errno != 0 ? errno : EIO;  // network drives
+  return reason;
+}
+
+VOUSSOIR_INLINE std::string process_name() {
+#ifdef VOUSSOIR_HAS_PROCESSES
+  char host[256] = {};
+  if (gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
+  std::string name = std::to_string(getpid()) + "@";
+  for (const char* c = host; *c != '\0'; ++c) {
+    const bool plain =
+        (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z');
+    name += plain ? *c : '-';  // dots part the fields
+  }
+  return name;
+#else
+  return "0@";
+#endif
+}
+
+VOUSSOIR_INLINE bool is_abandoned_part(const std::string& file_name) {
+#ifdef VOUSSOIR_HAS_PROCESSES
+  const std::string end = ".part";
+  if (!file_name.starts_with('.') || !file_name.ends_with(end)) return false;
+  const std::string name = file_name.substr(0, file_name.size() - end.size());
+  const auto all_digits = [](const std::string& text) {
+    return !text.empty() && text.size() <= 20 &&
+           text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::size_t random = name.find_last_of('.');
+  if (random == 0 || random == std::string::npos || !all_digits(name.substr(random + 1)))
+    return false;
+  const std::size_t process = name.find_last_of('.', random - 1);
+  if (process == 0 || process == std::string::npos) return false;  // a name must stand before
+  const std::string owner = name.substr(process + 1, random - process - 1), own = process_name();
+  const std::size_t at = owner.find('@');
+  if (at == std::string::npos || !all_digits(owner.substr(0, at)) || at > 9 ||
+      owner.substr(at) != own.substr(own.find('@')))
+    return false;
+  const auto id = static_cast<pid_t>(std::stol(owner.substr(0, at)));
+  return id > 0 && kill(id, 0) != 0 && errno == ESRCH;
+#else
+  (void)file_name;
+  return false;
+#endif
+}
+
+}  // namespace detail
+
+VOUSSOIR_INLINE int clear_abandoned_parts(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // what cannot be read or removed stays
+  std::vector<fs::path> abandoned;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (detail::is_abandoned_part(entry->path().filename().string()))
+      abandoned.push_back(entry->path());
+  int removed = 0;
+  for (const fs::path& path : abandoned)
+    if (fs::is_regular_file(fs::symlink_status(path, ignored)))
+      removed += fs::remove(path, ignored) ? 1 : 0;
+  return removed;
+}
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
@@ -19,8 +20,35 @@ namespace voussoir {
 namespace detail {
 
 /// Bar of colours with round numbers in mm.
-inline void draw_displacement_bar(SvgCanvas& canvas, const ViewRect& bar,
-                                  const DisplacementScale& scale) {
+VOUSSOIR_INLINE void draw_displacement_bar(SvgCanvas& canvas, const ViewRect& bar,
+                                           const DisplacementScale& scale);
+
+/// Samples of what the picture holds, and of nothing else.
+VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
+                                                      const ForceScale& forces);
+
+VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                               const DisplacementScale& scale, const ForceScale& forces);
+
+}  // namespace detail
+
+/// The page that an engineer's report shows of one calculation: the rock around the opening with
+/// displacements, slipped joints, bolts and their forces, lining; beside it thrust and moment
+/// around the lining (or the bolts' forces where there is none) and the whole model.
+///
+/// @return  an SVG document, 190 mm wide; about 80 bytes a block
+///
+/// Never fails on the values of a calculation gone bad: what has coordinates that are not finite is
+/// left out, and the picture says how much that is.
+/// @throws InvalidInput  `picture.view` is empty
+[[nodiscard]] VOUSSOIR_INLINE std::string draw_blocks_picture(const BlocksPicture& picture);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE void draw_displacement_bar(SvgCanvas& canvas, const ViewRect& bar,
+                                           const DisplacementScale& scale) {
   const PageMap map({{0, 0}, {scale.top() * 1e3, 1}}, bar);
   const double step_width = bar.width() / DisplacementScale::step_count;
   for (int step = 0; step < DisplacementScale::step_count; ++step) {
@@ -41,9 +69,8 @@ inline void draw_displacement_bar(SvgCanvas& canvas, const ViewRect& bar,
   canvas.text(bar.low - Vec2(0, 6), "displacement of blocks [mm]");
 }
 
-/// Samples of what the picture holds, and of nothing else.
-inline std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
-                                             const ForceScale& forces) {
+VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
+                                                      const ForceScale& forces) {
   const auto dash = [](const char* colour, double width) {
     return [=](SvgCanvas& canvas, const Vec2& c) {
       canvas.line(c - Vec2(12, 0), c + Vec2(12, 0),
@@ -103,8 +130,8 @@ inline std::vector<LegendItem> blocks_legend(const BlocksPicture& picture,
   return items;
 }
 
-inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
-                      const DisplacementScale& scale, const ForceScale& forces) {
+VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                               const DisplacementScale& scale, const ForceScale& forces) {
   canvas.clip_rectangle("rock-frame", map.page());
   canvas.begin_layer("rock", "rock-frame");
   canvas.begin_layer("blocks");
@@ -132,16 +159,7 @@ inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const Pag
 
 }  // namespace detail
 
-/// The page that an engineer's report shows of one calculation: the rock around the opening with
-/// displacements, slipped joints, bolts and their forces, lining; beside it thrust and moment
-/// around the lining (or the bolts' forces where there is none) and the whole model.
-///
-/// @return  an SVG document, 190 mm wide; about 80 bytes a block
-///
-/// Never fails on the values of a calculation gone bad: what has coordinates that are not finite is
-/// left out, and the picture says how much that is.
-/// @throws InvalidInput  `picture.view` is empty
-[[nodiscard]] inline std::string draw_blocks_picture(const BlocksPicture& picture) {
+VOUSSOIR_INLINE std::string draw_blocks_picture(const BlocksPicture& picture) {
   using namespace detail;
   const double left_width = 640;
   const ViewRect wanted = picture.view.value_or(view_around_opening(picture));
@@ -184,5 +202,7 @@ inline void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const Pag
                    map.world(), scale);
   return canvas.document();
 }
+
+#endif
 
 }  // namespace voussoir

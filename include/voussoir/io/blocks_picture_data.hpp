@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/io/page_map.hpp>
 #include <voussoir/io/picture_parts.hpp>
@@ -73,7 +74,27 @@ struct BlocksPicture {
 };
 
 /// All blocks, the opening and the ground surface, without a margin.
-[[nodiscard]] inline ViewRect extent_of_everything(const BlocksPicture& picture) {
+[[nodiscard]] VOUSSOIR_INLINE ViewRect extent_of_everything(const BlocksPicture& picture);
+
+/// The same with a margin, to be drawn.
+[[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
+  const ViewRect rect = extent_of_everything(picture);
+  return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
+}
+
+/// Three diameters (or what is asked) of rock, the opening in the middle.
+/// @return  the whole model if there is no opening
+[[nodiscard]] inline ViewRect view_around_opening(const BlocksPicture& picture,
+                                                  double diameters = 3) {
+  const std::optional<ViewRect> opening = bounding_rect(picture.outline);
+  if (!opening) return view_of_everything(picture);
+  const double half = std::max(opening->width(), opening->height()) * diameters / 2;
+  return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ViewRect extent_of_everything(const BlocksPicture& picture) {
   std::vector<Vec2> points = picture.outline;
   for (const PictureBlock& block : picture.blocks) {
     if (block.is_fallen) continue;  // may be anywhere
@@ -94,20 +115,6 @@ struct BlocksPicture {
   return rect;
 }
 
-/// The same with a margin, to be drawn.
-[[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
-  const ViewRect rect = extent_of_everything(picture);
-  return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
-}
-
-/// Three diameters (or what is asked) of rock, the opening in the middle.
-/// @return  the whole model if there is no opening
-[[nodiscard]] inline ViewRect view_around_opening(const BlocksPicture& picture,
-                                                  double diameters = 3) {
-  const std::optional<ViewRect> opening = bounding_rect(picture.outline);
-  if (!opening) return view_of_everything(picture);
-  const double half = std::max(opening->width(), opening->height()) * diameters / 2;
-  return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};
-}
+#endif
 
 }  // namespace voussoir

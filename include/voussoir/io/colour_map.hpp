@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 
 namespace voussoir {
 
@@ -42,32 +43,10 @@ inline double linear_to_srgb(double c) {
 }
 }  // namespace detail
 
-[[nodiscard]] inline PerceptualColour perceptual(const Colour& colour) {
-  const double r = detail::srgb_to_linear(colour.red / 255.0);
-  const double g = detail::srgb_to_linear(colour.green / 255.0);
-  const double b = detail::srgb_to_linear(colour.blue / 255.0);
-  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
+[[nodiscard]] VOUSSOIR_INLINE PerceptualColour perceptual(const Colour& colour);
 
 /// The nearest screen colour; channels outside the screen's range are cut off.
-[[nodiscard]] inline Colour screen_colour(const PerceptualColour& colour) {
-  const auto cube = [](double x) { return x * x * x; };
-  const double l = cube(colour.lightness + 0.3963377774 * colour.a + 0.2158037573 * colour.b);
-  const double m = cube(colour.lightness - 0.1055613458 * colour.a - 0.0638541728 * colour.b);
-  const double s = cube(colour.lightness - 0.0894841775 * colour.a - 1.2914855480 * colour.b);
-  const auto channel = [](double linear) {
-    const double value = detail::linear_to_srgb(std::clamp(linear, 0.0, 1.0));
-    return static_cast<std::uint8_t>(std::lround(255 * value));
-  };
-  return {channel(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
-          channel(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-          channel(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
-}
+[[nodiscard]] VOUSSOIR_INLINE Colour screen_colour(const PerceptualColour& colour);
 
 /// Colours in an order that the eye, a photocopier and a colour-blind reader all see: the
 /// lightness runs evenly from the first colour to the last, only the hue follows those between.
@@ -108,5 +87,35 @@ class ColourMap {
  private:
   std::vector<PerceptualColour> anchors_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE PerceptualColour perceptual(const Colour& colour) {
+  const double r = detail::srgb_to_linear(colour.red / 255.0);
+  const double g = detail::srgb_to_linear(colour.green / 255.0);
+  const double b = detail::srgb_to_linear(colour.blue / 255.0);
+  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+VOUSSOIR_INLINE Colour screen_colour(const PerceptualColour& colour) {
+  const auto cube = [](double x) { return x * x * x; };
+  const double l = cube(colour.lightness + 0.3963377774 * colour.a + 0.2158037573 * colour.b);
+  const double m = cube(colour.lightness - 0.1055613458 * colour.a - 0.0638541728 * colour.b);
+  const double s = cube(colour.lightness - 0.0894841775 * colour.a - 1.2914855480 * colour.b);
+  const auto channel = [](double linear) {
+    const double value = detail::linear_to_srgb(std::clamp(linear, 0.0, 1.0));
+    return static_cast<std::uint8_t>(std::lround(255 * value));
+  };
+  return {channel(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          channel(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          channel(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+#endif
 
 }  // namespace voussoir

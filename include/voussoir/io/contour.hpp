@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -153,7 +154,11 @@ class ContourTracer {
 /// counts as the triangle of the other three, with more missing it is left out.
 ///
 /// @throws InvalidInput  fewer than 2 lines in x or y, lines not ascending, value of another size
-[[nodiscard]] inline Contour contour_at(const ContourGrid& grid, double level) {
+[[nodiscard]] VOUSSOIR_INLINE Contour contour_at(const ContourGrid& grid, double level);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE Contour contour_at(const ContourGrid& grid, double level) {
   const auto columns = static_cast<int>(grid.x.size()), rows = static_cast<int>(grid.y.size());
   const auto ascends = [](const std::vector<double>& lines) {
     return std::adjacent_find(lines.begin(), lines.end(),
@@ -198,5 +203,7 @@ class ContourTracer {
   }
   return tracer.finish();
 }
+
+#endif
 
 }  // namespace voussoir

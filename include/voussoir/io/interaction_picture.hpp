@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/detail/contour_panel.hpp>
 #include <voussoir/io/detail/interaction_panel.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
@@ -19,8 +20,38 @@ namespace voussoir {
 namespace detail {
 
 /// One box a band, with its limits as on contours and as at points.
-inline void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar, const ContourBands& bands,
-                          const InteractionQuantity& shown) {
+VOUSSOIR_INLINE void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar,
+                                   const ContourBands& bands, const InteractionQuantity& shown);
+
+VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double top,
+                                         double bottom, double diameter);
+
+/// Two slanting strokes: the axis is interrupted here.
+inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
+  for (const double shift : {-3.0, 3.0}) {
+    canvas.line({x - 6, y + shift + 3}, {x + 6, y + shift - 3}, {.stroke = "#111"});
+  }
+}
+
+}  // namespace detail
+
+/// Bolt spacing against lining thickness with contours of the crown convergence in % of the radius
+/// a = D / 2 (Boon et al. 2015, Fig. 24), or of another quantity. The row without bolts lies above
+/// a break of the axis. Contours run through smoothed values (see `refined`); the numbers at the
+/// points are the computed ones. Levels are round numbers.
+///
+/// @return  an SVG document, 190 mm wide
+/// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
+///                       diameter not > 0
+[[nodiscard]] VOUSSOIR_INLINE std::string draw_interaction_picture(
+    const InteractionPicture& picture);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar,
+                                   const ContourBands& bands, const InteractionQuantity& shown) {
   const double step = bar.height() / static_cast<double>(bands.count());
   canvas.begin_layer("colour-bar");
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -40,8 +71,8 @@ inline void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar, const ContourB
   canvas.end_layer();
 }
 
-inline void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double top, double bottom,
-                                double diameter) {
+VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double top,
+                                         double bottom, double diameter) {
   const double low = std::max(0.0, map.world().low.x()), high = map.world().high.x();
   const double middle = map.page().centre().x();
   const RoundTicks cm = round_ticks(low * 100, high * 100, 10);
@@ -61,24 +92,9 @@ inline void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double to
   canvas.text({middle, top - 30}, "lining thickness over diameter t / D", title);
 }
 
-/// Two slanting strokes: the axis is interrupted here.
-inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
-  for (const double shift : {-3.0, 3.0}) {
-    canvas.line({x - 6, y + shift + 3}, {x + 6, y + shift - 3}, {.stroke = "#111"});
-  }
-}
-
 }  // namespace detail
 
-/// Bolt spacing against lining thickness with contours of the crown convergence in % of the radius
-/// a = D / 2 (Boon et al. 2015, Fig. 24), or of another quantity. The row without bolts lies above
-/// a break of the axis. Contours run through smoothed values (see `refined`); the numbers at the
-/// points are the computed ones. Levels are round numbers.
-///
-/// @return  an SVG document, 190 mm wide
-/// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
-///                       diameter not > 0
-[[nodiscard]] inline std::string draw_interaction_picture(const InteractionPicture& picture) {
+VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& picture) {
   using namespace detail;
   check_interaction(picture);
   const InteractionQuantity shown = picture.shown();
@@ -150,5 +166,7 @@ inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
   legend.draw(canvas, {left - 8, bottom + 58});
   return canvas.document();
 }
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/picture_parts.hpp>
 
@@ -80,7 +81,11 @@ struct InteractionPicture {
 
 /// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
 ///                       diameter not > 0
-inline void check_interaction(const InteractionPicture& picture) {
+VOUSSOIR_INLINE void check_interaction(const InteractionPicture& picture);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void check_interaction(const InteractionPicture& picture) {
   const auto columns = static_cast<Eigen::Index>(picture.thicknesses.size());
   const auto rows = static_cast<Eigen::Index>(picture.spacings.size());
   if (columns < 2 || rows < 2) {
@@ -107,5 +112,7 @@ inline void check_interaction(const InteractionPicture& picture) {
   }
   require(picture.diameter > 0, "interaction picture: diameter", picture.diameter, "> 0");
 }
+
+#endif
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/axonometric_view.hpp>
 #include <voussoir/io/detail/mass_layers.hpp>
@@ -30,68 +31,18 @@ struct MassPicture {
 };
 
 /// "75/010": dip and dip direction in degrees, as geologists write a plane.
-[[nodiscard]] inline std::string orientation_text(const Orientation& plane) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  const auto padded = [](long value, std::size_t digits) {
-    const std::string text = std::to_string(value);
-    return std::string(digits - std::min(digits, text.size()), '0') + text;
-  };
-  return padded(std::lround(plane.dip * degrees), 2) + '/' +
-         padded(std::lround(plane.dip_direction * degrees) % 360, 3);
-}
+[[nodiscard]] VOUSSOIR_INLINE std::string orientation_text(const Orientation& plane);
 
 namespace detail {
 
 /// Blocks whose centroid lies in the corner are left out.
-[[nodiscard]] inline MassScene mass_scene(const RockMass<Spatial>& mass, const MassPicture& picture,
-                                          const AxonometricView& view) {
-  MassScene scene{std::vector<bool>(mass.bodies.size(), true), picture.explosion};
-  if (!(picture.corner_left_out > 0)) return scene;
-  const Vec3 size = mass.domain.size();
-  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
-    const Vec3& at = mass.bodies[b].properties.centroid;
-    bool is_in_corner = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool is_high_side = axis == 2 || view.towards()[axis] > 0;
-      const double inside =
-          is_high_side ? mass.domain.high[axis] - at[axis] : at[axis] - mass.domain.low[axis];
-      is_in_corner = is_in_corner && inside < picture.corner_left_out * size[axis];
-    }
-    scene.is_drawn[b] = !is_in_corner;
-  }
-  return scene;
-}
+[[nodiscard]] VOUSSOIR_INLINE MassScene mass_scene(const RockMass<Spatial>& mass,
+                                                   const MassPicture& picture,
+                                                   const AxonometricView& view);
 
 /// The sets whose joints are in the mass, each with its name and mean orientation.
-[[nodiscard]] inline std::vector<LegendItem> mass_legend(const RockMass<Spatial>& mass,
-                                                         const MassPicture& picture) {
-  std::vector<std::vector<Vec3>> normals;  // by set
-  bool any_other = false;
-  for (const SpatialJoint& joint : mass.joints) {
-    any_other = any_other || joint.set < 0;
-    if (joint.set < 0) continue;
-    const auto set = static_cast<std::size_t>(joint.set);
-    if (normals.size() <= set) normals.resize(set + 1);
-    normals[set].push_back(joint.trace.plane.normal);
-  }
-  const auto box = [](const Colour& colour) {
-    return [=](SvgCanvas& canvas, const Vec2& c) {
-      canvas.rectangle({c - Vec2(12, 6), c + Vec2(12, 6)},
-                       {.fill = colour.hex(), .stroke = "#444", .stroke_width = 0.8});
-    };
-  };
-  std::vector<LegendItem> items;
-  for (std::size_t set = 0; set < normals.size(); ++set) {
-    if (normals[set].empty()) continue;
-    const std::string name =
-        set < picture.set_names.size() ? picture.set_names[set] : "set " + std::to_string(set + 1);
-    items.push_back({name + ", " + orientation_text(mean_orientation(normals[set])),
-                     box(set_colour(static_cast<int>(set)))});
-  }
-  if (any_other) items.push_back({"other joints", box(set_colour(-1))});
-  items.push_back({"side of the model", box(side_colour)});
-  return items;
-}
+[[nodiscard]] VOUSSOIR_INLINE std::vector<LegendItem> mass_legend(const RockMass<Spatial>& mass,
+                                                                  const MassPicture& picture);
 
 }  // namespace detail
 
@@ -101,8 +52,23 @@ namespace detail {
 ///
 /// @return  an SVG document, 190 mm wide; about 180 bytes a face
 /// @throws InvalidInput  no block, or a value out of the range given in MassPicture
-[[nodiscard]] inline std::string draw_mass_picture(const RockMass<Spatial>& mass,
-                                                   const MassPicture& picture) {
+[[nodiscard]] VOUSSOIR_INLINE std::string draw_mass_picture(const RockMass<Spatial>& mass,
+                                                            const MassPicture& picture);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::string orientation_text(const Orientation& plane) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const auto padded = [](long value, std::size_t digits) {
+    const std::string text = std::to_string(value);
+    return std::string(digits - std::min(digits, text.size()), '0') + text;
+  };
+  return padded(std::lround(plane.dip * degrees), 2) + '/' +
+         padded(std::lround(plane.dip_direction * degrees) % 360, 3);
+}
+
+VOUSSOIR_INLINE std::string draw_mass_picture(const RockMass<Spatial>& mass,
+                                              const MassPicture& picture) {
   using namespace detail;
   if (mass.bodies.empty()) throw InvalidInput("draw_mass_picture: needs at least one block");
   require(picture.explosion >= 0 && std::isfinite(picture.explosion), "explosion",
@@ -142,5 +108,60 @@ namespace detail {
   legend.draw(canvas, {frame.low.x() + 330, foot + 30});
   return canvas.document();
 }
+
+namespace detail {
+
+VOUSSOIR_INLINE MassScene mass_scene(const RockMass<Spatial>& mass, const MassPicture& picture,
+                                     const AxonometricView& view) {
+  MassScene scene{std::vector<bool>(mass.bodies.size(), true), picture.explosion};
+  if (!(picture.corner_left_out > 0)) return scene;
+  const Vec3 size = mass.domain.size();
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
+    const Vec3& at = mass.bodies[b].properties.centroid;
+    bool is_in_corner = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool is_high_side = axis == 2 || view.towards()[axis] > 0;
+      const double inside =
+          is_high_side ? mass.domain.high[axis] - at[axis] : at[axis] - mass.domain.low[axis];
+      is_in_corner = is_in_corner && inside < picture.corner_left_out * size[axis];
+    }
+    scene.is_drawn[b] = !is_in_corner;
+  }
+  return scene;
+}
+
+VOUSSOIR_INLINE std::vector<LegendItem> mass_legend(const RockMass<Spatial>& mass,
+                                                    const MassPicture& picture) {
+  std::vector<std::vector<Vec3>> normals;  // by set
+  bool any_other = false;
+  for (const SpatialJoint& joint : mass.joints) {
+    any_other = any_other || joint.set < 0;
+    if (joint.set < 0) continue;
+    const auto set = static_cast<std::size_t>(joint.set);
+    if (normals.size() <= set) normals.resize(set + 1);
+    normals[set].push_back(joint.trace.plane.normal);
+  }
+  const auto box = [](const Colour& colour) {
+    return [=](SvgCanvas& canvas, const Vec2& c) {
+      canvas.rectangle({c - Vec2(12, 6), c + Vec2(12, 6)},
+                       {.fill = colour.hex(), .stroke = "#444", .stroke_width = 0.8});
+    };
+  };
+  std::vector<LegendItem> items;
+  for (std::size_t set = 0; set < normals.size(); ++set) {
+    if (normals[set].empty()) continue;
+    const std::string name =
+        set < picture.set_names.size() ? picture.set_names[set] : "set " + std::to_string(set + 1);
+    items.push_back({name + ", " + orientation_text(mean_orientation(normals[set])),
+                     box(set_colour(static_cast<int>(set)))});
+  }
+  if (any_other) items.push_back({"other joints", box(set_colour(-1))});
+  items.push_back({"side of the model", box(side_colour)});
+  return items;
+}
+
+}  // namespace detail
+
+#endif
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -36,16 +37,7 @@ struct ViewRect {
 };
 
 /// The smallest rectangle around finite points; nothing if there is none.
-[[nodiscard]] inline std::optional<ViewRect> bounding_rect(std::span<const Vec2> points) {
-  std::optional<ViewRect> rect;
-  for (const Vec2& p : points) {
-    if (!p.allFinite()) continue;
-    if (!rect) rect = ViewRect{p, p};
-    rect->low = rect->low.cwiseMin(p);
-    rect->high = rect->high.cwiseMax(p);
-  }
-  return rect;
-}
+[[nodiscard]] VOUSSOIR_INLINE std::optional<ViewRect> bounding_rect(std::span<const Vec2> points);
 
 /// World coordinates [m, y up] to page coordinates [px, y down].
 class PageMap {
@@ -88,8 +80,28 @@ class PageMap {
 }
 
 /// The part of a convex polygon inside a rectangle (Sutherland & Hodgman 1974); may be empty.
-[[nodiscard]] inline std::vector<Vec2> clip_polygon(std::span<const Vec2> polygon,
-                                                    const ViewRect& rect) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<Vec2> clip_polygon(std::span<const Vec2> polygon,
+                                                             const ViewRect& rect);
+
+/// The part of a segment inside a rectangle (Liang & Barsky 1984).
+[[nodiscard]] VOUSSOIR_INLINE std::optional<std::pair<Vec2, Vec2>> clip_segment(
+    const Vec2& p, const Vec2& q, const ViewRect& rect);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::optional<ViewRect> bounding_rect(std::span<const Vec2> points) {
+  std::optional<ViewRect> rect;
+  for (const Vec2& p : points) {
+    if (!p.allFinite()) continue;
+    if (!rect) rect = ViewRect{p, p};
+    rect->low = rect->low.cwiseMin(p);
+    rect->high = rect->high.cwiseMax(p);
+  }
+  return rect;
+}
+
+VOUSSOIR_INLINE std::vector<Vec2> clip_polygon(std::span<const Vec2> polygon,
+                                               const ViewRect& rect) {
   std::vector<Vec2> inside(polygon.begin(), polygon.end());
   std::vector<Vec2> kept;
   for (int side = 0; side < 4 && !inside.empty(); ++side) {
@@ -109,9 +121,8 @@ class PageMap {
   return inside;
 }
 
-/// The part of a segment inside a rectangle (Liang & Barsky 1984).
-[[nodiscard]] inline std::optional<std::pair<Vec2, Vec2>> clip_segment(const Vec2& p, const Vec2& q,
-                                                                       const ViewRect& rect) {
+VOUSSOIR_INLINE std::optional<std::pair<Vec2, Vec2>> clip_segment(const Vec2& p, const Vec2& q,
+                                                                  const ViewRect& rect) {
   double begin = 0, end = 1;
   for (int axis = 0; axis < 2; ++axis) {
     const double step = q[axis] - p[axis];
@@ -127,5 +138,7 @@ class PageMap {
   if (!(begin < end)) return std::nullopt;
   return std::pair<Vec2, Vec2>{p + begin * (q - p), p + end * (q - p)};
 }
+
+#endif
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/colour_map.hpp>
 #include <voussoir/io/round_ticks.hpp>
 #include <voussoir/io/svg.hpp>
@@ -23,22 +24,9 @@ inline constexpr double picture_printed_width = 190;  ///< [mm]
 inline constexpr double picture_margin = 20;          ///< [px]
 
 /// Breaks a text at blanks into lines that fit `width` [px]; a longer word stays whole.
-[[nodiscard]] inline std::vector<std::string> wrapped_lines(std::string_view text, double width,
-                                                            const TextStyle& style) {
-  std::vector<std::string> lines(1);
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string word(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::string longer = lines.back().empty() ? word : lines.back() + ' ' + word;
-    if (lines.back().empty() || text_width(longer, style) <= width) {
-      lines.back() = longer;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
-}
+[[nodiscard]] VOUSSOIR_INLINE std::vector<std::string> wrapped_lines(std::string_view text,
+                                                                     double width,
+                                                                     const TextStyle& style);
 
 /// A number at the head of a picture: {"crown convergence", "12.4 mm"}.
 struct KeyNumber {
@@ -171,15 +159,8 @@ class Legend {
 /// A scale of lengths: black and white like a map's, labelled in metres.
 /// @param left      end of the bar on its lower edge
 /// @param room      greatest length of the bar
-inline void draw_scale_bar(SvgCanvas& canvas, const Vec2& left, double room, double px_per_metre) {
-  const double metres = round_down_125(room / px_per_metre), length = metres * px_per_metre;
-  const ViewRect bar{left - Vec2(0, 7), left + Vec2(length, 0)};
-  canvas.rectangle(bar, {.fill = "white", .stroke = "#111"});
-  canvas.rectangle({bar.low, {bar.centre().x(), bar.high.y()}}, {.fill = "#111"});
-  canvas.text(left + Vec2(0, 17), "0", {.anchor = TextAnchor::middle});
-  canvas.text(left + Vec2(length, 17), trimmed_text(metres, 3) + " m",
-              {.anchor = TextAnchor::middle});
-}
+VOUSSOIR_INLINE void draw_scale_bar(SvgCanvas& canvas, const Vec2& left, double room,
+                                    double px_per_metre);
 
 /// A shape in a few px.
 inline void draw_cross(SvgCanvas& canvas, const Vec2& centre, double half_size,
@@ -195,5 +176,37 @@ inline void draw_diamond(SvgCanvas& canvas, const Vec2& centre, double half_size
                                      centre + Vec2(half_size, 0), centre + Vec2(0, half_size)};
   canvas.polygon(corners, style);
 }
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::vector<std::string> wrapped_lines(std::string_view text, double width,
+                                                       const TextStyle& style) {
+  std::vector<std::string> lines(1);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string word(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string longer = lines.back().empty() ? word : lines.back() + ' ' + word;
+    if (lines.back().empty() || text_width(longer, style) <= width) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+VOUSSOIR_INLINE void draw_scale_bar(SvgCanvas& canvas, const Vec2& left, double room,
+                                    double px_per_metre) {
+  const double metres = round_down_125(room / px_per_metre), length = metres * px_per_metre;
+  const ViewRect bar{left - Vec2(0, 7), left + Vec2(length, 0)};
+  canvas.rectangle(bar, {.fill = "white", .stroke = "#111"});
+  canvas.rectangle({bar.low, {bar.centre().x(), bar.high.y()}}, {.fill = "#111"});
+  canvas.text(left + Vec2(0, 17), "0", {.anchor = TextAnchor::middle});
+  canvas.text(left + Vec2(length, 17), trimmed_text(metres, 3) + " m",
+              {.anchor = TextAnchor::middle});
+}
+
+#endif
 
 }  // namespace voussoir

@@ -5,20 +5,13 @@
 #include <cmath>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/number_text.hpp>
 
 namespace voussoir {
 
 /// The smallest of ..., 0.5, 1, 2, 5, 10, ... that is not below `value` (> 0; else 1).
-[[nodiscard]] inline double round_up_125(double value) {
-  if (!(value > 0) || !std::isfinite(value)) return 1;
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  const double slack = 1 - 1e-9;  // 2.0000000000000004 is 2
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= value * slack) return factor * power;
-  }
-  return 10 * power;
-}
+[[nodiscard]] VOUSSOIR_INLINE double round_up_125(double value);
 
 /// The largest of ..., 0.5, 1, 2, 5, 10, ... that is not above `value` (> 0; else 1).
 [[nodiscard]] inline double round_down_125(double value) {
@@ -43,14 +36,7 @@ struct RoundTicks {
 
 /// @param count  about how many intervals; never more
 /// @return       ticks in [low, high]; none if the range is empty or not finite
-[[nodiscard]] inline RoundTicks round_ticks(double low, double high, int count) {
-  RoundTicks ticks;
-  if (!(high > low) || !std::isfinite(high - low)) return ticks;
-  ticks.step = round_up_125((high - low) / std::max(1, count));
-  const double first = std::ceil(low / ticks.step - 1e-9), last = high / ticks.step + 1e-9;
-  for (double k = first; k <= last; ++k) ticks.values.push_back(k * ticks.step);
-  return ticks;
-}
+[[nodiscard]] VOUSSOIR_INLINE RoundTicks round_ticks(double low, double high, int count);
 
 /// Round levels for contours, the first at or below `low`, the last at or above `high`.
 ///
@@ -59,7 +45,31 @@ struct RoundTicks {
 /// colour.
 /// @param count  about how many intervals
 /// @return       at least two levels, ascending
-[[nodiscard]] inline std::vector<double> contour_levels(double low, double high, int count) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<double> contour_levels(double low, double high,
+                                                                 int count);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double round_up_125(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  const double slack = 1 - 1e-9;  // 2.0000000000000004 is 2
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= value * slack) return factor * power;
+  }
+  return 10 * power;
+}
+
+VOUSSOIR_INLINE RoundTicks round_ticks(double low, double high, int count) {
+  RoundTicks ticks;
+  if (!(high > low) || !std::isfinite(high - low)) return ticks;
+  ticks.step = round_up_125((high - low) / std::max(1, count));
+  const double first = std::ceil(low / ticks.step - 1e-9), last = high / ticks.step + 1e-9;
+  for (double k = first; k <= last; ++k) ticks.values.push_back(k * ticks.step);
+  return ticks;
+}
+
+VOUSSOIR_INLINE std::vector<double> contour_levels(double low, double high, int count) {
   if (!std::isfinite(low) || !std::isfinite(high)) return {0, 1};
   if (low > 0 && high > 15 * low) {
     std::vector<double> levels = {round_down_125(low)};
@@ -77,5 +87,7 @@ struct RoundTicks {
   for (double k = first; k <= last; ++k) levels.push_back(k * step);
   return levels;
 }
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/contour.hpp>
 
 namespace voussoir {
@@ -16,8 +17,32 @@ namespace detail {
 /// Slopes of a cubic that nowhere overshoots its data: harmonic means of the neighbouring chords,
 /// zero at a turning point. Source: Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5,
 /// 300-304. Straight data keep their slope exactly. At the ends the chord itself.
-inline std::vector<double> monotone_slopes(const std::vector<double>& x,
-                                           const std::vector<double>& v) {
+VOUSSOIR_INLINE std::vector<double> monotone_slopes(const std::vector<double>& x,
+                                                    const std::vector<double>& v);
+
+/// Values between the data, `parts` to an interval; NaN in every interval with a missing end.
+VOUSSOIR_INLINE std::vector<double> refined_values(const std::vector<double>& x,
+                                                   const std::vector<double>& v, std::size_t parts);
+
+VOUSSOIR_INLINE std::vector<double> refined_lines(const std::vector<double>& lines,
+                                                  std::size_t parts);
+
+}  // namespace detail
+
+/// A finer grid through the same values, for smooth contours: monotone cubics along x, then along
+/// y. Passes through the data, makes no maximum between them, keeps linear data linear. In a cell
+/// with one corner missing the half next to the other three corners is filled linearly.
+///
+/// @param parts  intervals of the result for one of `grid`, >= 1
+/// @throws InvalidInput  parts < 1, fewer than 2 lines in x or y, value of another size
+[[nodiscard]] VOUSSOIR_INLINE ContourGrid refined(const ContourGrid& grid, int parts);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE std::vector<double> monotone_slopes(const std::vector<double>& x,
+                                                    const std::vector<double>& v) {
   const std::size_t count = x.size();
   std::vector<double> slope(count, 0.0);
   const auto chord = [&](std::size_t i) { return (v[i + 1] - v[i]) / (x[i + 1] - x[i]); };
@@ -32,9 +57,9 @@ inline std::vector<double> monotone_slopes(const std::vector<double>& x,
   return slope;
 }
 
-/// Values between the data, `parts` to an interval; NaN in every interval with a missing end.
-inline std::vector<double> refined_values(const std::vector<double>& x,
-                                          const std::vector<double>& v, std::size_t parts) {
+VOUSSOIR_INLINE std::vector<double> refined_values(const std::vector<double>& x,
+                                                   const std::vector<double>& v,
+                                                   std::size_t parts) {
   std::vector<double> result((x.size() - 1) * parts + 1, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t begin = 0; begin < x.size();) {  // runs without a gap
     std::size_t end = begin;
@@ -63,7 +88,8 @@ inline std::vector<double> refined_values(const std::vector<double>& x,
   return result;
 }
 
-inline std::vector<double> refined_lines(const std::vector<double>& lines, std::size_t parts) {
+VOUSSOIR_INLINE std::vector<double> refined_lines(const std::vector<double>& lines,
+                                                  std::size_t parts) {
   std::vector<double> result;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     for (std::size_t k = 0; k < parts; ++k) {
@@ -77,13 +103,7 @@ inline std::vector<double> refined_lines(const std::vector<double>& lines, std::
 
 }  // namespace detail
 
-/// A finer grid through the same values, for smooth contours: monotone cubics along x, then along
-/// y. Passes through the data, makes no maximum between them, keeps linear data linear. In a cell
-/// with one corner missing the half next to the other three corners is filled linearly.
-///
-/// @param parts  intervals of the result for one of `grid`, >= 1
-/// @throws InvalidInput  parts < 1, fewer than 2 lines in x or y, value of another size
-[[nodiscard]] inline ContourGrid refined(const ContourGrid& grid, int parts) {
+VOUSSOIR_INLINE ContourGrid refined(const ContourGrid& grid, int parts) {
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (parts < 1 || columns < 2 || rows < 2 ||
       grid.value.rows() != static_cast<Eigen::Index>(columns) ||
@@ -131,5 +151,7 @@ inline std::vector<double> refined_lines(const std::vector<double>& lines, std::
   }
   return fine;
 }
+
+#endif
 
 }  // namespace voussoir

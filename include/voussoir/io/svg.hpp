@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/number_text.hpp>
 #include <voussoir/io/page_map.hpp>
@@ -102,18 +103,7 @@ struct TextStyle {
 };
 
 /// Room that a text takes [px]. Fonts differ by a fifth; this is for a wide one (DejaVu Sans).
-[[nodiscard]] inline double text_width(std::string_view text, const TextStyle& style) {
-  double width = 0;  // in units of the font size
-  for (const char c : text) {
-    if (static_cast<std::uint8_t>(c) >= 0x80 && static_cast<std::uint8_t>(c) < 0xC0) continue;
-    const bool is_narrow =
-        std::string_view(" .,:;'|!()[]/-ijltfrI").find(c) != std::string_view::npos;
-    const bool is_wide = std::string_view("mwMW%@=+<>").find(c) != std::string_view::npos;
-    const bool is_capital = c >= 'A' && c <= 'Z';
-    width += is_narrow ? 0.38 : is_wide ? 0.94 : is_capital ? 0.71 : 0.635;
-  }
-  return width * style.size * (style.bold ? 1.12 : 1.0);
-}
+[[nodiscard]] VOUSSOIR_INLINE double text_width(std::string_view text, const TextStyle& style);
 
 /// A page in Scalable Vector Graphics. Coordinates in px from the top left corner, y down; use a
 /// PageMap for world coordinates. Elements appear in the order of the calls, later ones on top.
@@ -239,5 +229,22 @@ class SvgCanvas {
   std::string text_;
   int open_layers_ = 0;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double text_width(std::string_view text, const TextStyle& style) {
+  double width = 0;  // in units of the font size
+  for (const char c : text) {
+    if (static_cast<std::uint8_t>(c) >= 0x80 && static_cast<std::uint8_t>(c) < 0xC0) continue;
+    const bool is_narrow =
+        std::string_view(" .,:;'|!()[]/-ijltfrI").find(c) != std::string_view::npos;
+    const bool is_wide = std::string_view("mwMW%@=+<>").find(c) != std::string_view::npos;
+    const bool is_capital = c >= 'A' && c <= 'Z';
+    width += is_narrow ? 0.38 : is_wide ? 0.94 : is_capital ? 0.71 : 0.635;
+  }
+  return width * style.size * (style.bold ? 1.12 : 1.0);
+}
+
+#endif
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/axonometric_view.hpp>
 #include <voussoir/io/colour_map.hpp>
@@ -41,7 +42,29 @@ namespace detail {
 
 /// Of a part that the section does not cut: true if it lies at higher x. A body may have parts on
 /// either side of an opening, so its centroid does not tell.
-[[nodiscard]] inline bool lies_before(const ConvexPolyhedron& part, double section_x) {
+[[nodiscard]] VOUSSOIR_INLINE bool lies_before(const ConvexPolyhedron& part, double section_x);
+
+/// The part of a line at or below the section, if there is any.
+[[nodiscard]] VOUSSOIR_INLINE std::optional<SupportLine> behind_section(SupportLine line,
+                                                                        double section_x,
+                                                                        double tolerance);
+
+}  // namespace detail
+
+/// The rock on the far side of the section with its blocks, the wall of the tunnel, bolts and
+/// lining; colours show displacement.
+///
+/// @return  an SVG document, 190 mm wide
+/// @throws InvalidInput  no block, a displacement for each is missing, or nothing behind the
+/// section
+[[nodiscard]] VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
+                                                           const TunnelView& scene);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE bool lies_before(const ConvexPolyhedron& part, double section_x) {
   double lowest = section_x, highest = section_x;
   for (const Vec3& p : part.vertices()) {
     lowest = std::min(lowest, p.x());
@@ -50,9 +73,8 @@ namespace detail {
   return highest - section_x > section_x - lowest;
 }
 
-/// The part of a line at or below the section, if there is any.
-[[nodiscard]] inline std::optional<SupportLine> behind_section(SupportLine line, double section_x,
-                                                               double tolerance) {
+VOUSSOIR_INLINE std::optional<SupportLine> behind_section(SupportLine line, double section_x,
+                                                          double tolerance) {
   if (line.from.x() > line.to.x()) std::swap(line.from, line.to);
   if (line.from.x() > section_x + tolerance) return std::nullopt;
   if (line.to.x() > section_x + tolerance)
@@ -63,14 +85,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// The rock on the far side of the section with its blocks, the wall of the tunnel, bolts and
-/// lining; colours show displacement.
-///
-/// @return  an SVG document, 190 mm wide
-/// @throws InvalidInput  no block, a displacement for each is missing, or nothing behind the
-/// section
-[[nodiscard]] inline std::string draw_tunnel_view(const RockMass<Spatial>& mass,
-                                                  const TunnelView& scene) {
+VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
+                                             const TunnelView& scene) {
   using namespace detail;
   if (mass.bodies.empty()) throw InvalidInput("draw_tunnel_view: needs at least one block");
   if (scene.displacement.size() != mass.bodies.size())
@@ -182,5 +198,7 @@ namespace detail {
   canvas.end_layer();
   return canvas.document();
 }
+
+#endif
 
 }  // namespace voussoir

@@ -5,11 +5,20 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <voussoir/core/bodies.hpp>
 
 namespace voussoir {
 
 /// Bytes of the character that `text` begins with, if it is UTF-8 and allowed in XML 1.0; else 0.
-[[nodiscard]] inline std::size_t xml_character_length(std::string_view text) {
+[[nodiscard]] VOUSSOIR_INLINE std::size_t xml_character_length(std::string_view text);
+
+/// Text for the inside of an XML element or attribute. Bytes that would make the file unreadable
+/// (control characters, a title typed in Latin-1) become U+FFFD.
+[[nodiscard]] VOUSSOIR_INLINE std::string xml_escaped(std::string_view text);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::size_t xml_character_length(std::string_view text) {
   if (text.empty()) return 0;
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint32_t lead = byte(0);
@@ -29,9 +38,7 @@ namespace voussoir {
   return code >= smallest[length] && !is_forbidden ? length : 0;
 }
 
-/// Text for the inside of an XML element or attribute. Bytes that would make the file unreadable
-/// (control characters, a title typed in Latin-1) become U+FFFD.
-[[nodiscard]] inline std::string xml_escaped(std::string_view text) {
+VOUSSOIR_INLINE std::string xml_escaped(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const std::size_t length = xml_character_length(text);
@@ -59,5 +66,7 @@ namespace voussoir {
   }
   return result;
 }
+
+#endif
 
 }  // namespace voussoir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/lining/lining_model.hpp>
 
 namespace voussoir {
@@ -8,49 +9,13 @@ namespace voussoir {
 namespace detail {
 
 /// The plane frame element; `phi` = 12 E I / (kappa G A l^2), 0 without shear deformation.
-[[nodiscard]] inline ElementMatrix<3> plane_frame(const LiningSection& section, double length,
-                                                  double phi) {
-  const double axial = section.axial_stiffness / length;
-  const double b = section.bending_stiffness / (length * length * length * (1 + phi));
-  const double v = 12 * b, vt = 6 * length * b, near = (4 + phi) * length * length * b,
-               far = (2 - phi) * length * length * b;
-  return by_rows<6, 6>({axial,  0,  0,    -axial, 0,   0,    //
-                        0,      v,  vt,   0,      -v,  vt,   //
-                        0,      vt, near, 0,      -vt, far,  //
-                        -axial, 0,  0,    axial,  0,   0,    //
-                        0,      -v, -vt,  0,      v,   -vt,  //
-                        0,      vt, far,  0,      -vt, near});
-}
+[[nodiscard]] VOUSSOIR_INLINE ElementMatrix<3> plane_frame(const LiningSection& section,
+                                                           double length, double phi);
 
 /// The frame element in 3-D: the plane one about both axes of the section, and torsion. Axes as
 /// in `frame_axes`: bending_stiffness acts in the plane of x and y.
-[[nodiscard]] inline ElementMatrix<6> space_frame(const LiningSection& section, double length,
-                                                  bool shears) {
-  const auto phi = [&](double bending) {
-    return shears ? 12 * bending / (section.shear_stiffness * length * length) : 0.0;
-  };
-  const auto about = [&](double bending) {
-    LiningSection plane = section;
-    plane.bending_stiffness = bending;
-    return plane_frame(plane, length, phi(bending));
-  };
-  // In the plane x, y: displacement 1, rotation 5 (about z). In x, z: displacement 2, rotation 4,
-  // which runs the other way round: a slope dz/dx is a negative turn about y.
-  const ElementMatrix<3> in_xy = about(section.bending_stiffness),
-                         in_xz = about(section.lateral_bending_stiffness);
-  constexpr int xy[] = {0, 1, 5, 6, 7, 11}, xz[] = {0, 2, 4, 6, 8, 10};
-  constexpr double sign[] = {1, 1, -1, 1, 1, -1};
-  ElementMatrix<6> k = ElementMatrix<6>::Zero();
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) {
-      k(xy[i], xy[j]) += in_xy(i, j);
-      if (i % 3 != 0 && j % 3 != 0) k(xz[i], xz[j]) += sign[i] * sign[j] * in_xz(i, j);
-    }
-  const double torsion = section.torsional_stiffness / length;
-  k(3, 3) = k(9, 9) = torsion;
-  k(3, 9) = k(9, 3) = -torsion;
-  return k;
-}
+[[nodiscard]] VOUSSOIR_INLINE ElementMatrix<6> space_frame(const LiningSection& section,
+                                                           double length, bool shears);
 
 }  // namespace detail
 
@@ -161,5 +126,55 @@ static_assert(LiningModel<EulerBernoulliBeam, 3> && LiningModel<TimoshenkoBeam, 
               LiningModel<EulerBernoulliBeam, 6> && LiningModel<TimoshenkoBeam, 6>);
 static_assert(LiningModel<PinnedBar, 3> && LiningModel<BondedChain, 3> &&
               LiningModel<PinnedBar, 6> && LiningModel<BondedChain, 6>);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE ElementMatrix<3> plane_frame(const LiningSection& section, double length,
+                                             double phi) {
+  const double axial = section.axial_stiffness / length;
+  const double b = section.bending_stiffness / (length * length * length * (1 + phi));
+  const double v = 12 * b, vt = 6 * length * b, near = (4 + phi) * length * length * b,
+               far = (2 - phi) * length * length * b;
+  return by_rows<6, 6>({axial,  0,  0,    -axial, 0,   0,    //
+                        0,      v,  vt,   0,      -v,  vt,   //
+                        0,      vt, near, 0,      -vt, far,  //
+                        -axial, 0,  0,    axial,  0,   0,    //
+                        0,      -v, -vt,  0,      v,   -vt,  //
+                        0,      vt, far,  0,      -vt, near});
+}
+
+VOUSSOIR_INLINE ElementMatrix<6> space_frame(const LiningSection& section, double length,
+                                             bool shears) {
+  const auto phi = [&](double bending) {
+    return shears ? 12 * bending / (section.shear_stiffness * length * length) : 0.0;
+  };
+  const auto about = [&](double bending) {
+    LiningSection plane = section;
+    plane.bending_stiffness = bending;
+    return plane_frame(plane, length, phi(bending));
+  };
+  // In the plane x, y: displacement 1, rotation 5 (about z). In x, z: displacement 2, rotation 4,
+  // which runs the other way round: a slope dz/dx is a negative turn about y.
+  const ElementMatrix<3> in_xy = about(section.bending_stiffness),
+                         in_xz = about(section.lateral_bending_stiffness);
+  constexpr int xy[] = {0, 1, 5, 6, 7, 11}, xz[] = {0, 2, 4, 6, 8, 10};
+  constexpr double sign[] = {1, 1, -1, 1, 1, -1};
+  ElementMatrix<6> k = ElementMatrix<6>::Zero();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      k(xy[i], xy[j]) += in_xy(i, j);
+      if (i % 3 != 0 && j % 3 != 0) k(xz[i], xz[j]) += sign[i] * sign[j] * in_xz(i, j);
+    }
+  const double torsion = section.torsional_stiffness / length;
+  k(3, 3) = k(9, 9) = torsion;
+  k(3, 9) = k(9, 3) = -torsion;
+  return k;
+}
+
+}  // namespace detail
+
+#endif
 
 }  // namespace voussoir

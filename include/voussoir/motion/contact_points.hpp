@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/spatial_facet.hpp>
@@ -34,8 +35,20 @@ struct WeightedPoint {
 /// The points of a contact in 2-D, from one end to the other.
 ///
 ///   corners: Simpson's rule, 1/6, 4/6, 1/6: exact for polynomials of degree 3, as two Gauss points
-inline void place_points(ContactPoints rule, std::span<const Vec2> ends, double length,
-                         std::vector<WeightedPoint<2>>& points) {
+VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec2> ends, double length,
+                                  std::vector<WeightedPoint<2>>& points);
+
+/// The points of a contact in 3-D.
+///
+///   corners: the triangles of a fan about the centroid, each with 1/12 of its area on every corner
+///   and 3/4 on its centroid: exact for polynomials of degree 2
+VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec3> polygon, double area,
+                                  std::vector<WeightedPoint<3>>& points);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec2> ends, double length,
+                                  std::vector<WeightedPoint<2>>& points) {
   points.clear();
   const Vec2 middle = 0.5 * (ends[0] + ends[1]), half = 0.5 * (ends[1] - ends[0]);
   switch (rule) {
@@ -53,12 +66,8 @@ inline void place_points(ContactPoints rule, std::span<const Vec2> ends, double 
   }
 }
 
-/// The points of a contact in 3-D.
-///
-///   corners: the triangles of a fan about the centroid, each with 1/12 of its area on every corner
-///   and 3/4 on its centroid: exact for polynomials of degree 2
-inline void place_points(ContactPoints rule, std::span<const Vec3> polygon, double area,
-                         std::vector<WeightedPoint<3>>& points) {
+VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec3> polygon, double area,
+                                  std::vector<WeightedPoint<3>>& points) {
   points.clear();
   const SpatialFacet facet{{polygon.begin(), polygon.end()}};
   const Vec3 centre = facet.centre();
@@ -86,5 +95,7 @@ inline void place_points(ContactPoints rule, std::span<const Vec3> polygon, doub
     points.push_back({(centre + polygon[k] + polygon[next]) / 3, 0.75 * triangle});
   }
 }
+
+#endif
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -85,17 +86,7 @@ inline void check_inside(const SimplePolygon& opening, const Domain<2>& domain) 
       throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
                          " m");
 }
-inline void check_inside(const PrismaticOpening& opening, const Domain<3>& domain) {
-  for (const Vec2& v : opening.section().vertices())
-    if (!(v.x() > domain.low.x() && v.x() < domain.high.x() && v.y() > domain.low.z() &&
-          v.y() < domain.high.z()))
-      throw InvalidInput(
-          "opening: its section touches or leaves the domain at x, z = " + text_of<2>(v) + " m");
-  if (!(opening.to() > domain.low.y() && opening.from() < domain.high.y()))
-    throw InvalidInput("opening: it lies beside the domain, which reaches from " +
-                       message_number(domain.low.y()) + " to " + message_number(domain.high.y()) +
-                       " m along y");
-}
+VOUSSOIR_INLINE void check_inside(const PrismaticOpening& opening, const Domain<3>& domain);
 
 /// True if two faces of one cut touch over more than `tolerance`.
 [[nodiscard]] inline bool overlap(const Segment& a, const Segment& b, double tolerance) {
@@ -104,21 +95,9 @@ inline void check_inside(const PrismaticOpening& opening, const Domain<3>& domai
   return std::min(a1, std::max(b0, b1)) - std::max(0.0, std::min(b0, b1)) > tolerance;
 }
 /// The part of a face inside the prism over another, which faces the other way.
-[[nodiscard]] inline std::optional<JointPlane> common_part(const SpatialFacet& a,
-                                                           const SpatialFacet& b,
-                                                           double tolerance) {
-  const Vec3 normal = a.area_vector().normalized();
-  std::optional<JointPlane> rest =
-      JointPlane{HalfSpace<3>::through(a.vertices.front(), normal), a.vertices};
-  const Vec3 other = b.area_vector().normalized();
-  for (std::size_t k = 0; rest && k < b.vertices.size(); ++k) {
-    const Vec3 &from = b.vertices[k], &to = b.vertices[k + 1 == b.vertices.size() ? 0 : k + 1];
-    const Vec3 out = cross(Vec3(to - from), other);
-    if (!(out.norm() > tolerance)) continue;
-    rest = split(std::move(*rest), HalfSpace<3>::through(from, out.normalized()), tolerance).below;
-  }
-  return rest;
-}
+[[nodiscard]] VOUSSOIR_INLINE std::optional<JointPlane> common_part(const SpatialFacet& a,
+                                                                    const SpatialFacet& b,
+                                                                    double tolerance);
 [[nodiscard]] inline bool overlap(const SpatialFacet& a, const SpatialFacet& b, double tolerance) {
   const auto common = common_part(a, b, tolerance);
   return common && common->area() > tolerance * std::sqrt(a.measure());
@@ -259,7 +238,48 @@ struct WallPiece {
 /// wall is a face of that joint.
 ///
 /// @cost  one bounding test per body; faces x outline edges near the opening only
-[[nodiscard]] inline std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar>& mass) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(
+    const RockMass<Planar>& mass);
+
+/// The same in 3-D: pieces of the faces of the rock on the sides of the last opening (not on its
+/// ends); `from` and `to` are those of the edge that they belong to.
+[[nodiscard]] VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(
+    const RockMass<Spatial>& mass);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE void check_inside(const PrismaticOpening& opening, const Domain<3>& domain) {
+  for (const Vec2& v : opening.section().vertices())
+    if (!(v.x() > domain.low.x() && v.x() < domain.high.x() && v.y() > domain.low.z() &&
+          v.y() < domain.high.z()))
+      throw InvalidInput(
+          "opening: its section touches or leaves the domain at x, z = " + text_of<2>(v) + " m");
+  if (!(opening.to() > domain.low.y() && opening.from() < domain.high.y()))
+    throw InvalidInput("opening: it lies beside the domain, which reaches from " +
+                       message_number(domain.low.y()) + " to " + message_number(domain.high.y()) +
+                       " m along y");
+}
+
+VOUSSOIR_INLINE std::optional<JointPlane> common_part(const SpatialFacet& a, const SpatialFacet& b,
+                                                      double tolerance) {
+  const Vec3 normal = a.area_vector().normalized();
+  std::optional<JointPlane> rest =
+      JointPlane{HalfSpace<3>::through(a.vertices.front(), normal), a.vertices};
+  const Vec3 other = b.area_vector().normalized();
+  for (std::size_t k = 0; rest && k < b.vertices.size(); ++k) {
+    const Vec3 &from = b.vertices[k], &to = b.vertices[k + 1 == b.vertices.size() ? 0 : k + 1];
+    const Vec3 out = cross(Vec3(to - from), other);
+    if (!(out.norm() > tolerance)) continue;
+    rest = split(std::move(*rest), HalfSpace<3>::through(from, out.normalized()), tolerance).below;
+  }
+  return rest;
+}
+
+}  // namespace detail
+
+VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar>& mass) {
   if (mass.openings.empty()) return {};
   const SimplePolygon& opening = mass.openings.back();
   const double tolerance = mass.domain.tolerance();
@@ -297,9 +317,7 @@ struct WallPiece {
   return pieces;
 }
 
-/// The same in 3-D: pieces of the faces of the rock on the sides of the last opening (not on its
-/// ends); `from` and `to` are those of the edge that they belong to.
-[[nodiscard]] inline std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass) {
+VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass) {
   if (mass.openings.empty()) return {};
   const PrismaticOpening& opening = mass.openings.back();
   const SimplePolygon& section = opening.section();
@@ -342,5 +360,7 @@ struct WallPiece {
                    [](const auto& a, const auto& b) { return a.edge < b.edge; });
   return pieces;
 }
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
@@ -61,7 +62,11 @@ using SideOf = std::conditional_t<Dim == 2, Side, SpatialSide>;
                        {static_cast<int>(Side::left), static_cast<int>(Side::bottom),
                         static_cast<int>(Side::right), static_cast<int>(Side::top)});
 }
-[[nodiscard]] inline ConvexPolyhedron as_block(const Domain<3>& domain) {
+[[nodiscard]] VOUSSOIR_INLINE ConvexPolyhedron as_block(const Domain<3>& domain);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ConvexPolyhedron as_block(const Domain<3>& domain) {
   // Corner k has the higher x, y, z where bits 0, 1, 2 of k are set.
   std::vector<Vec3> corners;
   corners.reserve(8);
@@ -75,5 +80,7 @@ using SideOf = std::conditional_t<Dim == 2, Side, SpatialSide>;
       {{0, 4, 6, 2}, {0, 2, 3, 1}, {1, 3, 7, 5}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}},
       {0, 1, 2, 3, 4, 5});
 }
+
+#endif
 
 }  // namespace voussoir

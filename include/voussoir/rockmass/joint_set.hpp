@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/random.hpp>
@@ -78,9 +79,28 @@ template <class Set, int Dim>
 /// With an intensity (or a spacing and a finite extent, which amounts to 1/(spacing * extent)
 /// centres per area) centres are uniform over the domain and their number is the expected one,
 /// rounded. With a spacing and no end the joints are equidistant, with a random first one.
-[[nodiscard]] inline std::vector<Joint> generate(const JointSet& set, int index,
-                                                 const Domain<2>& domain, std::uint64_t seed,
-                                                 const Progress& progress = {}) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<Joint> generate(const JointSet& set, int index,
+                                                          const Domain<2>& domain,
+                                                          std::uint64_t seed,
+                                                          const Progress& progress = {});
+
+/// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
+/// would use up the block sizes that the minimum allows.
+///
+/// The joints of a seed are the same to the last bit whatever compiler and flags (see
+/// repeatable.hpp).
+/// @param progress  asked now and then whether to go on
+/// @throws InvalidInput, Stopped
+[[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
+                                                      const Domain<2>& domain, std::uint64_t seed,
+                                                      const Progress& progress = {}) {
+  return detail::shuffled_joints(sets, domain, seed, progress);
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::vector<Joint> generate(const JointSet& set, int index, const Domain<2>& domain,
+                                            std::uint64_t seed, const Progress& progress) {
   using repeatable::along, repeatable::product;
   set.check();
   StopCheck stop(progress);
@@ -112,17 +132,6 @@ template <class Set, int Dim>
   return joints;
 }
 
-/// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
-/// would use up the block sizes that the minimum allows.
-///
-/// The joints of a seed are the same to the last bit whatever compiler and flags (see
-/// repeatable.hpp).
-/// @param progress  asked now and then whether to go on
-/// @throws InvalidInput, Stopped
-[[nodiscard]] inline std::vector<Joint> joint_network(const std::vector<JointSet>& sets,
-                                                      const Domain<2>& domain, std::uint64_t seed,
-                                                      const Progress& progress = {}) {
-  return detail::shuffled_joints(sets, domain, seed, progress);
-}
+#endif
 
 }  // namespace voussoir

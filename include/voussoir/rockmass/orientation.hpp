@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -51,7 +52,11 @@ struct Orientation {
 /// the normals, each turned to their common side. For sets that scatter less than 90
 /// degrees about their mean.
 /// @pre  at least one normal
-[[nodiscard]] inline Orientation mean_orientation(std::span<const Vec3> normals) {
+[[nodiscard]] VOUSSOIR_INLINE Orientation mean_orientation(std::span<const Vec3> normals);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE Orientation mean_orientation(std::span<const Vec3> normals) {
   Vec3 side = normals.front();
   for (int round = 0; round < 2; ++round) {  // the first normal may be an outlier, its mean is not
     Vec3 sum = Vec3::Zero();
@@ -60,5 +65,7 @@ struct Orientation {
   }
   return orientation_of(side);
 }
+
+#endif
 
 }  // namespace voussoir

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
@@ -47,19 +48,7 @@ enum class Fit { good, too_small, too_long };
 [[nodiscard]] inline double hydraulic_radius(const ConvexPolygon& block) {
   return mass_properties(block).measure / block.perimeter();
 }
-[[nodiscard]] inline double hydraulic_radius(const ConvexPolyhedron& block) {
-  double volume = 0, surface = 0;
-  for (std::size_t k = 0; k < block.size(); ++k) {
-    const auto loop = block.loop(k);
-    const auto corner = [&](std::size_t i) -> const Vec3& {
-      return block.vertex(static_cast<std::size_t>(loop[i]));
-    };
-    const Vec3 area = doubled_area(loop.size(), corner);
-    surface += area.norm();
-    volume += area.dot(corner(0) - block.vertex(0)) / 3;
-  }
-  return volume / surface;
-}
+[[nodiscard]] VOUSSOIR_INLINE double hydraulic_radius(const ConvexPolyhedron& block);
 
 /// Radius of the ball about the mean of the vertices: the inscribed one is at least as large [m].
 template <class Shape>
@@ -293,5 +282,27 @@ template <class Geometry = Planar>
   }
   return slicer.finish(joints);
 }
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE double hydraulic_radius(const ConvexPolyhedron& block) {
+  double volume = 0, surface = 0;
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const auto loop = block.loop(k);
+    const auto corner = [&](std::size_t i) -> const Vec3& {
+      return block.vertex(static_cast<std::size_t>(loop[i]));
+    };
+    const Vec3 area = doubled_area(loop.size(), corner);
+    surface += area.norm();
+    volume += area.dot(corner(0) - block.vertex(0)) / 3;
+  }
+  return volume / surface;
+}
+
+}  // namespace detail
+
+#endif
 
 }  // namespace voussoir

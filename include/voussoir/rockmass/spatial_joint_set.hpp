@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/random.hpp>
@@ -89,7 +90,51 @@ struct PlaneFrame {
 /// Fisher's distribution has density ~ exp(kappa cos theta) sin theta in the angle theta from the
 /// mean normal; its distribution function is inverted (Fisher, Lewis & Embleton 1987, section
 /// 3.6.2), written so that neither a small nor a large kappa cancels.
-[[nodiscard]] inline PlaneFrame random_frame(const SpatialJointSet& set, Random& random) {
+[[nodiscard]] VOUSSOIR_INLINE PlaneFrame random_frame(const SpatialJointSet& set, Random& random);
+
+/// A joint of the set's shape about `centre`.
+[[nodiscard]] VOUSSOIR_INLINE JointPlane joint_at(const SpatialJointSet& set, const Vec3& centre,
+                                                  const PlaneFrame& plane);
+
+/// True if some of the joint lies inside the domain, further than the tolerance.
+[[nodiscard]] VOUSSOIR_INLINE bool reaches(const JointPlane& joint, const Domain<3>& domain);
+
+}  // namespace detail
+
+/// Joints of one set that reach the domain.
+///
+/// Joints of finite size have centres uniform over the domain and as far around it as a joint
+/// reaches, so that the area of joints per volume is as given up to the sides, where centres inside
+/// alone would leave too little. Their number is the expected one, rounded; a spacing s and a joint
+/// area A amount to 1 / (s A) centres per volume, P32 to P32 / A.
+///
+/// Fully persistent joints are equidistant with a random first one if a spacing is given, and
+/// placed independently of each other (uniform along the mean normal) if P32 is.
+///
+/// @param index  of the set: its stream of random numbers, and the label of its joints
+/// @param progress  asked now and then whether to go on
+/// @throws InvalidInput  see SpatialJointSet::check
+/// @throws Stopped
+///
+/// Source: Dershowitz & Herda (1992), Interpretation of fracture spacing and intensity (P30, P32).
+[[nodiscard]] VOUSSOIR_INLINE std::vector<SpatialJoint> generate(const SpatialJointSet& set,
+                                                                 int index, const Domain<3>& domain,
+                                                                 std::uint64_t seed,
+                                                                 const Progress& progress = {});
+
+/// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
+/// would use up the block sizes that the minimum allows.
+[[nodiscard]] inline std::vector<SpatialJoint> joint_network(
+    const std::vector<SpatialJointSet>& sets, const Domain<3>& domain, std::uint64_t seed,
+    const Progress& progress = {}) {
+  return detail::shuffled_joints(sets, domain, seed, progress);
+}
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE PlaneFrame random_frame(const SpatialJointSet& set, Random& random) {
   using namespace repeatable;
   Orientation plane{set.dip, set.dip_direction};
   if (!(set.fisher_concentration > 0)) {
@@ -115,9 +160,8 @@ struct PlaneFrame {
       normal, {product(normal.z(), east), product(normal.z(), north), -slope}, {-north, east, 0}};
 }
 
-/// A joint of the set's shape about `centre`.
-[[nodiscard]] inline JointPlane joint_at(const SpatialJointSet& set, const Vec3& centre,
-                                         const PlaneFrame& plane) {
+VOUSSOIR_INLINE JointPlane joint_at(const SpatialJointSet& set, const Vec3& centre,
+                                    const PlaneFrame& plane) {
   using repeatable::scaled;
   if (const auto* disc = std::get_if<DiscJoints>(&set.shape))
     return joint_disc(centre, plane.normal, disc->diameter);
@@ -127,8 +171,7 @@ struct PlaneFrame {
   return unbounded_joint(centre, plane.normal);
 }
 
-/// True if some of the joint lies inside the domain, further than the tolerance.
-[[nodiscard]] inline bool reaches(const JointPlane& joint, const Domain<3>& domain) {
+VOUSSOIR_INLINE bool reaches(const JointPlane& joint, const Domain<3>& domain) {
   using namespace repeatable;
   const double tolerance = domain.tolerance();
   if (joint.is_unbounded()) {
@@ -165,7 +208,7 @@ struct PlaneFrame {
 
 }  // namespace detail
 
-inline void SpatialJointSet::check() const {
+VOUSSOIR_INLINE void SpatialJointSet::check() const {
   const auto rule = [this](bool holds, const char* what, double value, const char* text) {
     if (!holds)
       throw InvalidInput("joint set " + name + ": " + what + " = " + message_number(value) +
@@ -207,25 +250,9 @@ inline void SpatialJointSet::check() const {
          "0 for fully persistent joints, which have no centre: give spacing or area_per_volume");
 }
 
-/// Joints of one set that reach the domain.
-///
-/// Joints of finite size have centres uniform over the domain and as far around it as a joint
-/// reaches, so that the area of joints per volume is as given up to the sides, where centres inside
-/// alone would leave too little. Their number is the expected one, rounded; a spacing s and a joint
-/// area A amount to 1 / (s A) centres per volume, P32 to P32 / A.
-///
-/// Fully persistent joints are equidistant with a random first one if a spacing is given, and
-/// placed independently of each other (uniform along the mean normal) if P32 is.
-///
-/// @param index  of the set: its stream of random numbers, and the label of its joints
-/// @param progress  asked now and then whether to go on
-/// @throws InvalidInput  see SpatialJointSet::check
-/// @throws Stopped
-///
-/// Source: Dershowitz & Herda (1992), Interpretation of fracture spacing and intensity (P30, P32).
-[[nodiscard]] inline std::vector<SpatialJoint> generate(const SpatialJointSet& set, int index,
-                                                        const Domain<3>& domain, std::uint64_t seed,
-                                                        const Progress& progress = {}) {
+VOUSSOIR_INLINE std::vector<SpatialJoint> generate(const SpatialJointSet& set, int index,
+                                                   const Domain<3>& domain, std::uint64_t seed,
+                                                   const Progress& progress) {
   using repeatable::along, repeatable::product;
   set.check();
   StopCheck stop(progress);
@@ -272,12 +299,6 @@ inline void SpatialJointSet::check() const {
   return joints;
 }
 
-/// The joints of all sets in one random order. Slicing set by set would be wrong: the first set
-/// would use up the block sizes that the minimum allows.
-[[nodiscard]] inline std::vector<SpatialJoint> joint_network(
-    const std::vector<SpatialJointSet>& sets, const Domain<3>& domain, std::uint64_t seed,
-    const Progress& progress = {}) {
-  return detail::shuffled_joints(sets, domain, seed, progress);
-}
+#endif
 
 }  // namespace voussoir

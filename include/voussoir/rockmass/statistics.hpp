@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -52,16 +53,9 @@ template <class Geometry>
 
 /// Mean spacing over scanlines that radiate from `centre`, starting at `inner`, `length` long:
 /// total length / total number of joints, over `directions` equally spaced directions [m].
-[[nodiscard]] inline double radial_spacing(const RockMass<Planar>& mass, const Vec2& centre,
-                                           double inner, double length, int directions = 72) {
-  Scanline found;
-  for (int k = 0; k < directions; ++k) {
-    const double angle = 2 * std::numbers::pi * (k + 0.5) / directions;
-    const Vec2 out(std::cos(angle), std::sin(angle));
-    scan(mass, {centre + inner * out, centre + (inner + length) * out}, found);
-  }
-  return found.spacing();
-}
+[[nodiscard]] VOUSSOIR_INLINE double radial_spacing(const RockMass<Planar>& mass,
+                                                    const Vec2& centre, double inner, double length,
+                                                    int directions = 72);
 
 /// Area of joints per volume of rock, P32 [m^2/m^3]; in a section their length per area, P21.
 ///
@@ -147,5 +141,20 @@ class BlockSizeCurve {
  private:
   std::vector<double> sizes_, passing_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double radial_spacing(const RockMass<Planar>& mass, const Vec2& centre,
+                                      double inner, double length, int directions) {
+  Scanline found;
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2 * std::numbers::pi * (k + 0.5) / directions;
+    const Vec2 out(std::cos(angle), std::sin(angle));
+    scan(mass, {centre + inner * out, centre + (inner + length) * out}, found);
+  }
+  return found.spacing();
+}
+
+#endif
 
 }  // namespace voussoir

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -19,8 +20,41 @@
 namespace voussoir {
 
 /// The part of a trace that lies in the domain, if any.
-[[nodiscard]] inline std::optional<Segment> inside_of(const Domain<2>& domain,
-                                                      const Segment& trace) {
+[[nodiscard]] VOUSSOIR_INLINE std::optional<Segment> inside_of(const Domain<2>& domain,
+                                                               const Segment& trace);
+
+/// How mapped traces lie to the ground that is modelled.
+struct TraceCoverage {
+  std::size_t count = 0;   ///< of traces
+  std::size_t inside = 0;  ///< of them, those that reach into the domain
+  Vec2 low, high;          ///< extent of all traces, on the site grid [m]
+};
+
+/// @pre  at least one trace
+[[nodiscard]] VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<Joint>& traces,
+                                                           const Domain<2>& domain);
+
+/// Says how many traces reach the domain, where both lie, and what is probably wrong: the unit of
+/// the coordinates, or the site coordinates of the model's origin.
+/// @param origin_name  what the user calls the latter
+[[nodiscard]] VOUSSOIR_INLINE std::string coverage_text(const TraceCoverage& found,
+                                                        const Domain<2>& domain,
+                                                        const std::string& origin_name);
+
+/// How many blocks joints will cut, before any is cut: one for each, and one for each crossing of
+/// two, but no more than blocks of the smallest inscribed circle have room. Within a factor of two
+/// for networks in which joints do not end in whole rock; three joints through one point count as
+/// three crossings, where they make two.
+///
+/// @cost  linear in the joints: crossings are not looked for one by one but taken from the length
+///        and the direction of what runs through each of 24 x 24 cells
+[[nodiscard]] VOUSSOIR_INLINE double estimated_blocks(const std::vector<Joint>& joints,
+                                                      const Domain<2>& domain,
+                                                      double min_inscribed_radius);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::optional<Segment> inside_of(const Domain<2>& domain, const Segment& trace) {
   std::optional<Segment> inside = trace;
   for (int axis = 0; axis < 2; ++axis)
     for (const double sign : {1.0, -1.0}) {
@@ -32,16 +66,8 @@ namespace voussoir {
   return inside;
 }
 
-/// How mapped traces lie to the ground that is modelled.
-struct TraceCoverage {
-  std::size_t count = 0;   ///< of traces
-  std::size_t inside = 0;  ///< of them, those that reach into the domain
-  Vec2 low, high;          ///< extent of all traces, on the site grid [m]
-};
-
-/// @pre  at least one trace
-[[nodiscard]] inline TraceCoverage trace_coverage(const std::vector<Joint>& traces,
-                                                  const Domain<2>& domain) {
+VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<Joint>& traces,
+                                             const Domain<2>& domain) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   TraceCoverage found{traces.size(), 0, Vec2(inf, inf), Vec2(-inf, -inf)};
   for (const Joint& joint : traces) {
@@ -56,11 +82,8 @@ struct TraceCoverage {
   return found;
 }
 
-/// Says how many traces reach the domain, where both lie, and what is probably wrong: the unit of
-/// the coordinates, or the site coordinates of the model's origin.
-/// @param origin_name  what the user calls the latter
-[[nodiscard]] inline std::string coverage_text(const TraceCoverage& found, const Domain<2>& domain,
-                                               const std::string& origin_name) {
+VOUSSOIR_INLINE std::string coverage_text(const TraceCoverage& found, const Domain<2>& domain,
+                                          const std::string& origin_name) {
   const Vec2 low = domain.low + domain.site_origin, high = domain.high + domain.site_origin;
   const auto meets = [&](const Vec2& a, const Vec2& b) {
     return a.x() < high.x() && b.x() > low.x() && a.y() < high.y() && b.y() > low.y();
@@ -92,15 +115,8 @@ struct TraceCoverage {
          text_of<2>(high) + " m; probable cause: " + cause;
 }
 
-/// How many blocks joints will cut, before any is cut: one for each, and one for each crossing of
-/// two, but no more than blocks of the smallest inscribed circle have room. Within a factor of two
-/// for networks in which joints do not end in whole rock; three joints through one point count as
-/// three crossings, where they make two.
-///
-/// @cost  linear in the joints: crossings are not looked for one by one but taken from the length
-///        and the direction of what runs through each of 24 x 24 cells
-[[nodiscard]] inline double estimated_blocks(const std::vector<Joint>& joints,
-                                             const Domain<2>& domain, double min_inscribed_radius) {
+VOUSSOIR_INLINE double estimated_blocks(const std::vector<Joint>& joints, const Domain<2>& domain,
+                                        double min_inscribed_radius) {
   constexpr int cells = 24, directions = 90;
   std::vector<double> lengths(std::size_t{cells} * cells * directions, 0.0);
   double blocks = 1;
@@ -144,5 +160,7 @@ struct TraceCoverage {
   // A grid of squares has one block to 4 r^2.
   return std::min(blocks, 0.25 * domain.measure() / (min_inscribed_radius * min_inscribed_radius));
 }
+
+#endif
 
 }  // namespace voussoir

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
@@ -30,14 +31,7 @@ namespace detail {
 
 /// A line of a file as a message may show it: its first 60 characters, without line end and with
 /// ? for control characters, which a terminal would obey.
-[[nodiscard]] inline std::string shown(std::string_view line) {
-  constexpr std::size_t most = 60;
-  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-  std::string text(line.substr(0, most));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return line.size() > most ? text + "..." : text;
-}
+[[nodiscard]] VOUSSOIR_INLINE std::string shown(std::string_view line);
 
 /// The lines of a text, whatever ends them: LF, CR LF or CR. Reads no further than limits allow,
 /// so that a source without end is refused.
@@ -120,10 +114,31 @@ class BoundedLines {
 /// @throws InvalidInput  naming file and line: wrong number of fields, not a finite number, zero
 ///                       length, a set that is not accepted, no trace at all, more than `limits`
 /// @throws Stopped
-[[nodiscard]] inline std::vector<Joint> read_traces(std::istream& in, const std::string& name,
-                                                    const Vec2& site_origin = Vec2::Zero(),
-                                                    const TraceFileLimits& limits = {},
-                                                    const Progress& progress = {}) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<Joint> read_traces(std::istream& in,
+                                                             const std::string& name,
+                                                             const Vec2& site_origin = Vec2::Zero(),
+                                                             const TraceFileLimits& limits = {},
+                                                             const Progress& progress = {});
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE std::string shown(std::string_view line) {
+  constexpr std::size_t most = 60;
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  std::string text(line.substr(0, most));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return line.size() > most ? text + "..." : text;
+}
+
+}  // namespace detail
+
+VOUSSOIR_INLINE std::vector<Joint> read_traces(std::istream& in, const std::string& name,
+                                               const Vec2& site_origin,
+                                               const TraceFileLimits& limits,
+                                               const Progress& progress) {
   StopCheck stop(progress);
   detail::BoundedLines lines(in, name, limits, stop);
   std::vector<Joint> joints;
@@ -185,5 +200,7 @@ class BoundedLines {
                        "1.5,-2,4.25,3,0");
   return joints;
 }
+
+#endif
 
 }  // namespace voussoir

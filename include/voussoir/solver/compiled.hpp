@@ -31,7 +31,18 @@
       const;                                                                                   \
   WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
 
+/// Rock: its blocks, the opening in it, its contacts.
+#define VOUSSOIR_ROCK(WORD, GEOMETRY)                                                           \
+  WORD RockMass<GEOMETRY> slice<GEOMETRY>(const Domain<GEOMETRY::dim>&,                         \
+                                          const std::vector<JointOf<GEOMETRY::dim>>&,           \
+                                          const BlockLimits&, const Progress&);                 \
+  WORD RockMass<GEOMETRY> carve<GEOMETRY>(RockMass<GEOMETRY>, const GEOMETRY::Opening&, double, \
+                                          const Progress&);
+
 namespace voussoir {
+
+VOUSSOIR_ROCK(VOUSSOIR_PLANAR_TEMPLATE, Planar)
+VOUSSOIR_ROCK(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
 
 VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialBolt)
 VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
@@ -46,4 +57,5 @@ VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoin
 
 }  // namespace voussoir
 
+#undef VOUSSOIR_ROCK
 #undef VOUSSOIR_SEARCHES

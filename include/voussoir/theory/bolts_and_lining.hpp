@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/theory/elastic_ground.hpp>
 #include <voussoir/theory/smeared_bolts.hpp>
@@ -28,11 +29,17 @@ struct ElasticSupport {
 /// @param radius           a, of the opening [m]; that of `bolts` and `lining` if they are given
 /// @param ground_pressure  p0 [Pa], > 0
 /// @throws InvalidInput    a value out of range, or radii that differ
-[[nodiscard]] inline ElasticSupport elastic_support(double radius,
-                                                    const std::optional<SmearedBoltPattern>& bolts,
-                                                    const std::optional<ThinLining>& lining,
-                                                    const ElasticGround& ground,
-                                                    double ground_pressure) {
+[[nodiscard]] VOUSSOIR_INLINE ElasticSupport elastic_support(
+    double radius, const std::optional<SmearedBoltPattern>& bolts,
+    const std::optional<ThinLining>& lining, const ElasticGround& ground, double ground_pressure);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ElasticSupport elastic_support(double radius,
+                                               const std::optional<SmearedBoltPattern>& bolts,
+                                               const std::optional<ThinLining>& lining,
+                                               const ElasticGround& ground,
+                                               double ground_pressure) {
   require(radius > 0 && std::isfinite(radius), "radius a", radius, "> 0 m");
   require(!bolts || bolts->radius == radius, "radius of the bolts", bolts ? bolts->radius : 0,
           "that of the opening");
@@ -56,5 +63,7 @@ struct ElasticSupport {
           .thrust = lining->chord_factor() * radius * pressure,
           .bolt_force = force * (ground_pressure * (flexibility / (give + flexibility)))};
 }
+
+#endif
 
 }  // namespace voussoir

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/theory/elastic_ground.hpp>
 
@@ -48,9 +49,14 @@ struct OpeningField {
 /// @param theta    from the horizontal, springing 0, crown pi / 2 [rad]
 /// @throws InvalidInput  a value out of range
 /// Source: Kirsch (1898); signs as in docs/conventions.md.
-[[nodiscard]] inline OpeningField kirsch(double radius, const FarStress& far,
-                                         const ElasticGround& ground, double distance,
-                                         double theta) {
+[[nodiscard]] VOUSSOIR_INLINE OpeningField kirsch(double radius, const FarStress& far,
+                                                  const ElasticGround& ground, double distance,
+                                                  double theta);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE OpeningField kirsch(double radius, const FarStress& far,
+                                    const ElasticGround& ground, double distance, double theta) {
   require(radius > 0 && std::isfinite(radius), "radius a", radius, "> 0 m");
   require(distance >= radius && std::isfinite(distance), "distance r", distance,
           ">= the radius of the opening");
@@ -67,5 +73,7 @@ struct OpeningField {
           .inward = length * (p + even * (4 * (1 - nu) - q)),
           .tangential = length * odd * (2 * (1 - 2 * nu) + q)};
 }
+
+#endif
 
 }  // namespace voussoir

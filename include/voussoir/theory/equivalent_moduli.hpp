@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -34,17 +35,10 @@ struct JointedModuli {
 /// @param youngs_modulus, shear_modulus  E_i, G_i of the rock between joints [Pa]; infinite: rigid
 /// @throws InvalidInput  a value out of range
 /// Source: Goodman, Taylor & Brekke (1968); Boon, Houlsby & Utili (2015), eqs (4)-(6).
-[[nodiscard]] inline JointedModuli goodman_moduli(
-    const JointStiffness& joints, double spacing,
-    double youngs_modulus = std::numeric_limits<double>::infinity(),
-    double shear_modulus = std::numeric_limits<double>::infinity()) {
-  joints.check();
-  require(spacing > 0 && std::isfinite(spacing), "joint spacing s", spacing, "> 0 m");
-  require(youngs_modulus > 0, "modulus of the rock E_i", youngs_modulus, "> 0 Pa");
-  require(shear_modulus > 0, "modulus of the rock G_i", shear_modulus, "> 0 Pa");
-  return {1 / (1 / youngs_modulus + 1 / (joints.normal * spacing)),
-          1 / (1 / shear_modulus + 1 / (joints.shear * spacing))};
-}
+[[nodiscard]] VOUSSOIR_INLINE JointedModuli
+goodman_moduli(const JointStiffness& joints, double spacing,
+               double youngs_modulus = std::numeric_limits<double>::infinity(),
+               double shear_modulus = std::numeric_limits<double>::infinity());
 
 /// G = E / (2 (1 + nu)): with E of `goodman_moduli` the estimate G2 of the paper, the stiffest
 /// mechanism [Pa].
@@ -64,17 +58,9 @@ struct OedometerModuli {
 };
 /// @throws InvalidInput  a value out of range
 /// Source: Boon, Houlsby & Utili (2015), eqs (10)-(12).
-[[nodiscard]] inline OedometerModuli oedometer_moduli(double axial_stress, double lateral_stress,
-                                                      double axial_strain) {
-  require(axial_stress > 0 && std::isfinite(axial_stress), "axial stress sigma_1", axial_stress,
-          "> 0 Pa");
-  require(lateral_stress >= 0 && lateral_stress <= axial_stress, "lateral stress sigma_3",
-          lateral_stress, "0 to the axial stress");
-  require(axial_strain > 0 && std::isfinite(axial_strain), "axial strain eps_1", axial_strain,
-          "> 0");
-  return {(axial_stress - lateral_stress) / (2 * axial_strain),
-          lateral_stress / (axial_stress + lateral_stress), axial_stress / axial_strain};
-}
+[[nodiscard]] VOUSSOIR_INLINE OedometerModuli oedometer_moduli(double axial_stress,
+                                                               double lateral_stress,
+                                                               double axial_strain);
 
 /// A set of parallel fully persistent joints in the plane of the section.
 struct PersistentSet {
@@ -92,8 +78,79 @@ struct PersistentSet {
 /// there is no strain along its joints.
 /// @throws InvalidInput  no set, or a value out of range
 /// Source: Amadei & Goodman (1981); Gerrard (1982).
-[[nodiscard]] inline Eigen::Matrix3d joint_compliance(const std::vector<PersistentSet>& sets,
-                                                      const JointStiffness& joints) {
+[[nodiscard]] VOUSSOIR_INLINE Eigen::Matrix3d joint_compliance(
+    const std::vector<PersistentSet>& sets, const JointStiffness& joints);
+
+/// Compression of an anisotropic mass along x or y without strain across it.
+enum class CompressedAlong { horizontal, vertical };
+/// The shear that goes with it where the sets are not symmetric.
+enum class ShearCondition {
+  free,      ///< no shear stress: the sample may become a parallelogram
+  prevented  ///< no shear strain: a fixed base and smooth vertical sides
+};
+/// What an oedometer would read on a mass of this compliance.
+/// @param compliance  of `joint_compliance` [1/Pa]; regular (two sets at least, not parallel)
+/// @throws InvalidInput  singular
+[[nodiscard]] VOUSSOIR_INLINE OedometerModuli oedometer_of(const Eigen::Matrix3d& compliance,
+                                                           CompressedAlong along,
+                                                           ShearCondition shear);
+
+/// Rigid blocks between joints of all orientations alike, `spacing` apart on a scanline:
+/// G = (4 / pi) s / (1 / k_n + 1 / k_s), lambda + G = (2 / pi) k_n s.
+struct IsotropicModuli {
+  double shear_modulus;  ///< G [Pa]
+  double bulk_modulus;   ///< lambda + G, of the plane [Pa]
+  double poisson_ratio;  ///< nu [-]
+};
+/// @param spacing  mean joint spacing on scanlines [m], > 0
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] VOUSSOIR_INLINE IsotropicModuli isotropic_joint_moduli(const JointStiffness& joints,
+                                                                     double spacing);
+
+/// Joints per metre on a straight line across persistent sets: sum of |n . d| / s [1/m].
+/// @param direction  of the line, from the horizontal, anticlockwise [rad]
+/// @throws InvalidInput  a spacing out of range
+/// Source: Priest & Hudson (1976).
+[[nodiscard]] VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets,
+                                                        double direction);
+
+/// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
+/// shortest piece that counts, 0.1 m.
+/// @param frequency  f, joints per metre [1/m], >= 0
+/// @throws InvalidInput  a value out of range
+/// Source: Priest & Hudson (1976).
+[[nodiscard]] inline double rock_quality_designation(double frequency, double shortest = 0.1) {
+  require(frequency >= 0 && std::isfinite(frequency), "joint frequency", frequency, ">= 0 1/m");
+  require(shortest > 0 && std::isfinite(shortest), "shortest piece", shortest, "> 0 m");
+  return 100 * (1 + shortest * frequency) * std::exp(-shortest * frequency);
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE JointedModuli goodman_moduli(const JointStiffness& joints, double spacing,
+                                             double youngs_modulus, double shear_modulus) {
+  joints.check();
+  require(spacing > 0 && std::isfinite(spacing), "joint spacing s", spacing, "> 0 m");
+  require(youngs_modulus > 0, "modulus of the rock E_i", youngs_modulus, "> 0 Pa");
+  require(shear_modulus > 0, "modulus of the rock G_i", shear_modulus, "> 0 Pa");
+  return {1 / (1 / youngs_modulus + 1 / (joints.normal * spacing)),
+          1 / (1 / shear_modulus + 1 / (joints.shear * spacing))};
+}
+
+VOUSSOIR_INLINE OedometerModuli oedometer_moduli(double axial_stress, double lateral_stress,
+                                                 double axial_strain) {
+  require(axial_stress > 0 && std::isfinite(axial_stress), "axial stress sigma_1", axial_stress,
+          "> 0 Pa");
+  require(lateral_stress >= 0 && lateral_stress <= axial_stress, "lateral stress sigma_3",
+          lateral_stress, "0 to the axial stress");
+  require(axial_strain > 0 && std::isfinite(axial_strain), "axial strain eps_1", axial_strain,
+          "> 0");
+  return {(axial_stress - lateral_stress) / (2 * axial_strain),
+          lateral_stress / (axial_stress + lateral_stress), axial_stress / axial_strain};
+}
+
+VOUSSOIR_INLINE Eigen::Matrix3d joint_compliance(const std::vector<PersistentSet>& sets,
+                                                 const JointStiffness& joints) {
   joints.check();
   if (sets.empty()) throw InvalidInput("joint compliance: needs at least one joint set");
   Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
@@ -109,18 +166,8 @@ struct PersistentSet {
   return compliance;
 }
 
-/// Compression of an anisotropic mass along x or y without strain across it.
-enum class CompressedAlong { horizontal, vertical };
-/// The shear that goes with it where the sets are not symmetric.
-enum class ShearCondition {
-  free,      ///< no shear stress: the sample may become a parallelogram
-  prevented  ///< no shear strain: a fixed base and smooth vertical sides
-};
-/// What an oedometer would read on a mass of this compliance.
-/// @param compliance  of `joint_compliance` [1/Pa]; regular (two sets at least, not parallel)
-/// @throws InvalidInput  singular
-[[nodiscard]] inline OedometerModuli oedometer_of(const Eigen::Matrix3d& compliance,
-                                                  CompressedAlong along, ShearCondition shear) {
+VOUSSOIR_INLINE OedometerModuli oedometer_of(const Eigen::Matrix3d& compliance,
+                                             CompressedAlong along, ShearCondition shear) {
   // Cofactors: Eigen/Core has no solver, and three unknowns need none.
   const Vec3 c0 = column(compliance, 0), c1 = column(compliance, 1), c2 = column(compliance, 2);
   const double determinant = c0.dot(cross(c1, c2));
@@ -137,17 +184,8 @@ enum class ShearCondition {
                           stiffness(lateral, axial) + stiffness(lateral, 2) * gamma, 1.0);
 }
 
-/// Rigid blocks between joints of all orientations alike, `spacing` apart on a scanline:
-/// G = (4 / pi) s / (1 / k_n + 1 / k_s), lambda + G = (2 / pi) k_n s.
-struct IsotropicModuli {
-  double shear_modulus;  ///< G [Pa]
-  double bulk_modulus;   ///< lambda + G, of the plane [Pa]
-  double poisson_ratio;  ///< nu [-]
-};
-/// @param spacing  mean joint spacing on scanlines [m], > 0
-/// @throws InvalidInput  a value out of range
-[[nodiscard]] inline IsotropicModuli isotropic_joint_moduli(const JointStiffness& joints,
-                                                            double spacing) {
+VOUSSOIR_INLINE IsotropicModuli isotropic_joint_moduli(const JointStiffness& joints,
+                                                       double spacing) {
   joints.check();
   require(spacing > 0 && std::isfinite(spacing), "joint spacing s", spacing, "> 0 m");
   constexpr double pi = std::numbers::pi;
@@ -156,12 +194,8 @@ struct IsotropicModuli {
   return {g, bulk, (bulk - g) / (2 * bulk)};
 }
 
-/// Joints per metre on a straight line across persistent sets: sum of |n . d| / s [1/m].
-/// @param direction  of the line, from the horizontal, anticlockwise [rad]
-/// @throws InvalidInput  a spacing out of range
-/// Source: Priest & Hudson (1976).
-[[nodiscard]] inline double scanline_frequency(const std::vector<PersistentSet>& sets,
-                                               double direction) {
+VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets,
+                                          double direction) {
   double frequency = 0;
   for (const PersistentSet& set : sets) {
     require(set.spacing > 0 && std::isfinite(set.spacing), "joint spacing s", set.spacing, "> 0 m");
@@ -171,15 +205,6 @@ struct IsotropicModuli {
   return frequency;
 }
 
-/// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
-/// shortest piece that counts, 0.1 m.
-/// @param frequency  f, joints per metre [1/m], >= 0
-/// @throws InvalidInput  a value out of range
-/// Source: Priest & Hudson (1976).
-[[nodiscard]] inline double rock_quality_designation(double frequency, double shortest = 0.1) {
-  require(frequency >= 0 && std::isfinite(frequency), "joint frequency", frequency, ">= 0 1/m");
-  require(shortest > 0 && std::isfinite(shortest), "shortest piece", shortest, "> 0 m");
-  return 100 * (1 + shortest * frequency) * std::exp(-shortest * frequency);
-}
+#endif
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -46,7 +47,11 @@ struct GroutedBoltStiffness {
   double axial;     ///< K_a across the joint [N/m]
 };
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline GroutedBoltStiffness grouted_bolt_stiffness(const GroutedBolt& bolt) {
+[[nodiscard]] VOUSSOIR_INLINE GroutedBoltStiffness grouted_bolt_stiffness(const GroutedBolt& bolt);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE GroutedBoltStiffness grouted_bolt_stiffness(const GroutedBolt& bolt) {
   bolt.check();
   constexpr double pi = std::numbers::pi;
   const double annulus = bolt.hole_diameter / bolt.bar_diameter - 1, d = bolt.bar_diameter;
@@ -56,5 +61,7 @@ struct GroutedBoltStiffness {
                                     (2 * pi * bolt.grout_shear_modulus / annulus));
   return {beta, bending * beta * beta * beta, pull_out, 0.5 * pull_out};
 }
+
+#endif
 
 }  // namespace voussoir

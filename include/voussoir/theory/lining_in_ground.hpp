@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/theory/circular_opening.hpp>
 #include <voussoir/theory/elastic_ground.hpp>
@@ -88,10 +89,39 @@ inline void check_lined_ground(const RingLining& lining, const FarStress& far,
 /// The same problem solved directly (stress function outside, ring inside) agrees to 1e-8.
 ///
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline LiningResponse einstein_schwartz(const RingLining& lining,
-                                                      const FarStress& far,
-                                                      const ElasticGround& ground,
-                                                      LiningInterface interface) {
+[[nodiscard]] VOUSSOIR_INLINE LiningResponse einstein_schwartz(const RingLining& lining,
+                                                               const FarStress& far,
+                                                               const ElasticGround& ground,
+                                                               LiningInterface interface);
+
+/// Amplitudes of an inextensible lining (the mean thrust is that of `thin_lining`).
+struct InextensibleLining {
+  double thrust_amplitude;  ///< N = mean + this cos(2 theta) [N/m]
+  double moment_amplitude;  ///< M = this cos(2 theta), tension outside positive [N m/m]
+};
+
+/// The closed form in use before Einstein and Schwartz: bending only.
+///
+///   Q2 = E R^3 / (12 E_s I_s (1 + nu)),   p = sigma_v - sigma_h
+///   full slip:  S_n = 3 (3 - 4 nu) p / (2 [5 - 6 nu + 4 Q2]),   M = R^2 S_n / 3,   N = R S_n / 3
+///   no slip:    S_n = (1 - Q2) p / d,  S_t = (1 + 2 Q2) p / d,
+///               d = 2 [1 + Q2 (3 - 2 nu) / (3 - 4 nu)],
+///               M = R^2 (2 S_n + S_t) / 6,   N = R (S_n + 2 S_t) / 3
+///
+/// Full slip is `einstein_schwartz` to the last digit; no slip its limit for an area without end.
+/// Source: Muir Wood (1975) with the correction of Curtis (1976), Geotechnique 25 and 26. The
+/// lining's Poisson ratio is left out, as there.
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] VOUSSOIR_INLINE InextensibleLining curtis(const RingLining& lining,
+                                                        const FarStress& far,
+                                                        const ElasticGround& ground,
+                                                        LiningInterface interface);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE LiningResponse einstein_schwartz(const RingLining& lining, const FarStress& far,
+                                                 const ElasticGround& ground,
+                                                 LiningInterface interface) {
   detail::check_lined_ground(lining, far, ground);
   const double nu = ground.poisson_ratio, R = lining.radius, K = far.k0;
   const double ratio = ground.youngs_modulus() * R *
@@ -134,27 +164,8 @@ inline void check_lined_ground(const RingLining& lining, const FarStress& far,
   return r;
 }
 
-/// Amplitudes of an inextensible lining (the mean thrust is that of `thin_lining`).
-struct InextensibleLining {
-  double thrust_amplitude;  ///< N = mean + this cos(2 theta) [N/m]
-  double moment_amplitude;  ///< M = this cos(2 theta), tension outside positive [N m/m]
-};
-
-/// The closed form in use before Einstein and Schwartz: bending only.
-///
-///   Q2 = E R^3 / (12 E_s I_s (1 + nu)),   p = sigma_v - sigma_h
-///   full slip:  S_n = 3 (3 - 4 nu) p / (2 [5 - 6 nu + 4 Q2]),   M = R^2 S_n / 3,   N = R S_n / 3
-///   no slip:    S_n = (1 - Q2) p / d,  S_t = (1 + 2 Q2) p / d,
-///               d = 2 [1 + Q2 (3 - 2 nu) / (3 - 4 nu)],
-///               M = R^2 (2 S_n + S_t) / 6,   N = R (S_n + 2 S_t) / 3
-///
-/// Full slip is `einstein_schwartz` to the last digit; no slip its limit for an area without end.
-/// Source: Muir Wood (1975) with the correction of Curtis (1976), Geotechnique 25 and 26. The
-/// lining's Poisson ratio is left out, as there.
-/// @throws InvalidInput  a value out of range
-[[nodiscard]] inline InextensibleLining curtis(const RingLining& lining, const FarStress& far,
-                                               const ElasticGround& ground,
-                                               LiningInterface interface) {
+VOUSSOIR_INLINE InextensibleLining curtis(const RingLining& lining, const FarStress& far,
+                                          const ElasticGround& ground, LiningInterface interface) {
   detail::check_lined_ground(lining, far, ground);
   const double nu = ground.poisson_ratio, R = lining.radius;
   const double q = ground.youngs_modulus() * R * R * R /
@@ -168,5 +179,7 @@ struct InextensibleLining {
   const double normal = (1 - q) * p / d, shear = (1 + 2 * q) * p / d;
   return {R * (normal + 2 * shear) / 3, R * R * (2 * normal + shear) / 6};
 }
+
+#endif
 
 }  // namespace voussoir

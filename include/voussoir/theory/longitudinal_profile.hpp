@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -20,14 +21,7 @@ namespace voussoir {
 /// @param plastic_radius  r_p / a of the unsupported opening [-], >= 1
 /// @return  u / u_max [-], 0 to 1
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline double longitudinal_profile(double distance, double plastic_radius) {
-  require(!std::isnan(distance), "distance from the face X / a", distance, "a number");
-  require(plastic_radius >= 1 && std::isfinite(plastic_radius), "plastic radius r_p / a",
-          plastic_radius, ">= 1");
-  const double at_face = std::exp(-0.15 * plastic_radius) / 3;
-  if (distance <= 0) return at_face * std::exp(distance);
-  return 1 - (1 - at_face) * std::exp(-1.5 * distance / plastic_radius);
-}
+[[nodiscard]] VOUSSOIR_INLINE double longitudinal_profile(double distance, double plastic_radius);
 
 /// Fictitious support pressure in elastic ground: what must act on the wall of a plane run so that
 /// the wall has come in by a part of its convergence. In ground that yields it is
@@ -45,5 +39,18 @@ namespace voussoir {
   require(part >= 0 && part <= 1, "part of the convergence u / u_max", part, "0 to 1");
   return ground_pressure * (1 - part);
 }
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double longitudinal_profile(double distance, double plastic_radius) {
+  require(!std::isnan(distance), "distance from the face X / a", distance, "a number");
+  require(plastic_radius >= 1 && std::isfinite(plastic_radius), "plastic radius r_p / a",
+          plastic_radius, ">= 1");
+  const double at_face = std::exp(-0.15 * plastic_radius) / 3;
+  if (distance <= 0) return at_face * std::exp(distance);
+  return 1 - (1 - at_face) * std::exp(-1.5 * distance / plastic_radius);
+}
+
+#endif
 
 }  // namespace voussoir

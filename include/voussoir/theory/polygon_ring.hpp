@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -33,20 +34,7 @@ struct SqueezedRing {
 /// vertex, M0 = P R / (n tan phi), and the shortening from the chord integrals of M^2 (second order
 /// in 1 / n).
 /// @throws InvalidInput  n < 4 or not a multiple of 4 (a vertex must lie at 90 degrees)
-[[nodiscard]] inline SqueezedRing squeezed_polygon(int chords) {
-  const double phi = detail::half_chord_angle(chords, 4);
-  require(chords % 4 == 0, "number of chords n", chords, "a multiple of 4");
-  const double first = 1 / (chords * std::tan(phi));
-  const auto moment = [&](int i) { return first - 0.5 * std::sin(2 * phi * i); };
-  // U = sum over chords of l (m_i^2 + m_i m_j + m_j^2) / (6 EI); the shortening is dU / dP = 2U/P.
-  double energy = 0;
-  for (int i = 0; i < chords / 2; ++i) {
-    const double m = moment(i), next = moment(i + 1);
-    energy += m * m + m * next + next * next;
-  }
-  const double length = 2 * std::sin(phi);
-  return {first, 0.5 - first, 2 * 2 * energy * length / 6, std::nan("")};
-}
+[[nodiscard]] VOUSSOIR_INLINE SqueezedRing squeezed_polygon(int chords);
 
 /// M of the vertices over M of the circle, for radial loads p cos(m theta) put at the vertices.
 ///
@@ -89,15 +77,8 @@ struct PressedPolygon {
 /// @param radius  R of the vertices [m], > 0
 /// @param from_middle  x along the chord [m], |x| <= l / 2
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline double chord_moment(double thrust, double radius, int chords,
-                                         double from_middle) {
-  const double phi = detail::half_chord_angle(chords);
-  require(radius > 0 && std::isfinite(radius), "radius R", radius, "> 0 m");
-  const double length = 2 * radius * std::sin(phi);
-  require(std::abs(from_middle) <= 0.5 * length * (1 + 1e-12), "place along the chord x",
-          from_middle, "within half its length");
-  return thrust * (from_middle * from_middle - length * length / 12) / (2 * radius * std::cos(phi));
-}
+[[nodiscard]] VOUSSOIR_INLINE double chord_moment(double thrust, double radius, int chords,
+                                                  double from_middle);
 
 /// A circular ring under radial pressure p cos(m theta): M = p R^2 cos(m theta) / (m^2 - 1),
 /// w = p R^4 cos(m theta) / (EI (m^2 - 1)^2). Here M / (p R^2) and w EI / (p R^4).
@@ -110,5 +91,33 @@ struct HarmonicRing {
   const double k = static_cast<double>(harmonic) * harmonic - 1;
   return {1 / k, 1 / (k * k)};
 }
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE SqueezedRing squeezed_polygon(int chords) {
+  const double phi = detail::half_chord_angle(chords, 4);
+  require(chords % 4 == 0, "number of chords n", chords, "a multiple of 4");
+  const double first = 1 / (chords * std::tan(phi));
+  const auto moment = [&](int i) { return first - 0.5 * std::sin(2 * phi * i); };
+  // U = sum over chords of l (m_i^2 + m_i m_j + m_j^2) / (6 EI); the shortening is dU / dP = 2U/P.
+  double energy = 0;
+  for (int i = 0; i < chords / 2; ++i) {
+    const double m = moment(i), next = moment(i + 1);
+    energy += m * m + m * next + next * next;
+  }
+  const double length = 2 * std::sin(phi);
+  return {first, 0.5 - first, 2 * 2 * energy * length / 6, std::nan("")};
+}
+
+VOUSSOIR_INLINE double chord_moment(double thrust, double radius, int chords, double from_middle) {
+  const double phi = detail::half_chord_angle(chords);
+  require(radius > 0 && std::isfinite(radius), "radius R", radius, "> 0 m");
+  const double length = 2 * radius * std::sin(phi);
+  require(std::abs(from_middle) <= 0.5 * length * (1 + 1e-12), "place along the chord x",
+          from_middle, "within half its length");
+  return thrust * (from_middle * from_middle - length * length / 12) / (2 * radius * std::cos(phi));
+}
+
+#endif
 
 }  // namespace voussoir

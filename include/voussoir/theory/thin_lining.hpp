@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -70,9 +71,14 @@ struct ThinLiningResponse {
 /// @param ground_pressure       p0 that is released after the lining is in place [Pa]
 /// @param ground_shear_modulus  G [Pa], > 0
 /// @throws InvalidInput  a value out of range
-[[nodiscard]] inline ThinLiningResponse thin_lining(const ThinLining& lining,
-                                                    double ground_pressure,
-                                                    double ground_shear_modulus) {
+[[nodiscard]] VOUSSOIR_INLINE ThinLiningResponse thin_lining(const ThinLining& lining,
+                                                             double ground_pressure,
+                                                             double ground_shear_modulus);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ThinLiningResponse thin_lining(const ThinLining& lining, double ground_pressure,
+                                               double ground_shear_modulus) {
   lining.check();
   require(std::isfinite(ground_pressure), "ground_pressure", ground_pressure, "finite [Pa]");
   require(ground_shear_modulus > 0, "ground_shear_modulus", ground_shear_modulus, "> 0 Pa");
@@ -87,5 +93,7 @@ struct ThinLiningResponse {
   response.lining_shortening = lining.ring_flexibility() * response.pressure;
   return response;
 }
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
@@ -27,8 +28,23 @@ struct BoltPattern {
 /// arc, centred in it; on a full circle the spacing is kept and the last gap takes what is left.
 ///
 /// @throws InvalidInput  a value out of range, or the tunnel centre is not inside the opening
-[[nodiscard]] inline std::vector<Segment> bolt_bars(const BoltPattern& pattern,
-                                                    const SimplePolygon& opening) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
+                                                             const SimplePolygon& opening);
+
+/// The bars of rows of bolts along a tunnel in 3-D, row by row; the first row lies half a spacing
+/// from its beginning.
+/// @param row_spacing  along the tunnel [m], > 0
+/// @param from, to     the stretch of the tunnel to bolt [m]
+/// @throws InvalidInput  as above, or the spacing or stretch out of range
+[[nodiscard]] VOUSSOIR_INLINE std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
+                                                                 const PrismaticOpening& opening,
+                                                                 double row_spacing, double from,
+                                                                 double to);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
+                                               const SimplePolygon& opening) {
   require(pattern.length > 0 && std::isfinite(pattern.length), "bolt length", pattern.length,
           "> 0 m");
   const double arc = pattern.to - pattern.from, circle = 2 * std::numbers::pi;
@@ -76,15 +92,9 @@ struct BoltPattern {
   return bars;
 }
 
-/// The bars of rows of bolts along a tunnel in 3-D, row by row; the first row lies half a spacing
-/// from its beginning.
-/// @param row_spacing  along the tunnel [m], > 0
-/// @param from, to     the stretch of the tunnel to bolt [m]
-/// @throws InvalidInput  as above, or the spacing or stretch out of range
-[[nodiscard]] inline std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
-                                                        const PrismaticOpening& opening,
-                                                        double row_spacing, double from,
-                                                        double to) {
+VOUSSOIR_INLINE std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
+                                                   const PrismaticOpening& opening,
+                                                   double row_spacing, double from, double to) {
   require(row_spacing > 0 && std::isfinite(row_spacing), "spacing of bolt rows", row_spacing,
           "> 0 m");
   require(from < to && std::isfinite(to - from), "beginning of the bolted stretch", from,
@@ -102,5 +112,7 @@ struct BoltPattern {
     }
   return bars;
 }
+
+#endif
 
 }  // namespace voussoir

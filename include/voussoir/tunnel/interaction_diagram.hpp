@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 
@@ -37,10 +38,17 @@ struct DiagramPoint {
 /// @return  row by row (spacing), thickness running faster; independent of the number of threads
 ///
 /// Source: Boon, Houlsby & Utili (2015), section 8.1 and Fig. 24.
-[[nodiscard]] inline std::vector<DiagramPoint> interaction_diagram(
+[[nodiscard]] VOUSSOIR_INLINE std::vector<DiagramPoint> interaction_diagram(
     std::size_t spacings, std::size_t thicknesses, unsigned threads,
     const std::function<DiagramPoint(std::size_t, std::size_t)>& run,
-    const std::function<void(std::size_t)>& done = {}) {
+    const std::function<void(std::size_t)>& done = {});
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::vector<DiagramPoint> interaction_diagram(
+    std::size_t spacings, std::size_t thicknesses, unsigned threads,
+    const std::function<DiagramPoint(std::size_t, std::size_t)>& run,
+    const std::function<void(std::size_t)>& done) {
   std::vector<DiagramPoint> points(spacings * thicknesses);
   std::atomic<std::size_t> finished{0};
   parallel_for(points.size(), threads, [&](std::size_t job) {
@@ -55,5 +63,7 @@ struct DiagramPoint {
   });
   return points;
 }
+
+#endif
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -35,7 +36,54 @@ struct RingNodes {
 };
 
 /// @throws InvalidInput  a value out of range; fewer than two nodes in the arc
-[[nodiscard]] inline RingNodes ring_nodes(const SimplePolygon& opening, const LiningRing& ring) {
+[[nodiscard]] VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening,
+                                                   const LiningRing& ring);
+
+/// A straight part of the outline in the stretch of one node, opening on its left.
+struct OutlinePart {
+  int node;
+  Segment edge;
+};
+/// @param shortest  parts that are no longer are left out [m]
+[[nodiscard]] VOUSSOIR_INLINE std::vector<OutlinePart> outline_parts(const SimplePolygon& opening,
+                                                                     const RingNodes& nodes,
+                                                                     double shortest);
+
+}  // namespace detail
+
+/// Nodes and members of a ring, and its contact with the wall that `carve` left.
+///
+/// Node k stands for the stretch [k, k + 1] of the outline divided evenly, and lies in its middle:
+/// with as many nodes as facets of a circle, on the middle of each facet. Every piece of wall in
+/// its stretch touches it at one point, so a uniform pressure loads the node without turning it.
+/// On a partial ring a node is there if its angle lies in the arc.
+///
+/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
+                                                               const LiningRing& ring);
+
+/// A lining in 3-D: ribs, lattice girders or strips of shotcrete across the tunnel, and what
+/// joins them along it.
+struct LiningRibs {
+  LiningRing ring{};   ///< one rib
+  double spacing = 1;  ///< of the ribs along the tunnel [m], > 0
+  bool tied = true;    ///< longitudinal members join the nodes of neighbouring ribs
+};
+
+/// Nodes and members of ribs over the length of the last opening inside the domain: members across
+/// the tunnel have section 0, members along it section 1. Every rib stands for the rock up to half
+/// its spacing on both sides; each piece of wall there touches its node at one point.
+///
+/// @throws InvalidInput  as `lining_frame` of a ring; spacing out of range or longer than the
+/// tunnel
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                                const LiningRibs& ribs);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningRing& ring) {
   require(ring.nodes >= 8 && ring.nodes <= 2000, "lining nodes", ring.nodes, "8 to 2000");
   const double circle = 2 * std::numbers::pi, arc = ring.to - ring.from;
   require(arc > 0 && arc <= circle * (1 + 1e-12), "lining arc", arc, "> 0 and <= 2 pi rad");
@@ -77,15 +125,8 @@ struct RingNodes {
   return nodes;
 }
 
-/// A straight part of the outline in the stretch of one node, opening on its left.
-struct OutlinePart {
-  int node;
-  Segment edge;
-};
-/// @param shortest  parts that are no longer are left out [m]
-[[nodiscard]] inline std::vector<OutlinePart> outline_parts(const SimplePolygon& opening,
-                                                            const RingNodes& nodes,
-                                                            double shortest) {
+VOUSSOIR_INLINE std::vector<OutlinePart> outline_parts(const SimplePolygon& opening,
+                                                       const RingNodes& nodes, double shortest) {
   std::vector<OutlinePart> parts;
   double start = 0;
   for (std::size_t e = 0; e < opening.size(); ++e) {
@@ -104,16 +145,8 @@ struct OutlinePart {
 
 }  // namespace detail
 
-/// Nodes and members of a ring, and its contact with the wall that `carve` left.
-///
-/// Node k stands for the stretch [k, k + 1] of the outline divided evenly, and lies in its middle:
-/// with as many nodes as facets of a circle, on the middle of each facet. Every piece of wall in
-/// its stretch touches it at one point, so a uniform pressure loads the node without turning it.
-/// On a partial ring a node is there if its angle lies in the arc.
-///
-/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
-[[nodiscard]] inline LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
-                                                      const LiningRing& ring) {
+VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
+                                                 const LiningRing& ring) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
   const detail::RingNodes nodes = detail::ring_nodes(mass.openings.back(), ring);
   const double stretch = nodes.stretch;
@@ -144,22 +177,8 @@ struct OutlinePart {
   return frame;
 }
 
-/// A lining in 3-D: ribs, lattice girders or strips of shotcrete across the tunnel, and what
-/// joins them along it.
-struct LiningRibs {
-  LiningRing ring{};   ///< one rib
-  double spacing = 1;  ///< of the ribs along the tunnel [m], > 0
-  bool tied = true;    ///< longitudinal members join the nodes of neighbouring ribs
-};
-
-/// Nodes and members of ribs over the length of the last opening inside the domain: members across
-/// the tunnel have section 0, members along it section 1. Every rib stands for the rock up to half
-/// its spacing on both sides; each piece of wall there touches its node at one point.
-///
-/// @throws InvalidInput  as `lining_frame` of a ring; spacing out of range or longer than the
-/// tunnel
-[[nodiscard]] inline LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                       const LiningRibs& ribs) {
+VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                  const LiningRibs& ribs) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
   const PrismaticOpening& opening = mass.openings.back();
   const SimplePolygon& section = opening.section();
@@ -229,5 +248,7 @@ struct LiningRibs {
   }
   return frame;
 }
+
+#endif
 
 }  // namespace voussoir

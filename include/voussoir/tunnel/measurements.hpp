@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/motion/moving_lining.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -39,25 +40,9 @@ template <class Solver>
 /// Convergence of the wall around one direction: the median over +- 12 degrees, each piece with
 /// the weight of its length, so that neither a loose corner nor the cut of the blocks decides [m].
 /// Not a number if no wall is left there.
-[[nodiscard]] inline double convergence_at(const std::vector<WallMotion>& wall, double angle,
-                                           double half_window = std::numbers::pi / 15) {
-  std::vector<WallMotion> near;
-  double total = 0;
-  for (const WallMotion& piece : wall) {
-    const double away = std::remainder(piece.angle - angle, 2 * std::numbers::pi);
-    if (std::abs(away) > half_window) continue;
-    near.push_back(piece);
-    total += piece.length;
-  }
-  std::sort(near.begin(), near.end(),
-            [](const WallMotion& a, const WallMotion& b) { return a.convergence < b.convergence; });
-  double below = 0;
-  for (const WallMotion& piece : near) {
-    below += piece.length;
-    if (below >= 0.5 * total) return piece.convergence;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
+[[nodiscard]] VOUSSOIR_INLINE double convergence_at(const std::vector<WallMotion>& wall,
+                                                    double angle,
+                                                    double half_window = std::numbers::pi / 15);
 
 /// Convergence of the four named places of the wall [m].
 struct Convergence {
@@ -192,5 +177,29 @@ requires(Geometry::dim == 2)
   }
   return forces;
 }
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE double convergence_at(const std::vector<WallMotion>& wall, double angle,
+                                      double half_window) {
+  std::vector<WallMotion> near;
+  double total = 0;
+  for (const WallMotion& piece : wall) {
+    const double away = std::remainder(piece.angle - angle, 2 * std::numbers::pi);
+    if (std::abs(away) > half_window) continue;
+    near.push_back(piece);
+    total += piece.length;
+  }
+  std::sort(near.begin(), near.end(),
+            [](const WallMotion& a, const WallMotion& b) { return a.convergence < b.convergence; });
+  double below = 0;
+  for (const WallMotion& piece : near) {
+    below += piece.length;
+    if (below >= 0.5 * total) return piece.convergence;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+#endif
 
 }  // namespace voussoir

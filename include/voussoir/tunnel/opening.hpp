@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/rockmass/domain.hpp>
@@ -15,7 +16,24 @@ namespace voussoir {
 /// A circle as a regular polygon with vertices on it, the first at the right-hand springing.
 /// @param diameter  [m], > 0;  @param facets  12 to 720
 /// @throws InvalidInput
-[[nodiscard]] inline SimplePolygon circular_opening(double diameter, int facets = 72) {
+[[nodiscard]] VOUSSOIR_INLINE SimplePolygon circular_opening(double diameter, int facets = 72);
+
+/// A half circle on vertical walls and a flat floor; the springing is at y = 0.
+/// @param width  [m], > 0;  @param wall_height  floor to springing [m], > 0
+/// @param facets  chords on a full circle, 12 to 720
+/// @throws InvalidInput
+[[nodiscard]] VOUSSOIR_INLINE SimplePolygon horseshoe_opening(double width, double wall_height,
+                                                              int facets = 72);
+
+/// The ground around an opening: `width` wide with the tunnel centre in its middle.
+/// @param cover  crown to surface [m], > 0;  @param below  invert to base [m], > 0
+/// @throws InvalidInput
+[[nodiscard]] VOUSSOIR_INLINE Domain<2> domain_around(const SimplePolygon& opening, double width,
+                                                      double cover, double below);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE SimplePolygon circular_opening(double diameter, int facets) {
   require(diameter > 0 && std::isfinite(diameter), "tunnel diameter", diameter, "> 0 m");
   require(facets >= 12 && facets <= 720, "tunnel facets", facets, "12 to 720");
   std::vector<Vec2> vertices;
@@ -26,12 +44,7 @@ namespace voussoir {
   return SimplePolygon(std::move(vertices));
 }
 
-/// A half circle on vertical walls and a flat floor; the springing is at y = 0.
-/// @param width  [m], > 0;  @param wall_height  floor to springing [m], > 0
-/// @param facets  chords on a full circle, 12 to 720
-/// @throws InvalidInput
-[[nodiscard]] inline SimplePolygon horseshoe_opening(double width, double wall_height,
-                                                     int facets = 72) {
+VOUSSOIR_INLINE SimplePolygon horseshoe_opening(double width, double wall_height, int facets) {
   require(width > 0 && std::isfinite(width), "tunnel width", width, "> 0 m");
   require(wall_height > 0 && std::isfinite(wall_height), "wall height", wall_height, "> 0 m");
   require(facets >= 12 && facets <= 720, "tunnel facets", facets, "12 to 720");
@@ -46,11 +59,8 @@ namespace voussoir {
   return SimplePolygon(std::move(vertices));
 }
 
-/// The ground around an opening: `width` wide with the tunnel centre in its middle.
-/// @param cover  crown to surface [m], > 0;  @param below  invert to base [m], > 0
-/// @throws InvalidInput
-[[nodiscard]] inline Domain<2> domain_around(const SimplePolygon& opening, double width,
-                                             double cover, double below) {
+VOUSSOIR_INLINE Domain<2> domain_around(const SimplePolygon& opening, double width, double cover,
+                                        double below) {
   require(width > 0 && std::isfinite(width), "domain width", width, "> 0 m");
   require(cover > 0 && std::isfinite(cover), "cover", cover, "> 0 m");
   require(below > 0 && std::isfinite(below), "rock below the invert", below, "> 0 m");
@@ -61,5 +71,7 @@ namespace voussoir {
   }
   return {{-0.5 * width, invert - below}, {0.5 * width, crown + cover}};
 }
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 
@@ -40,7 +41,27 @@ struct PairingFault {
 };
 
 /// Finds the twin of every half-edge from the loops alone.
-[[nodiscard]] inline std::optional<PairingFault> find_twins(Surface& surface) {
+[[nodiscard]] VOUSSOIR_INLINE std::optional<PairingFault> find_twins(Surface& surface);
+
+/// Twice area times unit normal of the polygon through these vertices, relative to the first one,
+/// so that coordinates of 1e6 m lose nothing.
+template <class Corner>
+[[nodiscard]] Vec3 doubled_area(std::size_t count, Corner&& corner) {
+  Vec3 sum = Vec3::Zero();
+  if (count < 3) return sum;
+  const Vec3& origin = corner(0);
+  Vec3 previous = corner(1) - origin;
+  for (std::size_t k = 2; k < count; ++k) {
+    const Vec3 next = corner(k) - origin;
+    sum += cross(previous, next - previous);  // the edge: exact to its own size, if short
+    previous = next;
+  }
+  return sum;
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::optional<PairingFault> find_twins(Surface& surface) {
   const auto at = [](int index) { return static_cast<std::size_t>(index); };
   std::vector<std::array<int, 3>> halves;  // from, to, half-edge
   halves.reserve(surface.loops.size());
@@ -63,20 +84,6 @@ struct PairingFault {
   return std::nullopt;
 }
 
-/// Twice area times unit normal of the polygon through these vertices, relative to the first one,
-/// so that coordinates of 1e6 m lose nothing.
-template <class Corner>
-[[nodiscard]] Vec3 doubled_area(std::size_t count, Corner&& corner) {
-  Vec3 sum = Vec3::Zero();
-  if (count < 3) return sum;
-  const Vec3& origin = corner(0);
-  Vec3 previous = corner(1) - origin;
-  for (std::size_t k = 2; k < count; ++k) {
-    const Vec3 next = corner(k) - origin;
-    sum += cross(previous, next - previous);  // the edge: exact to its own size, if short
-    previous = next;
-  }
-  return sum;
-}
+#endif
 
 }  // namespace voussoir::detail

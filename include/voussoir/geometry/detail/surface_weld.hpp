@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/detail/surface.hpp>
 
@@ -11,7 +12,16 @@ namespace voussoir::detail {
 
 /// Removes from a loop what encloses nothing: a vertex that follows itself, and the way along an
 /// edge and back again.
-inline void remove_spikes(std::vector<int>& loop) {
+VOUSSOIR_INLINE void remove_spikes(std::vector<int>& loop);
+
+/// Makes one vertex of those that are equal, and drops the faces that are left with fewer than
+/// three. Leaves the surface as it is where too little of it would be left.
+/// @return  number of faces dropped
+VOUSSOIR_INLINE std::size_t merge_equal_vertices(Surface& surface);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void remove_spikes(std::vector<int>& loop) {
   const auto erase = [&](std::size_t k) {
     loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k % loop.size()));
   };
@@ -31,10 +41,7 @@ inline void remove_spikes(std::vector<int>& loop) {
   }
 }
 
-/// Makes one vertex of those that are equal, and drops the faces that are left with fewer than
-/// three. Leaves the surface as it is where too little of it would be left.
-/// @return  number of faces dropped
-inline std::size_t merge_equal_vertices(Surface& surface) {
+VOUSSOIR_INLINE std::size_t merge_equal_vertices(Surface& surface) {
   const auto at = [](int index) { return static_cast<std::size_t>(index); };
   const std::size_t count = surface.vertices.size();
   std::vector<int> same(count);
@@ -72,5 +79,7 @@ inline std::size_t merge_equal_vertices(Surface& surface) {
   surface = std::move(merged);
   return dropped;
 }
+
+#endif
 
 }  // namespace voussoir::detail

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/picture_parts.hpp>
@@ -61,7 +62,18 @@ class ForceScale {
   double px_per_newton_ = 0, sample_ = 0;
 };
 
-inline void draw_crossing_state(SvgCanvas& canvas, const Vec2& at, PictureCrossing::State state) {
+VOUSSOIR_INLINE void draw_crossing_state(SvgCanvas& canvas, const Vec2& at,
+                                         PictureCrossing::State state);
+
+/// Bolts as lines with a plate, and at each crossing a bar across the bolt as long as the force
+/// (Boon et al. 2015, Fig. 9). Compression, which few bolts carry, is drawn to the other side.
+VOUSSOIR_INLINE void draw_bolts(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                                const ForceScale& scale);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void draw_crossing_state(SvgCanvas& canvas, const Vec2& at,
+                                         PictureCrossing::State state) {
   if (state == PictureCrossing::State::yielded) {
     draw_diamond(canvas, at, 5, {.fill = "#ffb000", .stroke = "black", .stroke_width = 1.2});
   } else if (state == PictureCrossing::State::ruptured) {
@@ -70,10 +82,8 @@ inline void draw_crossing_state(SvgCanvas& canvas, const Vec2& at, PictureCrossi
   }
 }
 
-/// Bolts as lines with a plate, and at each crossing a bar across the bolt as long as the force
-/// (Boon et al. 2015, Fig. 9). Compression, which few bolts carry, is drawn to the other side.
-inline void draw_bolts(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
-                       const ForceScale& scale) {
+VOUSSOIR_INLINE void draw_bolts(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
+                                const ForceScale& scale) {
   SvgPath lines, bars;
   for (const PictureBolt& bolt : picture.bolts) {
     if (!is_drawable(bolt)) continue;
@@ -99,5 +109,7 @@ inline void draw_bolts(SvgCanvas& canvas, const BlocksPicture& picture, const Pa
     }
   }
 }
+
+#endif
 
 }  // namespace voussoir::detail

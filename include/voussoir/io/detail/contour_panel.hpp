@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/colour_map.hpp>
 #include <voussoir/io/contour.hpp>
 #include <voussoir/io/number_text.hpp>
@@ -60,8 +61,21 @@ inline ViewRect text_room(const Vec2& at, const std::string& text, const TextSty
 }
 
 /// Writes the level on a contour where most room is; not at all where there is none.
-inline void label_contour(SvgCanvas& canvas, const std::vector<Vec2>& line, const std::string& text,
-                          const ViewRect& frame, TakenPlaces& taken) {
+VOUSSOIR_INLINE void label_contour(SvgCanvas& canvas, const std::vector<Vec2>& line,
+                                   const std::string& text, const ViewRect& frame,
+                                   TakenPlaces& taken);
+
+/// Filled bands and lines of the levels over a smoothed grid; NaN are left white. `mark` stands
+/// behind the numbers on the lines.
+VOUSSOIR_INLINE void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const PageMap& map,
+                                   const ContourBands& bands, TakenPlaces& taken,
+                                   const std::string& mark);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void label_contour(SvgCanvas& canvas, const std::vector<Vec2>& line,
+                                   const std::string& text, const ViewRect& frame,
+                                   TakenPlaces& taken) {
   const TextStyle style{
       .size = 12.5, .anchor = TextAnchor::middle, .bold = true, .fill = "#123", .halo = true};
   const Vec2 to_base_line(0, 0.36 * style.size);
@@ -85,10 +99,9 @@ inline void label_contour(SvgCanvas& canvas, const std::vector<Vec2>& line, cons
   taken.take(text_room(*best + to_base_line, text, style));
 }
 
-/// Filled bands and lines of the levels over a smoothed grid; NaN are left white. `mark` stands
-/// behind the numbers on the lines.
-inline void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const PageMap& map,
-                          const ContourBands& bands, TakenPlaces& taken, const std::string& mark) {
+VOUSSOIR_INLINE void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const PageMap& map,
+                                   const ContourBands& bands, TakenPlaces& taken,
+                                   const std::string& mark) {
   const ContourGrid fine = refined(grid, 12);
   std::vector<std::pair<double, std::vector<Vec2>>> lines;
   for (std::size_t band = 0; band < bands.count(); ++band) {
@@ -119,5 +132,7 @@ inline void draw_contours(SvgCanvas& canvas, const ContourGrid& grid, const Page
     }
   }
 }
+
+#endif
 
 }  // namespace voussoir::detail

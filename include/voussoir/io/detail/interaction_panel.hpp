@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/detail/contour_panel.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
 #include <voussoir/io/number_text.hpp>
@@ -32,20 +33,9 @@ struct InteractionPanel {
   }
 };
 
-inline InteractionPanel interaction_panel(const InteractionPicture& picture,
-                                          std::vector<std::size_t> rows, const ViewRect& page) {
-  InteractionPanel panel{std::move(rows), {picture.thicknesses, {}, {}}, page};
-  const std::size_t count = panel.is_strip() ? 2 : panel.rows.size();
-  const double scale = picture.shown().contour_scale;
-  panel.grid.value.resize(picture.values.rows(), static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t j = panel.is_strip() ? panel.rows[0] : panel.rows[k];
-    panel.grid.y.push_back(panel.is_strip() ? (k == 0 ? -1.0 : 1.0) : *picture.spacings[j].value);
-    panel.grid.value.col(static_cast<Eigen::Index>(k)) =
-        picture.values.col(static_cast<Eigen::Index>(j)) * scale;
-  }
-  return panel;
-}
+VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
+                                                   std::vector<std::size_t> rows,
+                                                   const ViewRect& page);
 
 inline void draw_failed_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 7, {.fill = "white", .stroke = "#c8102e", .stroke_width = 2});
@@ -68,8 +58,31 @@ inline void draw_other_mark(SvgCanvas& canvas, const Vec2& at) {
   for (int k = 0; k < 4; ++k) canvas.line(corners[k], corners[(k + 1) % 4], style);
 }
 
-inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& picture,
-                                   const InteractionPanel& panel, const ContourBands& bands) {
+VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& picture,
+                                            const InteractionPanel& panel,
+                                            const ContourBands& bands);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
+                                                   std::vector<std::size_t> rows,
+                                                   const ViewRect& page) {
+  InteractionPanel panel{std::move(rows), {picture.thicknesses, {}, {}}, page};
+  const std::size_t count = panel.is_strip() ? 2 : panel.rows.size();
+  const double scale = picture.shown().contour_scale;
+  panel.grid.value.resize(picture.values.rows(), static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t j = panel.is_strip() ? panel.rows[0] : panel.rows[k];
+    panel.grid.y.push_back(panel.is_strip() ? (k == 0 ? -1.0 : 1.0) : *picture.spacings[j].value);
+    panel.grid.value.col(static_cast<Eigen::Index>(k)) =
+        picture.values.col(static_cast<Eigen::Index>(j)) * scale;
+  }
+  return panel;
+}
+
+VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& picture,
+                                            const InteractionPanel& panel,
+                                            const ContourBands& bands) {
   const PageMap map = panel.map();
   const TextStyle small{.size = 11.5, .anchor = TextAnchor::middle, .fill = "#222", .halo = true};
   const InteractionQuantity shown = picture.shown();
@@ -151,5 +164,7 @@ inline void draw_interaction_panel(SvgCanvas& canvas, const InteractionPicture& 
   }
   canvas.end_layer();
 }
+
+#endif
 
 }  // namespace voussoir::detail

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/io/axonometric_view.hpp>
 #include <voussoir/io/colour_map.hpp>
@@ -34,16 +35,8 @@ inline constexpr Colour side_colour{226, 223, 216};
 
 /// A colour in the light that falls on a face: from above, over the viewer's left shoulder. Dark
 /// faces are greyer too, or they would seem to be of a stronger colour than the legend's.
-[[nodiscard]] inline Colour shaded(const Colour& colour, const Vec3& normal,
-                                   const AxonometricView& view) {
-  const Vec3 light = (0.5 * view.towards() - 0.5 * view.right() + 0.8 * Vec3::UnitZ()).normalized();
-  const double brightness = 0.84 + 0.19 * std::max(-0.5, normal.dot(light));
-  PerceptualColour seen = perceptual(colour);
-  seen.lightness *= brightness;
-  seen.a *= brightness;
-  seen.b *= brightness;
-  return screen_colour(seen);
-}
+[[nodiscard]] VOUSSOIR_INLINE Colour shaded(const Colour& colour, const Vec3& normal,
+                                            const AxonometricView& view);
 
 /// Something of a block that the viewer sees.
 struct VisibleFace {
@@ -61,9 +54,39 @@ struct MassScene {
 ///
 /// Blocks in their place hide each other's faces but for those on a side of the domain and those
 /// laid bare where blocks are left out; only these are drawn then.
-[[nodiscard]] inline std::vector<VisibleFace> visible_faces(const RockMass<Spatial>& mass,
-                                                            const MassScene& scene,
-                                                            const AxonometricView& view) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<VisibleFace> visible_faces(const RockMass<Spatial>& mass,
+                                                                     const MassScene& scene,
+                                                                     const AxonometricView& view);
+
+/// Paints faces over each other; outlines of `width` px.
+VOUSSOIR_INLINE void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace>& faces,
+                                const PageMap& map, double width);
+
+/// The edges of the model where a corner is left out, dashed, and the lengths of its sides along
+/// the three edges that the viewer sees below and at the left.
+VOUSSOIR_INLINE void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, double corner_left_out,
+                                 const AxonometricView& view, const PageMap& map);
+
+/// Arrows East, North and up as the viewer sees them, `length` px where seen at full length.
+VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
+                               const AxonometricView& view);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE Colour shaded(const Colour& colour, const Vec3& normal,
+                              const AxonometricView& view) {
+  const Vec3 light = (0.5 * view.towards() - 0.5 * view.right() + 0.8 * Vec3::UnitZ()).normalized();
+  const double brightness = 0.84 + 0.19 * std::max(-0.5, normal.dot(light));
+  PerceptualColour seen = perceptual(colour);
+  seen.lightness *= brightness;
+  seen.a *= brightness;
+  seen.b *= brightness;
+  return screen_colour(seen);
+}
+
+VOUSSOIR_INLINE std::vector<VisibleFace> visible_faces(const RockMass<Spatial>& mass,
+                                                       const MassScene& scene,
+                                                       const AxonometricView& view) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   std::vector<bool> is_bare(mass.cuts.size(), scene.explosion > 0);
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
@@ -93,9 +116,8 @@ struct MassScene {
   return faces;
 }
 
-/// Paints faces over each other; outlines of `width` px.
-inline void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace>& faces, const PageMap& map,
-                       double width) {
+VOUSSOIR_INLINE void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace>& faces,
+                                const PageMap& map, double width) {
   for (const VisibleFace& face : faces) {
     // The rim is a darker shade of the face: blocks stand out, and small ones do not turn black.
     PerceptualColour rim = perceptual(face.fill);
@@ -106,10 +128,8 @@ inline void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace>& faces,
   }
 }
 
-/// The edges of the model where a corner is left out, dashed, and the lengths of its sides along
-/// the three edges that the viewer sees below and at the left.
-inline void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, double corner_left_out,
-                        const AxonometricView& view, const PageMap& map) {
+VOUSSOIR_INLINE void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, double corner_left_out,
+                                 const AxonometricView& view, const PageMap& map) {
   // The corner next to the viewer, and how far it is along each axis to the opposite one.
   Vec3 near = domain.high, across = -domain.size();
   for (int axis = 0; axis < 2; ++axis)
@@ -148,9 +168,8 @@ inline void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, double corne
   label(left_end, left_end - (is_from_above ? across.z() : -across.z()) * Vec3::UnitZ(), middle);
 }
 
-/// Arrows East, North and up as the viewer sees them, `length` px where seen at full length.
-inline void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
-                      const AxonometricView& view) {
+VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
+                               const AxonometricView& view) {
   constexpr std::array<const char*, 3> names = {"E", "N", "up"};
   for (int axis = 0; axis < 3; ++axis) {
     const Vec2 seen = view(Vec3::Unit(axis));
@@ -166,5 +185,7 @@ inline void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
                 {.anchor = TextAnchor::middle});
   }
 }
+
+#endif
 
 }  // namespace voussoir::detail

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -22,8 +23,13 @@ namespace voussoir::detail {
 ///
 /// @param towards  the viewer, from far away
 /// @cost  about linear in the faces
-[[nodiscard]] inline std::vector<int> painting_order(const RockMass<Spatial>& mass,
-                                                     const Vec3& towards) {
+[[nodiscard]] VOUSSOIR_INLINE std::vector<int> painting_order(const RockMass<Spatial>& mass,
+                                                              const Vec3& towards);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::vector<int> painting_order(const RockMass<Spatial>& mass,
+                                                const Vec3& towards) {
   struct Node {
     int behind, before;  ///< towards the viewer; nodes, or blocks if below their number
   };
@@ -85,5 +91,7 @@ namespace voussoir::detail {
   }
   return order;
 }
+
+#endif
 
 }  // namespace voussoir::detail

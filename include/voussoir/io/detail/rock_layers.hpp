@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/colour_map.hpp>
 #include <voussoir/io/round_ticks.hpp>
@@ -70,8 +71,29 @@ inline bool is_drawable(const PictureBlock& block) {
 
 /// @param edge_width  of the outlines [px]; 0: outlines in the colour of the block
 /// @param decimals    of a px in the file
-inline void draw_blocks(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
-                        const DisplacementScale& scale, double edge_width, int decimals) {
+VOUSSOIR_INLINE void draw_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
+                                 const PageMap& map, const DisplacementScale& scale,
+                                 double edge_width, int decimals);
+
+VOUSSOIR_INLINE void draw_fallen_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
+                                        const PageMap& map);
+
+/// Closed joints are the outlines of the blocks already; drawn only where there are no blocks.
+VOUSSOIR_INLINE void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture,
+                                 const PageMap& map, double width);
+
+VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
+                                 const PageMap& map);
+
+/// Line of the ground with the strokes that say "earth below".
+VOUSSOIR_INLINE void draw_ground(SvgCanvas& canvas, double y, const PageMap& map,
+                                 double stroke_length);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void draw_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
+                                 const PageMap& map, const DisplacementScale& scale,
+                                 double edge_width, int decimals) {
   std::vector<SvgPath> paths(DisplacementScale::step_count + 1, SvgPath(decimals));
   for (const PictureBlock& block : picture.blocks) {
     if (block.is_fallen || !is_drawable(block)) continue;
@@ -88,8 +110,8 @@ inline void draw_blocks(SvgCanvas& canvas, const BlocksPicture& picture, const P
   }
 }
 
-inline void draw_fallen_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
-                               const PageMap& map) {
+VOUSSOIR_INLINE void draw_fallen_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
+                                        const PageMap& map) {
   SvgPath path;
   for (const PictureBlock& block : picture.blocks) {
     if (block.is_fallen && is_drawable(block)) {
@@ -100,9 +122,8 @@ inline void draw_fallen_blocks(SvgCanvas& canvas, const BlocksPicture& picture,
   canvas.path(path, {.fill = "url(#hatch)", .stroke = fallen_colour, .stroke_width = 1.3});
 }
 
-/// Closed joints are the outlines of the blocks already; drawn only where there are no blocks.
-inline void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
-                        double width) {
+VOUSSOIR_INLINE void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture,
+                                 const PageMap& map, double width) {
   std::array<SvgPath, 3> paths;
   for (const PictureJoint& joint : picture.joints) {
     if (!joint.p.allFinite() || !joint.q.allFinite()) continue;
@@ -117,7 +138,8 @@ inline void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture, const P
   canvas.path(paths[2], {.stroke = opened_colour, .stroke_width = 1.8 * width, .round_ends = true});
 }
 
-inline void draw_lining(SvgCanvas& canvas, const PictureLining& lining, const PageMap& map) {
+VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
+                                 const PageMap& map) {
   // True to scale, but never thinner than is seen: 5 cm of shotcrete would be one px.
   const double half = std::max(lining.thickness, 3.5 / map.scale()) / 2;
   std::vector<Vec2> inner, outer;
@@ -139,8 +161,8 @@ inline void draw_lining(SvgCanvas& canvas, const PictureLining& lining, const Pa
   canvas.path(band, {.fill = "#9aa3ab", .stroke = "#222"});
 }
 
-/// Line of the ground with the strokes that say "earth below".
-inline void draw_ground(SvgCanvas& canvas, double y, const PageMap& map, double stroke_length) {
+VOUSSOIR_INLINE void draw_ground(SvgCanvas& canvas, double y, const PageMap& map,
+                                 double stroke_length) {
   const ViewRect& world = map.world();
   if (y < world.low.y() || y > world.high.y()) return;
   const Vec2 left = map({world.low.x(), y}), right = map({world.high.x(), y});
@@ -151,5 +173,7 @@ inline void draw_ground(SvgCanvas& canvas, double y, const PageMap& map, double 
   canvas.line(left, right, {.stroke = "#3e2a14", .stroke_width = 2});
   canvas.path(strokes, {.stroke = "#3e2a14"});
 }
+
+#endif
 
 }  // namespace voussoir::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
@@ -12,8 +13,21 @@
 namespace voussoir::detail {
 
 /// The whole model, small, with the frame of the large picture in it.
-inline void draw_overview(SvgCanvas& canvas, const ViewRect& frame, const BlocksPicture& picture,
-                          const ViewRect& seen, const DisplacementScale& scale) {
+VOUSSOIR_INLINE void draw_overview(SvgCanvas& canvas, const ViewRect& frame,
+                                   const BlocksPicture& picture, const ViewRect& seen,
+                                   const DisplacementScale& scale);
+
+/// Beside the rock: diagrams of the support, and the whole model in the room that is left.
+/// @param seen  the part of the world in the large picture [m]
+VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
+                                      const BlocksPicture& picture, const ViewRect& seen,
+                                      const DisplacementScale& scale);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void draw_overview(SvgCanvas& canvas, const ViewRect& frame,
+                                   const BlocksPicture& picture, const ViewRect& seen,
+                                   const DisplacementScale& scale) {
   const ViewRect everything = view_of_everything(picture);
   ViewRect drawing{frame.low + Vec2(0, 22), frame.high - Vec2(0, 22)};
   const double ratio = everything.width() / everything.height();
@@ -38,11 +52,9 @@ inline void draw_overview(SvgCanvas& canvas, const ViewRect& frame, const Blocks
                                                           readable_text(extent.height(), 2) + " m");
 }
 
-/// Beside the rock: diagrams of the support, and the whole model in the room that is left.
-/// @param seen  the part of the world in the large picture [m]
-inline void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
-                             const BlocksPicture& picture, const ViewRect& seen,
-                             const DisplacementScale& scale) {
+VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
+                                      const BlocksPicture& picture, const ViewRect& seen,
+                                      const DisplacementScale& scale) {
   const ViewRect everything = view_of_everything(picture);
   const bool has_overview =
       seen.width() * seen.height() < 0.8 * everything.width() * everything.height();
@@ -82,5 +94,7 @@ inline void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     draw_overview(canvas, next_frame(column.high.y() - top), picture, seen, scale);
   }
 }
+
+#endif
 
 }  // namespace voussoir::detail

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
@@ -35,8 +36,18 @@ struct LiningDiagram {
   Vec2 centre = Vec2::Zero();      ///< of the opening, from which directions are counted [m]
 };
 
-inline void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
-                                const PictureLining& lining, const LiningDiagram& diagram) {
+VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
+                                         const PictureLining& lining, const LiningDiagram& diagram);
+
+/// Greatest force of each bolt over the direction of its head.
+VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
+                                     const BlocksPicture& picture);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
+                                         const PictureLining& lining,
+                                         const LiningDiagram& diagram) {
   std::vector<Vec2> axis, normals;
   std::vector<double> values;
   for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
@@ -144,9 +155,8 @@ inline void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
   }
 }
 
-/// Greatest force of each bolt over the direction of its head.
-inline void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
-                            const BlocksPicture& picture) {
+VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
+                                     const BlocksPicture& picture) {
   std::vector<std::pair<double, const PictureBolt*>> bars;
   const ViewRect opening = bounding_rect(picture.outline).value_or(view_of_everything(picture));
   for (const PictureBolt& bolt : picture.bolts) {
@@ -203,5 +213,7 @@ inline void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
                   fixed_text(direction_degrees(opening.centre(), highest->head), 0) +
                   "°; tension positive");
 }
+
+#endif
 
 }  // namespace voussoir::detail

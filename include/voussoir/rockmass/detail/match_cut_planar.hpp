@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
@@ -13,8 +14,15 @@ namespace voussoir::detail {
 
 /// Overlaps of the faces on the two sides of one cut: sort both sides along it and sweep.
 /// Contact ends are vertices of one side or the other, taken as they are.
-inline void match_cut(const RockMass<Planar>& mass, const FaceRef* first, const FaceRef* last,
-                      double tolerance, std::vector<ContactFacet<Planar>>& contacts) {
+VOUSSOIR_INLINE void match_cut(const RockMass<Planar>& mass, const FaceRef* first,
+                               const FaceRef* last, double tolerance,
+                               std::vector<ContactFacet<Planar>>& contacts);
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void match_cut(const RockMass<Planar>& mass, const FaceRef* first,
+                               const FaceRef* last, double tolerance,
+                               std::vector<ContactFacet<Planar>>& contacts) {
   struct Interval {
     double from, to;
     Segment facet;  ///< in the direction of the cut
@@ -51,5 +59,7 @@ inline void match_cut(const RockMass<Planar>& mass, const FaceRef* first, const 
     ++(l.to <= r.to ? i : j);
   }
 }
+
+#endif
 
 }  // namespace voussoir::detail

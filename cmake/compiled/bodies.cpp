@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// One of the sources of voussoir::compiled: the functions that are no templates.
+#define VOUSSOIR_COMPILED_BODIES
+#include <voussoir/voussoir.hpp>
+#include <voussoir/io/atomic_file.hpp>
+#include <voussoir/io/axonometric_view.hpp>
+#include <voussoir/io/blocks_picture.hpp>
+#include <voussoir/io/blocks_picture_data.hpp>
+#include <voussoir/io/colour_map.hpp>
+#include <voussoir/io/contour.hpp>
+#include <voussoir/io/csv_table.hpp>
+#include <voussoir/io/detail/bolt_layers.hpp>
+#include <voussoir/io/detail/contour_panel.hpp>
+#include <voussoir/io/detail/interaction_panel.hpp>
+#include <voussoir/io/detail/mass_layers.hpp>
+#include <voussoir/io/detail/painting_order.hpp>
+#include <voussoir/io/detail/rock_layers.hpp>
+#include <voussoir/io/detail/side_column.hpp>
+#include <voussoir/io/detail/support_diagrams.hpp>
+#include <voussoir/io/interaction_picture.hpp>
+#include <voussoir/io/interaction_picture_data.hpp>
+#include <voussoir/io/mass_picture.hpp>
+#include <voussoir/io/number_text.hpp>
+#include <voussoir/io/page_map.hpp>
+#include <voussoir/io/picture_parts.hpp>
+#include <voussoir/io/round_ticks.hpp>
+#include <voussoir/io/smooth_grid.hpp>
+#include <voussoir/io/svg.hpp>
+#include <voussoir/io/tunnel_view.hpp>
+#include <voussoir/io/vtu.hpp>
+#include <voussoir/io/xml_text.hpp>
+#include <voussoir/core/units.hpp>
+#include <voussoir/core/dimension.hpp>
+#include <voussoir/core/unit_parser.hpp>
