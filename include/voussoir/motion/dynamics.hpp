@@ -357,8 +357,9 @@ class Dynamics : public MovingBodies<Dim> {
   int run_batch(int count, double step) {
     step_ = step;
     sums_.assign(team_->size(), {});
-    const double limit =
-        settings_.find_contacts ? sizes_.travel_limit() : std::numeric_limits<double>::infinity();
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const double limit = settings_.find_contacts ? sizes_.travel_limit() : never,
+                 farthest = settings_.find_contacts ? 0.25 * sizes_.reach : never;
     int made = 0;
     team_->run([&](unsigned member) {
       if (!fresh_) freshen(member);
@@ -381,8 +382,8 @@ class Dynamics : public MovingBodies<Dim> {
             finish(b, step, sums);
           }
         if (member == 0) made = k + 1;
-        // In the next step bodies may be faster.
-        if (way + 1.5 * step * fastest > limit) break;
+        // In the next step bodies may be faster; a pair that was apart must not come to touch.
+        if (way + step * fastest > limit || way + 1.5 * step * fastest > farthest) break;
       }
     });
     fresh_ = true;
