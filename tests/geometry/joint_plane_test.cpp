@@ -90,7 +90,10 @@ TEST_SUITE("geometry/joint_plane") {
 
   TEST_CASE("joints that are none are refused, and the corner or value named") {
     const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-    CHECK(contains(refusal([&] { return joint_disc({0, 0, 0}, {0, 0, 1}, 0); }), "diameter 0.0"));
+    CHECK(contains(refusal([&] {
+                     return joint_disc({0, 0, 0}, {0, 0, 1}, 0);
+                   }),
+                   "diameter 0 m must be > 0"));
     CHECK(contains(refusal([&] { return joint_disc({0, 0, 0}, {0, 0, 1}, nan); }), "diameter"));
     CHECK(contains(refusal([&] { return joint_disc({0, 0, 0}, {0, 0, 1}, inf); }), "diameter inf"));
     CHECK(contains(refusal([&] { return joint_disc({0, 0, 0}, {0, 0, 0}, 1); }), "(0, 0, 0)"));
