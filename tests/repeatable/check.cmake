@@ -14,11 +14,15 @@ foreach(name g++ clang++)
     list(APPEND compilers "${found_${name}}")
   endif()
 endforeach()
-list(TRANSFORM compilers STRIP)
-list(REMOVE_DUPLICATES compilers)
+set(different)
+foreach(compiler IN LISTS compilers)  # c++ and g++ are often one
+  file(REAL_PATH "${compiler}" compiler)
+  list(APPEND different "${compiler}")
+endforeach()
+list(REMOVE_DUPLICATES different)
 file(MAKE_DIRECTORY "${WORK}")
 
-foreach(compiler IN LISTS compilers)
+foreach(compiler IN LISTS different)
   foreach(flags "-O0" "-O2 -ffp-contract=off" "-O3 -march=native -ffp-contract=fast")
     separate_arguments(list UNIX_COMMAND "${flags}")
     execute_process(
