@@ -1,6 +1,6 @@
-// expect: contact law: add `double joint_normal_stiffness() const` and `double
-// joint_shear_stiffness() const` [Pa/m] SPDX-License-Identifier: MIT Time steps and the elastic
-// matrix need the stiffness of the joint.
+// expect: contact law: add `double joint_normal_stiffness() const` and `double joint_shear_stiffness() const` [Pa/m]
+// SPDX-License-Identifier: MIT
+// Time steps and the elastic matrix need the stiffness of the joint.
 #include <voussoir/solver/composition.hpp>
 
 namespace {

@@ -1,5 +1,6 @@
-// expect: equilibrium method: add `template <class System> EquilibriumReport find(System&, const
-// SearchContext&) const` SPDX-License-Identifier: MIT An equilibrium method that does not search.
+// expect: equilibrium method: add `template <class System> EquilibriumReport find(System&, const SearchContext&) const`
+// SPDX-License-Identifier: MIT
+// An equilibrium method that does not search.
 #include <voussoir/solver/solver.hpp>
 
 namespace {
