@@ -1,5 +1,6 @@
-// expect: contact law: add `double stored_energy(const PointLoad<Dim>&, const State<Dim>&) const`
-// [J] SPDX-License-Identifier: MIT A contact law that does not say what energy it holds.
+// expect: contact law: add `double stored_energy(const PointLoad<Dim>&, const State<Dim>&) const` [J]
+// SPDX-License-Identifier: MIT
+// A contact law that does not say what energy it holds.
 #include <voussoir/solver/composition.hpp>
 
 namespace {

@@ -1,6 +1,6 @@
-// expect: contact detector: add `static std::vector<ContactFacet<Geometry>> find(const
-// RockMass<Geometry>&)` SPDX-License-Identifier: MIT A contact detector that finds nothing, not
-// even an empty list.
+// expect: contact detector: add `static std::vector<ContactFacet<Geometry>> find(const RockMass<Geometry>&)`
+// SPDX-License-Identifier: MIT
+// A contact detector that finds nothing, not even an empty list.
 #include <voussoir/solver/composition.hpp>
 
 namespace {

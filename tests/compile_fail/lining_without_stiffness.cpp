@@ -1,5 +1,6 @@
-// expect: lining: add `template <int Dof> static ElementMatrix<Dof> stiffness(const LiningSection&,
-// double length)` SPDX-License-Identifier: MIT A lining whose elements have no stiffness matrix.
+// expect: lining: add `template <int Dof> static ElementMatrix<Dof> stiffness(const LiningSection&, double length)`
+// SPDX-License-Identifier: MIT
+// A lining whose elements have no stiffness matrix.
 #include <voussoir/solver/composition.hpp>
 
 namespace {
