@@ -15,11 +15,14 @@ foreach(name g++ clang++)
   endif()
 endforeach()
 set(different)
-foreach(compiler IN LISTS compilers)  # c++ and g++ are often one
-  file(REAL_PATH "${compiler}" compiler)
-  list(APPEND different "${compiler}")
+set(files)
+foreach(compiler IN LISTS compilers)  # c++ and g++ are often one; clang++ must be called by its name
+  file(REAL_PATH "${compiler}" real)
+  if(NOT real IN_LIST files)
+    list(APPEND files "${real}")
+    list(APPEND different "${compiler}")
+  endif()
 endforeach()
-list(REMOVE_DUPLICATES different)
 file(MAKE_DIRECTORY "${WORK}")
 
 foreach(compiler IN LISTS different)
