@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Plain loops beside Eigen's own expressions, which code outside namespace voussoir still gets.
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <limits>
+#include <voussoir/core/random.hpp>
+#include <voussoir/core/small_algebra.hpp>
+#include <voussoir/core/vec.hpp>
+
+namespace small_algebra_test {
+
+namespace {
+
+template <int Rows, int Cols>
+using Matrix = Eigen::Matrix<double, Rows, Cols>;
+
+template <int Rows, int Cols>
+Matrix<Rows, Cols> random_matrix(voussoir::Random& random) {
+  Matrix<Rows, Cols> a;
+  for (int c = 0; c < Cols; ++c)
+    for (int r = 0; r < Rows; ++r) a(r, c) = 2 * random.uniform() - 1;
+  return a;
+}
+
+/// Products of entries below 1: a sum of n of them is known to n roundings of 1, whatever its
+/// order.
+template <class A, class B>
+bool same_to_rounding(const A& ours, const B& eigens, int terms) {
+  return (ours - eigens).cwiseAbs().maxCoeff() <= terms * std::numeric_limits<double>::epsilon();
+}
+
+template <int Rows, int Inner, int Cols>
+struct Sizes {
+  static constexpr int rows = Rows, inner = Inner, cols = Cols;
+};
+
+}  // namespace
+
+TEST_SUITE("core/small_algebra") {
+  // The type of a sum tells which operator was taken: a value, not an expression.
+  TEST_CASE("code in namespace voussoir gets values, code outside it expressions") {
+    const voussoir::Vec3 a(1, 2, 3), b(4, 5, 6);
+    const auto ours = voussoir::operator+(a, b);
+    const auto eigens = a + b;
+    CHECK(std::is_same_v<std::remove_const_t<decltype(ours)>, voussoir::Vec3>);
+    CHECK_FALSE(std::is_same_v<std::remove_const_t<decltype(eigens)>, voussoir::Vec3>);
+    CHECK(ours == eigens);
+  }
+
+  TEST_CASE_TEMPLATE("sums and products are Eigen's", Size, Sizes<1, 1, 1>, Sizes<2, 2, 1>,
+                     Sizes<3, 3, 1>, Sizes<2, 3, 3>, Sizes<3, 3, 3>, Sizes<6, 6, 6>, Sizes<6, 3, 6>,
+                     Sizes<12, 12, 12>) {
+    constexpr int R = Size::rows, N = Size::inner, C = Size::cols;
+    voussoir::Random random(1, R + 100 * N + 10000 * C);
+    for (int k = 0; k < 20; ++k) {
+      const Matrix<R, N> a = random_matrix<R, N>(random), c = random_matrix<R, N>(random);
+      const Matrix<N, C> b = random_matrix<N, C>(random);
+      // Entry by entry there is one rounding, the same one.
+      CHECK(voussoir::operator+(a, c) == a + c);
+      CHECK(voussoir::operator-(a, c) == a - c);
+      CHECK(voussoir::operator-(a) == -a);
+      CHECK(voussoir::operator*(0.3, a) == 0.3 * a);
+      CHECK(voussoir::operator*(a, 3) == a * 3);
+      CHECK(voussoir::operator/(a, 0.7) == a / 0.7);
+      CHECK(voussoir::transposed(a) == a.transpose());
+      const Matrix<R, C> product = a * b;
+      CHECK(same_to_rounding(voussoir::operator*(a, b), product, 2 * N));
+      CHECK(same_to_rounding(voussoir::transposed_product(Matrix<N, R>(a.transpose()), b), product,
+                             2 * N));
+      Matrix<R, C> left = random_matrix<R, C>(random), transposed = left;
+      const Matrix<R, C> expected = left - product;
+      voussoir::subtract_product(left, a, b);
+      CHECK(same_to_rounding(left, expected, 2 * N + 2));
+      voussoir::subtract_product_transposed(transposed, a, Matrix<C, N>(b.transpose()));
+      CHECK(same_to_rounding(transposed, expected, 2 * N + 2));
+    }
+  }
+
+  TEST_CASE("parts, rows, columns and blocks are those of Eigen") {
+    voussoir::Random random(2, 0);
+    const Matrix<6, 6> a = random_matrix<6, 6>(random);
+    const Matrix<6, 1> v = random_matrix<6, 1>(random);
+    CHECK(voussoir::part<3>(v, 2) == v.segment<3>(2));
+    CHECK(voussoir::part<2>(Eigen::VectorXd(v), 4) == v.segment<2>(4));
+    CHECK(voussoir::column(a, 4) == a.col(4));
+    CHECK(voussoir::row(a, 1) == a.row(1).transpose());
+    CHECK(voussoir::block_at<2, 3>(a, 1, 2) == a.block<2, 3>(1, 2));
+    CHECK(voussoir::outer(v, v) == v * v.transpose());
+    CHECK(voussoir::diagonal_of<4>(2.5) == 2.5 * Matrix<4, 4>::Identity());
+    CHECK(voussoir::axis_vector<3>(1) == voussoir::Vec3::UnitY());
+    const Matrix<3, 1> upper = v.head<3>(), lower = v.tail<3>();
+    CHECK(voussoir::stacked(upper, lower) == v);
+    CHECK(voussoir::stacked(v[0], Matrix<5, 1>(v.tail<5>())) == v);
+    Matrix<6, 6> b = a;
+    voussoir::set_block(b, 3, 1, Matrix<2, 2>(Matrix<2, 2>::Zero()));
+    voussoir::set_row(b, 0, v);
+    voussoir::set_column(b, 5, v);
+    Matrix<6, 6> expected = a;
+    expected.block<2, 2>(3, 1).setZero();
+    expected.row(0) = v.transpose();
+    expected.col(5) = v;
+    CHECK(b == expected);
+    CHECK(voussoir::by_rows<2, 3>({1, 2, 3, 4, 5, 6}) ==
+          (Matrix<2, 3>() << 1, 2, 3, 4, 5, 6).finished());
+  }
+
+  TEST_CASE("comparisons entry by entry, and numbers that are none") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const voussoir::Vec2 low(1, 2), high(3, 4), across(0, 5), none(nan, 0);
+    CHECK(voussoir::all_less(low, high));
+    CHECK_FALSE(voussoir::all_less(low, across));
+    CHECK_FALSE(voussoir::all_less(low, low));
+    CHECK(voussoir::all_less_equal(low, low));
+    CHECK(voussoir::any_less(across, low));
+    CHECK_FALSE(voussoir::any_less(high, low));
+    CHECK_FALSE(voussoir::all_less(none, high));
+    CHECK_FALSE(voussoir::all_less_equal(none, none));
+    CHECK_FALSE(voussoir::is_finite(none));
+    CHECK(voussoir::is_finite(low));
+    CHECK(voussoir::smaller_of(low, across) == voussoir::Vec2(0, 2));
+    CHECK(voussoir::larger_of(low, across) == voussoir::Vec2(1, 5));
+    CHECK(voussoir::largest_entry(across) == 5);
+    CHECK(voussoir::smallest_entry(across) == 0);
+    CHECK(voussoir::product_of_entries(high) == 12);
+    CHECK(voussoir::shifted_by(low, -1) == voussoir::Vec2(0, 1));
+    CHECK(voussoir::scaled_by(low, high) == voussoir::Vec2(3, 8));
+    CHECK(voussoir::quotients(high, low) == voussoir::Vec2(3, 2));
+    CHECK(voussoir::magnitudes(voussoir::Vec2(-1, 2)) == low);
+    CHECK(voussoir::is_zero(voussoir::Vec2(0, -0.0)));
+    CHECK_FALSE(voussoir::same(none, none));
+  }
+}
+
+}  // namespace small_algebra_test
