@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One of the sources of voussoir::compiled: the functions that are no templates.
 #define VOUSSOIR_COMPILED_BODIES
-#include <voussoir/voussoir.hpp>
+#include <voussoir/core/dimension.hpp>
+#include <voussoir/core/unit_parser.hpp>
+#include <voussoir/core/units.hpp>
 #include <voussoir/io/atomic_file.hpp>
 #include <voussoir/io/axonometric_view.hpp>
 #include <voussoir/io/blocks_picture.hpp>
@@ -29,6 +31,4 @@
 #include <voussoir/io/tunnel_view.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/io/xml_text.hpp>
-#include <voussoir/core/units.hpp>
-#include <voussoir/core/dimension.hpp>
-#include <voussoir/core/unit_parser.hpp>
+#include <voussoir/voussoir.hpp>
