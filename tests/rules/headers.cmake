@@ -9,7 +9,9 @@ set(generated "${CMAKE_CURRENT_BINARY_DIR}/headers")
 add_library(voussoir_headers_flags OBJECT EXCLUDE_FROM_ALL support/main.cpp)
 target_link_libraries(voussoir_headers_flags PRIVATE voussoir::voussoir Boost::headers)
 set(folders "$<TARGET_PROPERTY:voussoir_headers_flags,INCLUDE_DIRECTORIES>")
-set(others "$<FILTER:$<REMOVE_DUPLICATES:${folders}>,EXCLUDE,^${PROJECT_SOURCE_DIR}/>")
+# Not the compiler's own folder, where packages may lie: named again, it hides the C headers.
+set(others
+    "$<FILTER:$<REMOVE_DUPLICATES:${folders}>,EXCLUDE,^(${PROJECT_SOURCE_DIR}/.*|/usr/include)$>")
 set(options_file "${CMAKE_CURRENT_BINARY_DIR}/headers_$<CONFIG>.options")
 set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror")
 file(GENERATE OUTPUT "${options_file}"
