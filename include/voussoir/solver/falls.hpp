@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/small_algebra.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 
 namespace voussoir::detail {
