@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# What including the headers costs: time of the compiler's own process (user seconds, best of three)
+# What including the headers costs: time of the compiler's own process (user seconds, best of three, or of REPEATS)
 # and its peak memory. The floor is what the headers stand on; `-fsyntax-only` is what every file
 # pays, `-O2 -c` a whole small program. For another checkout: bench/compile_table.sh FOLDER
 set -euo pipefail
@@ -16,7 +16,7 @@ flags=(-std=c++20 -DNDEBUG "-I$checkout/include" -isystem "${EIGEN:-/usr/include
 row() {  # row NAME ARGUMENTS...
   local name=$1 best="" line
   shift
-  for _ in 1 2 3; do
+  for ((k = 0; k < ${REPEATS:-3}; ++k)); do
     if ! line=$(/usr/bin/time -f '%U %M' "$compiler" "${flags[@]}" "$@" 2>&1 | tail -n 1); then
       printf '| %s | does not compile | |\n' "$name"
       return
