@@ -7,10 +7,10 @@
 
 /// Sums and products of vectors and matrices of fixed size, by plain loops, as values.
 ///
-/// Eigen forms a type of its own for every expression, and a compiler spends some 10 ms on each:
-/// with them the headers take three times as long to compile. Code inside namespace voussoir finds
-/// these operators first for whole vectors and matrices; anything else (vectors of dynamic size,
-/// blocks of a matrix, arrays) goes to Eigen as before, and so does all code outside.
+/// Eigen forms a type of its own for every expression, and the compiler pays for each: with them
+/// the headers take twice as long to compile. Code inside namespace voussoir finds these operators
+/// first for whole vectors and matrices; anything else (vectors of dynamic size, blocks of a
+/// matrix, arrays) goes to Eigen as before, and so does all code outside.
 namespace voussoir {
 
 /// A matrix of fixed size, stored by columns; Fixed<n, 1> is a vector.
