@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 
 namespace voussoir::paper {
 

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "section.hpp"
-#include "study.hpp"
-
 /// Every analysis of the paper, in its order, and what its answers depend on. Each is one function
 /// in a file of its own name, one program `paper_<name>`, and one section of the report of
 /// `voussoir paper`.
 namespace voussoir::paper {
+
+class Study;     // study.hpp
+struct Section;  // section.hpp
 
 Section rock_mass(Study& study);
 Section failure_patterns(Study& study);

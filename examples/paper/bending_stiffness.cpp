@@ -3,6 +3,8 @@
 #include <voussoir/theory/lining_in_ground.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

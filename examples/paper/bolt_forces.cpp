@@ -5,6 +5,8 @@
 #include <map>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

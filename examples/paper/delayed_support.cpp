@@ -5,6 +5,8 @@
 #include <voussoir/theory/longitudinal_profile.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

@@ -8,6 +8,8 @@
 #include <voussoir/core/parallel.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 #include "patterns.hpp"
 

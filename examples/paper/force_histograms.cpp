@@ -7,6 +7,8 @@
 #include <voussoir/statistics/normal_update.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

@@ -6,6 +6,8 @@
 #include <voussoir/io/interaction_picture.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

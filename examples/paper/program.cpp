@@ -12,6 +12,8 @@
 #include "plotting.hpp"
 #include "run_folder.hpp"
 #include "scoreboard.hpp"
+#include "section.hpp"
+#include "study.hpp"
 
 namespace voussoir::paper {
 

@@ -10,6 +10,8 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

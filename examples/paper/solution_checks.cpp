@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "analysis_parts.hpp"
 
 namespace voussoir::paper {

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "analyses.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "pages.hpp"
 #include "plotting.hpp"
 #include "report.hpp"
