@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/solver/minimum_degree.hpp>
 
 namespace voussoir {
 
@@ -28,10 +27,8 @@ class BlockElimination {
 
   /// @param size   block rows
   /// @param pairs  every coupled pair (row, column) once, row != column
-  /// A template so that only who factors a matrix pays for Eigen's sparse matrices.
-  template <class Graph = Eigen::SparseMatrix<char>>
-  BlockElimination(int size, const std::vector<std::pair<int, int>>& pairs) {
-    order<Graph>(size, pairs);
+  BlockElimination(int size, const std::vector<std::pair<int, int>>& pairs)
+      : from_new_(minimum_degree_order(size, pairs)) {
     gather_rows(pairs);
     find_columns();
   }
@@ -74,26 +71,6 @@ class BlockElimination {
   };
 
  private:
-  template <class Graph>
-  void order(int size, const std::vector<std::pair<int, int>>& pairs) {
-    Graph graph(size, size);
-    Eigen::VectorXi degree = Eigen::VectorXi::Ones(size);
-    for (const auto& [i, j] : pairs) {
-      ++degree[i];
-      ++degree[j];
-    }
-    graph.reserve(degree);
-    for (int i = 0; i < size; ++i) graph.insert(i, i) = 1;
-    for (const auto& [i, j] : pairs) {
-      graph.insert(i, j) = 1;
-      graph.insert(j, i) = 1;
-    }
-    graph.makeCompressed();
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-    Eigen::AMDOrdering<typename Graph::StorageIndex>()(graph, permutation);
-    from_new_.assign(permutation.indices().data(), permutation.indices().data() + size);
-  }
-
   void gather_rows(const std::vector<std::pair<int, int>>& pairs) {
     const std::size_t n = size();
     std::vector<int> to_new(n);
