@@ -102,7 +102,7 @@ class CoulombJoint {
     return Vec<1>(std::clamp(shear[0], -limit, limit));
   }
   [[nodiscard]] static Vec<2> shortened(const Vec<2>& shear, double limit) {
-    const double length = shear.norm();
+    const double length = length_of(shear);
     return length > limit ? Vec<2>(shear * (limit / length)) : shear;
   }
 

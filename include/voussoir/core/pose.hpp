@@ -18,7 +18,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 
 /// Rodrigues' formula. @param spin  axis times angle, right-handed [rad]; of any size
 [[nodiscard]] inline Rotation<3> rotation_by(const Spin<3>& spin) {
-  const double angle = spin.norm();
+  const double angle = length_of(spin);
   // sin(t)/t and (1 - cos(t))/t^2, the latter as a square of a sine: no cancellation, and 0 is
   // fine.
   const double half = 0.5 * angle;

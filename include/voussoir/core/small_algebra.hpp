@@ -68,6 +68,34 @@ requires(Rows > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Cols> operator/(
   return quotient;
 }
 
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator+=(Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] += b.data()[k];
+  return a;
+}
+
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator-=(Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] -= b.data()[k];
+  return a;
+}
+
+template <int Rows, int Cols, Arithmetic Scalar>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator*=(Fixed<Rows, Cols>& a,
+                                                                    Scalar factor) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] *= static_cast<double>(factor);
+  return a;
+}
+
+template <int Rows, int Cols, Arithmetic Scalar>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator/=(Fixed<Rows, Cols>& a,
+                                                                    Scalar divisor) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] /= static_cast<double>(divisor);
+  return a;
+}
+
 template <int Rows, int Inner, int Cols>
 requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Cols> operator*(
     const Fixed<Rows, Inner>& a, const Fixed<Inner, Cols>& b) {
@@ -81,6 +109,27 @@ requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Col
       for (int r = 0; r < Rows; ++r) column[r] += left[k * Rows + r] * right[k];
   }
   return product;
+}
+
+template <int Size>
+[[nodiscard]] inline double dot_product(const Fixed<Size, 1>& a, const Fixed<Size, 1>& b) {
+  double sum = a.data()[0] * b.data()[0];
+  for (int k = 1; k < Size; ++k) sum += a.data()[k] * b.data()[k];
+  return sum;
+}
+template <int Size>
+[[nodiscard]] inline double squared_length_of(const Fixed<Size, 1>& a) {
+  return dot_product(a, a);
+}
+template <int Size>
+[[nodiscard]] inline double length_of(const Fixed<Size, 1>& a) {
+  return std::sqrt(squared_length_of(a));
+}
+/// The vector of length 1 in the same direction; 0 and what is not a number stay as they are.
+template <int Size>
+[[nodiscard]] inline Fixed<Size, 1> normalized(const Fixed<Size, 1>& a) {
+  const double squared = squared_length_of(a);
+  return squared > 0 ? a / std::sqrt(squared) : a;
 }
 
 template <int Rows, int Cols>

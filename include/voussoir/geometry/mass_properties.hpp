@@ -80,13 +80,13 @@ VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices
     const double triangle = 0.5 * cross(a, b);
     area += triangle;
     first_moment += triangle / 3.0 * (a + b);
-    polar += triangle / 6.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    polar += triangle / 6.0 * (squared_length_of(a) + dot_product(a, b) + squared_length_of(b));
   }
   MassProperties<2> result;
   result.measure = area;
   const Vec2 offset = first_moment / area;
   result.centroid = origin + offset;
-  result.second_moment(0, 0) = polar - area * offset.squaredNorm();
+  result.second_moment(0, 0) = polar - area * squared_length_of(offset);
   return result;
 }
 
@@ -105,7 +105,7 @@ VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhe
     for (std::size_t i = 2; i < loop.size(); ++i) {
       const Vec3 c = arm(i), sum = a + b + c;
       // Edges, not arms: of a needle one is short, and the product is exact to its own size.
-      const double tetrahedron = a.dot(cross(b - a, c - b)) / 6.0;
+      const double tetrahedron = dot_product(a, cross(b - a, c - b)) / 6.0;
       volume += tetrahedron;
       first_moment += tetrahedron / 4.0 * sum;
       second += tetrahedron / 20.0 * (outer(a, a) + outer(b, b) + outer(c, c) + outer(sum, sum));

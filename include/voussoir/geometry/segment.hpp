@@ -21,7 +21,7 @@ struct FacetPoint {
 struct Segment {
   Vec2 start, end;  ///< [m]
 
-  [[nodiscard]] double length() const { return (end - start).norm(); }
+  [[nodiscard]] double length() const { return length_of(end - start); }
   /// What an integration point of the facet weighs in all: its length, one metre thick.
   [[nodiscard]] double measure() const { return length(); }
   [[nodiscard]] Vec2 centre() const { return 0.5 * (start + end); }

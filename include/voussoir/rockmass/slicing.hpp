@@ -295,8 +295,8 @@ VOUSSOIR_INLINE double hydraulic_radius(const ConvexPolyhedron& block) {
       return block.vertex(static_cast<std::size_t>(loop[i]));
     };
     const Vec3 area = doubled_area(loop.size(), corner);
-    surface += area.norm();
-    volume += area.dot(corner(0) - block.vertex(0)) / 3;
+    surface += length_of(area);
+    volume += dot_product(area, corner(0) - block.vertex(0)) / 3;
   }
   return volume / surface;
 }

@@ -114,16 +114,16 @@ class EdgePairs {
     const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
     const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
     const Vec3 outward = a.shape.normal(of_a.left) + a.shape.normal(of_a.right);
-    const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    const double uu = squared_length_of(u), vv = squared_length_of(v);
     Axis found;
     Vec3& normal = found.normal;
     normal = cross(u, v);
-    if (normal.squaredNorm() <= 1e-24 * uu * vv) return found;
+    if (squared_length_of(normal) <= 1e-24 * uu * vv) return found;
     // Its rounding matters along the longer edge only; across it, it moves neither of the two.
     const Vec3& longer = uu > vv ? u : v;
-    normal -= (normal.dot(longer) / std::max(uu, vv)) * longer;
-    normal *= (normal.dot(outward) < 0 ? -1 : 1) / normal.norm();
-    found.gap = normal.dot(q - p);
+    normal -= (dot_product(normal, longer) / std::max(uu, vv)) * longer;
+    normal *= (dot_product(normal, outward) < 0 ? -1 : 1) / length_of(normal);
+    found.gap = dot_product(normal, q - p);
     if (!(found.gap > enough)) return found;  // there is not more room than between them
     found.separation = lowest(normal, b.shape) + lowest(-normal, a.shape);
     return found;
@@ -140,12 +140,13 @@ class EdgePairs {
     const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
     const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
     const Vec3 both = cross(u, v), offset = q - p;
-    const double squared = both.squaredNorm();
-    const double s = cross(offset, v).dot(both), t = cross(offset, u).dot(both);
+    const double squared = squared_length_of(both);
+    const double s = dot_product(cross(offset, v), both), t = dot_product(cross(offset, u), both);
     const double of_u = std::min(s, squared - s), of_v = std::min(t, squared - t);
     if (!(std::min(of_u, of_v) >= 0)) return {};
     return {
-        std::sqrt(std::min(of_u * of_u / v.squaredNorm(), of_v * of_v / u.squaredNorm()) / squared),
+        std::sqrt(std::min(of_u * of_u / squared_length_of(v), of_v * of_v / squared_length_of(u)) /
+                  squared),
         p + (s / squared) * u};
   }
 

@@ -103,9 +103,9 @@ class PlaneAxis {
       }
       if (of_a != 2 || of_b != 2) return never;
       Vec3 n = cross(cross(normals[0], normals[1]), cross(normals[2], normals[3]));
-      const double length = n.norm();
+      const double length = length_of(n);
       if (!(length > 0)) return never;
-      n *= (n.dot(normals[0] + normals[1]) < 0 ? -1 : 1) / length;
+      n *= (dot_product(n, normals[0] + normals[1]) < 0 ? -1 : 1) / length;
       return lowest<3>(b, n) + lowest<3>(a, -n);
     }
     return never;

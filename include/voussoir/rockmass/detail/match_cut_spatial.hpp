@@ -78,7 +78,7 @@ class CutOverlay {
     const Fixed<2, 3> axes = transposed(tangent_basis(up));
     for (const FaceRef* f = first; f != last; ++f) {
       const ConvexPolyhedron& shape = shape_of(*f);
-      const bool is_below = shape.half_space(face_of(*f)).normal.dot(up) > 0;
+      const bool is_below = dot_product(shape.half_space(face_of(*f)).normal, up) > 0;
       FlatFace face{Vec2::Zero(), Vec2::Zero(), f->body, corners_.size(), 0};
       for (const int v : shape.loop(face_of(*f))) {
         const Vec3& point = shape.vertex(static_cast<std::size_t>(v));
@@ -134,7 +134,7 @@ class CutOverlay {
       const Vec2 here = inside_[k].flat - inside_[0].flat;
       const Vec2 next = inside_[k + 1 == inside_.size() ? 0 : k + 1].flat - inside_[0].flat;
       doubled += cross(here, next);
-      outline += (next - here).norm();
+      outline += length_of(next - here);
     }
     // A strip of width w and length l has the area w l and the outline 2 l.
     if (!(doubled > tolerance * outline)) return {};
@@ -143,7 +143,7 @@ class CutOverlay {
     for (Corner& corner : inside_) {
       for (const FlatFace* face : {&under, &over})
         for (const Corner& given : corners(*face))
-          if ((corner.flat - given.flat).squaredNorm() <= tolerance * tolerance)
+          if (squared_length_of(corner.flat - given.flat) <= tolerance * tolerance)
             corner.point = given.point;
       if (facet.vertices.empty() || !same(facet.vertices.back(), corner.point))
         facet.vertices.push_back(corner.point);
