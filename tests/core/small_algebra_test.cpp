@@ -128,7 +128,7 @@ TEST_SUITE("core/small_algebra") {
     CHECK(voussoir::quotients(high, low) == voussoir::Vec2(3, 2));
     CHECK(voussoir::magnitudes(voussoir::Vec2(-1, 2)) == low);
     CHECK(voussoir::is_zero(voussoir::Vec2(0, -0.0)));
-    CHECK_FALSE(voussoir::same(none, none));
+    CHECK_FALSE(voussoir::operator==(none, none));
   }
 }
 

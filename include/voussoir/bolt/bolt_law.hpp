@@ -15,15 +15,15 @@ struct BoltSpan {
   Vec<Dim> motion;   ///< of the second anchor relative to the first since installation [m]
   /// Of the second body relative to the first since then, where the bar crosses the joint [m].
   /// Other than `motion` it is free of the rotation of the rock as a whole.
-  Vec<Dim> jump = Vec<Dim>::Zero();
+  Vec<Dim> jump = zeros<Vec<Dim>>();
 };
 
 /// What the bolt does at one joint.
 template <int Dim>
 struct BoltForce {
-  Vec<Dim> pull = Vec<Dim>::Zero();   ///< on the first anchor; the second gets the opposite [N]
-  double axial = 0;                   ///< along the line of the anchors, tension positive [N]
-  Vec<Dim> dowel = Vec<Dim>::Zero();  ///< on the first body where the bar crosses the joint [N]
+  Vec<Dim> pull = zeros<Vec<Dim>>();   ///< on the first anchor; the second gets the opposite [N]
+  double axial = 0;                    ///< along the line of the anchors, tension positive [N]
+  Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first body where the bar crosses the joint [N]
 };
 
 template <class Law, int Dim>

@@ -17,8 +17,8 @@ struct PointMotion {
 /// Force at one contact point, on body b (a gets the opposite).
 template <int Dim>
 struct PointForce {
-  double normal = 0;                               ///< compression positive [N]
-  Vec<Dim - 1> tangential = Vec<Dim - 1>::Zero();  ///< along the tangents [N]
+  double normal = 0;                                ///< compression positive [N]
+  Vec<Dim - 1> tangential = zeros<Vec<Dim - 1>>();  ///< along the tangents [N]
 };
 
 /// A contact point as a law sees it: the length (2-D) or area (3-D) it stands for [m], [m^2], the

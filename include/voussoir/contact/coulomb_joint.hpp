@@ -34,8 +34,8 @@ class CoulombJoint {
 
   template <int Dim>
   struct State {
-    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
-    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T then, for the friction work alone [N]
+    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
+    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T then, for the friction work alone [N]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params

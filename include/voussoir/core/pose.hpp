@@ -32,7 +32,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 /// Where a rigid body is: a point p of its own frame lies at position + rotation p.
 template <int Dim>
 struct Pose {
-  Vec<Dim> position = Vec<Dim>::Zero();  ///< of the origin of the body's frame [m]
+  Vec<Dim> position = zeros<Vec<Dim>>();  ///< of the origin of the body's frame [m]
   Rotation<Dim> rotation = diagonal_of<Dim>(1);
 
   [[nodiscard]] Vec<Dim> operator()(const Vec<Dim>& local) const {

@@ -96,6 +96,14 @@ requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator/=(Fixed<Rows, 
   return a;
 }
 
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) [[nodiscard]] inline bool operator==(const Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k)
+    if (a.data()[k] != b.data()[k]) return false;
+  return true;
+}
+
 template <int Rows, int Inner, int Cols>
 requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Cols> operator*(
     const Fixed<Rows, Inner>& a, const Fixed<Inner, Cols>& b) {
@@ -201,13 +209,6 @@ template <int Rows, int Cols>
   return true;
 }
 template <int Size>
-[[nodiscard]] inline bool same(const Fixed<Size, 1>& a, const Fixed<Size, 1>& b) {
-  for (int k = 0; k < Size; ++k)
-    if (a.data()[k] != b.data()[k]) return false;
-  return true;
-}
-
-template <int Size>
 [[nodiscard]] inline bool is_zero(const Fixed<Size, 1>& a) {
   for (int k = 0; k < Size; ++k)
     if (!(a.data()[k] == 0)) return false;
@@ -312,6 +313,13 @@ template <int Size>
   Fixed<Size, 1> constant;
   for (int k = 0; k < Size; ++k) constant.data()[k] = value;
   return constant;
+}
+/// A vector or matrix of zeros: `zeros<Vec3>()`.
+template <class Matrix>
+[[nodiscard]] inline Matrix zeros() {
+  Matrix zero;
+  for (int k = 0; k < zero.size(); ++k) zero.data()[k] = 0;
+  return zero;
 }
 /// One vector below another.
 template <int Upper, int Lower>

@@ -84,7 +84,7 @@ class AnalyticCentre::Pair {
   /// changes answers by roundings only.
   struct Memory {
     detail::PlaneAxis<Dim> axis{};
-    Vec<Dim> inside = Vec<Dim>::Zero();  ///< [m]
+    Vec<Dim> inside = zeros<Vec<Dim>>();  ///< [m]
     bool overlapping = false;
   };
 
@@ -214,11 +214,11 @@ class AnalyticCentre::Pair {
 
   /// The unit gradient of a's rounded inner particle less that of b's.
   [[nodiscard]] Vec<Dim> rounded_gradients() const {
-    Vec<Dim> difference = Vec<Dim>::Zero();
+    Vec<Dim> difference = zeros<Vec<Dim>>();
     for (const bool of_a : {true, false}) {
       const std::size_t first = of_a ? 0 : planes_.count_a();
       const std::size_t last = of_a ? planes_.count_a() : planes_.count();
-      Vec<Dim> gradient = Vec<Dim>::Zero();
+      Vec<Dim> gradient = zeros<Vec<Dim>>();
       std::size_t nearest = first;
       for (std::size_t plane = first; plane < last; ++plane) {
         gradient += std::fmax(rounding_ - planes_.room_of(plane), 0.0) * planes_.normal_of(plane);
@@ -259,7 +259,7 @@ class AnalyticCentre::Pair {
   double rounding_;
   Planes planes_;
   detail::BarrierCentre<Dim> centre_;
-  Vec<Dim> point_ = Vec<Dim>::Zero();
+  Vec<Dim> point_ = zeros<Vec<Dim>>();
 };
 
 }  // namespace voussoir

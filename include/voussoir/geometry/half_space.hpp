@@ -8,8 +8,8 @@ namespace voussoir {
 /// The points x with normal . x <= offset; in 2-D the part below (left of) a line.
 template <int Dim>
 struct HalfSpace {
-  Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit vector out of the half space
-  double offset = 0;                   ///< [m]
+  Vec<Dim> normal = zeros<Vec<Dim>>();  ///< unit vector out of the half space
+  double offset = 0;                    ///< [m]
 
   /// Signed distance to the boundary, negative inside [m].
   [[nodiscard]] double distance(const Vec<Dim>& point) const {

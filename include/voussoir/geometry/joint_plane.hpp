@@ -154,7 +154,7 @@ VOUSSOIR_INLINE JointPlane joint_polygon(std::vector<Vec3> corners) {
     throw InvalidInput("joint polygon: corner " + std::to_string(k) + " " + rule);
   };
   if (corners.size() < 3) throw InvalidInput("joint polygon: needs at least 3 corners");
-  Vec3 area = Vec3::Zero(), centre = Vec3::Zero();
+  Vec3 area = zeros<Vec3>(), centre = zeros<Vec3>();
   double size = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (!is_finite(corners[k])) fail(k, "is not finite");

@@ -15,11 +15,11 @@ namespace voussoir {
 template <int Dim>
 struct MassProperties {
   using Inertia = Fixed<spin_count<Dim>, spin_count<Dim>>;
-  double measure = 0;                    ///< area [m^2] or volume [m^3]
-  Vec<Dim> centroid = Vec<Dim>::Zero();  ///< [m]
+  double measure = 0;                     ///< area [m^2] or volume [m^3]
+  Vec<Dim> centroid = zeros<Vec<Dim>>();  ///< [m]
   /// About the centroid; 2-D: polar moment [m^4]; 3-D: inertia tensor, the integral of
   /// r.r I - r r^T [m^5].
-  Inertia second_moment = Inertia::Zero();
+  Inertia second_moment = zeros<Inertia>();
 };
 
 /// Area, centroid and polar second moment of a simple polygon (Green's theorem).
@@ -73,7 +73,7 @@ template <class Shape>
 
 VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
   double area = 0, polar = 0;
-  Vec2 first_moment = Vec2::Zero();
+  Vec2 first_moment = zeros<Vec2>();
   const Vec2& origin = vertices.front();
   for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
     const Vec2 a = vertices[k] - origin, b = vertices[k + 1] - origin;
@@ -93,8 +93,8 @@ VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices
 VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron) {
   const Vec3 origin = polyhedron.vertex(0);
   double volume = 0;
-  Vec3 first_moment = Vec3::Zero();
-  Fixed<3, 3> second = Fixed<3, 3>::Zero();  // integral of r r^T
+  Vec3 first_moment = zeros<Vec3>();
+  Fixed<3, 3> second = zeros<Fixed<3, 3>>();  // integral of r r^T
   for (std::size_t k = 0; k < polyhedron.size(); ++k) {
     const std::span<const int> loop = polyhedron.loop(k);
     const auto arm = [&](std::size_t i) -> Vec3 {

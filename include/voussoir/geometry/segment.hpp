@@ -13,8 +13,8 @@ namespace voussoir {
 /// One point of a numerical integration over a facet.
 template <int Dim>
 struct FacetPoint {
-  Vec<Dim> offset = Vec<Dim>::Zero();  ///< from the centre of the facet [m]
-  double weight = 0;                   ///< length (2-D) or area (3-D) that the point stands for
+  Vec<Dim> offset = zeros<Vec<Dim>>();  ///< from the centre of the facet [m]
+  double weight = 0;                    ///< length (2-D) or area (3-D) that the point stands for
 };
 
 /// A straight piece of line: a joint trace, a contact, a piece of tunnel wall.

@@ -54,7 +54,7 @@ struct SpatialFacet {
   [[nodiscard]] std::array<Vec3, 2> gyration(const Vec3& normal, double area) const {
     // Along the longest edge the second moments of a thin facet are nearly uncoupled, and its small
     // one keeps its digits.
-    Vec3 first = Vec3::Zero();
+    Vec3 first = zeros<Vec3>();
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const Vec3 edge = vertices[k + 1 == vertices.size() ? 0 : k + 1] - vertices[k];
       if (squared_length_of(edge) > (1 + 1e-9) * squared_length_of(first)) first = edge;
@@ -89,7 +89,7 @@ struct SpatialFacet {
   /// From the first vertex to the centroid.
   [[nodiscard]] Vec3 centroid_arm() const {
     const Vec3 normal = normalized(area_vector());
-    Vec3 sum = Vec3::Zero();
+    Vec3 sum = zeros<Vec3>();
     double weight = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
       const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];

@@ -153,7 +153,7 @@ VOUSSOIR_INLINE Eigen::Matrix3d joint_compliance(const std::vector<PersistentSet
                                                  const JointStiffness& joints) {
   joints.check();
   if (sets.empty()) throw InvalidInput("joint compliance: needs at least one joint set");
-  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d compliance = zeros<Eigen::Matrix3d>();
   for (const PersistentSet& set : sets) {
     require(set.spacing > 0 && std::isfinite(set.spacing), "joint spacing s", set.spacing, "> 0 m");
     require(std::isfinite(set.dip), "dip", set.dip, "finite [rad]");

@@ -57,7 +57,7 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
   for (const Vec2& v : opening.vertices()) reach = std::max(reach, length_of(v));
   const auto wall_point = [&](double angle) {
     const Vec2 far = 2 * reach * Vec2(std::cos(angle), std::sin(angle));
-    const auto t = opening.last_crossing({Vec2::Zero(), far});
+    const auto t = opening.last_crossing({zeros<Vec2>(), far});
     if (!t) throw InvalidInput("bolts: the tunnel centre is not inside the opening");
     return Vec2(*t * far);
   };

@@ -114,7 +114,7 @@ namespace detail {
 template <class Elements, class EndForces>
 [[nodiscard]] std::vector<LiningForce> mean_of_members(const Elements& elements, int first,
                                                        int count, EndForces&& end_forces) {
-  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {Vec2::Zero(), 0, 0, 0, 0});
+  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {zeros<Vec2>(), 0, 0, 0, 0});
   std::vector<int> ends(forces.size(), 0);
   for (const auto& element : elements) {
     // Members run anticlockwise: their second axis points into the opening, so what a beam calls

@@ -63,7 +63,7 @@ class EdgePairs {
   struct Best {
     double separation = -std::numeric_limits<double>::infinity();
     std::uint16_t edge_a = 0, edge_b = 0;
-    Vec3 normal = Vec3::Zero();  ///< from a to b
+    Vec3 normal = zeros<Vec3>();  ///< from a to b
   };
 
   /// @param list_a, list_b  the edges to try
@@ -101,7 +101,7 @@ class EdgePairs {
   struct Axis {
     double separation = -std::numeric_limits<double>::infinity();  ///< of the shapes [m]
     double gap = 0;                                                ///< of the two edges [m]
-    Vec3 normal = Vec3::Zero();                                    ///< from a to b
+    Vec3 normal = zeros<Vec3>();                                   ///< from a to b
 
     /// Whether nothing of either shape lies beyond its edge.
     [[nodiscard]] bool is_of_edges() const { return gap - separation <= 4 * rounding; }
@@ -131,8 +131,8 @@ class EdgePairs {
 
   /// Where an edge of a passes one of b, as seen along their common normal.
   struct Crossing {
-    double room = -1;           ///< to the rim of the parallelogram of both; < 0: no crossing [m]
-    Vec3 point = Vec3::Zero();  ///< on the edge of a [m]
+    double room = -1;            ///< to the rim of the parallelogram of both; < 0: no crossing [m]
+    Vec3 point = zeros<Vec3>();  ///< on the edge of a [m]
   };
   [[nodiscard]] static Crossing crossing(const LinkedShape& a, std::uint16_t i,
                                          const LinkedShape& b, std::uint16_t j) {

@@ -404,11 +404,11 @@ class FacePair3 {
   // Of the pair at hand, from `find_axis` to `contact`.
   int face_side_ = 0;  ///< whose face is the best: 0 a's, 1 b's
   double area_ = 0;    ///< of the clipped face [m^2]
-  Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero();  ///< from a to b
+  Vec3 normal_ = zeros<Vec3>(), face_normal_ = zeros<Vec3>();  ///< from a to b
   // Of the shape across from the reference face: the face that was clipped, its normal as seen from
   // a, and the lowest and the highest vertex over the reference face.
   std::size_t other_ = 0;
-  Vec3 other_normal_ = Vec3::Zero(), deepest_ = Vec3::Zero(), highest_ = Vec3::Zero();
+  Vec3 other_normal_ = zeros<Vec3>(), deepest_ = zeros<Vec3>(), highest_ = zeros<Vec3>();
   std::vector<Vec3> polygon_;
   EdgeList edges_of_a_, edges_of_b_;
   std::vector<double> separations_, heights_, scores_;

@@ -30,7 +30,7 @@ template <int Dim>
 /// and how far away it is then [m], < 0.
 template <int Dim>
 struct ShallowFace {
-  Vec<Dim> normal = Vec<Dim>::Zero();
+  Vec<Dim> normal = zeros<Vec<Dim>>();
   double separation = -std::numeric_limits<double>::infinity();
 
   ShallowFace(const PlacedShape<Dim>& shape, const PlacedShape<Dim>& other) {

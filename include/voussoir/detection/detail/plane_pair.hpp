@@ -124,7 +124,7 @@ class PlanePair {
   }
 
   std::vector<double> data_;
-  Vec<Dim> point_ = Vec<Dim>::Zero();
+  Vec<Dim> point_ = zeros<Vec<Dim>>();
   std::size_t stride_ = 0, count_a_ = 0, count_ = 0;
 };
 
