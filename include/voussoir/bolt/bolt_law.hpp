@@ -27,7 +27,7 @@ struct BoltForce {
 };
 
 template <class Law, int Dim>
-concept HasBoltState = std::default_initializable<typename Law::State>;
+concept HasBoltState = DefaultConstructible<typename Law::State>;
 /// A `State` that is a template, as that of a contact law is.
 template <class Law, int Dim>
 concept HasTemplateState = requires {
@@ -60,7 +60,7 @@ concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
 /// Models: AxialBolt, AxialShearBolt.
 template <class Law, int Dim>
 concept BoltLaw =
-    Fills<Law, roles::BoltLaw> && HasName<Law> && std::copyable<Law> && HasBoltState<Law, Dim> &&
+    Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> && HasBoltState<Law, Dim> &&
     HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
 
 template <class Law, int Dim>
@@ -68,7 +68,7 @@ consteval bool explain_bolt_law() {
   static_assert(Fills<Law, roles::BoltLaw>,
                 "bolt law: add `using role = voussoir::roles::BoltLaw`");
   static_assert(HasName<Law>, "bolt law: add `static constexpr const char* name` for the log");
-  static_assert(std::copyable<Law>, "bolt law: must be copyable");
+  static_assert(Copyable<Law>, "bolt law: must be copyable");
   static_assert(!HasTemplateState<Law, Dim>,
                 "bolt law: `State` must be no template: `struct State`");
   static_assert(HasBoltState<Law, Dim>,
