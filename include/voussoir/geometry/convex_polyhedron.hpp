@@ -54,7 +54,7 @@ class ConvexPolyhedron {
     surface_.vertices = std::move(vertices);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto begin = static_cast<int>(surface_.loops.size());
-      surface_.loops.insert(surface_.loops.end(), faces[f].begin(), faces[f].end());
+      for (const int v : faces[f]) surface_.loops.push_back(v);
       surface_.faces.push_back({{}, cuts[f], begin, static_cast<int>(surface_.loops.size())});
     }
     detail::SurfaceCheck(surface_).run();

@@ -32,7 +32,7 @@ struct MassProperties {
 [[nodiscard]] VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices);
 
 [[nodiscard]] inline MassProperties<2> mass_properties(const ConvexPolygon& polygon) {
-  return mass_properties(std::span<const Vec2>(polygon.vertices()));
+  return mass_properties({polygon.vertices().data(), polygon.size()});
 }
 
 /// Volume, centroid and inertia tensor, from tetrahedra between one vertex and the faces that do

@@ -47,7 +47,7 @@ class SimplePolygon {
   }
   /// Positive once constructed [m^2].
   [[nodiscard]] double area() const {
-    return mass_properties(std::span<const Vec2>(vertices_)).measure;
+    return mass_properties({vertices_.data(), vertices_.size()}).measure;
   }
   [[nodiscard]] double perimeter() const {
     double sum = 0;

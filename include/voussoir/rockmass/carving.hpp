@@ -332,7 +332,7 @@ VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spati
   std::vector<JointPlane> sides;
   for (std::size_t e = 0; e < section.size(); ++e)
     sides.push_back(detail::outline_piece(opening, e, mass.domain));
-  std::vector<WallPiece<Spatial>> pieces;
+  std::vector<std::vector<WallPiece<Spatial>>> at_edge(section.size());
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
       if (detail::apart(part, low, high)) continue;
@@ -349,16 +349,17 @@ VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spati
           // Towards the rock, as the left side of a planar facet.
           const auto common = detail::common_part(face, {sides[e].corners}, tolerance);
           if (!common || common->area() <= tolerance * std::sqrt(face.measure())) continue;
-          pieces.push_back({static_cast<int>(b),
-                            {{common->corners.rbegin(), common->corners.rend()}},
-                            static_cast<int>(e),
-                            start[e],
-                            start[e + 1]});
+          SpatialFacet facet;
+          for (std::size_t c = common->corners.size(); c-- > 0;)
+            facet.vertices.push_back(common->corners[c]);
+          at_edge[e].push_back(
+              {static_cast<int>(b), std::move(facet), static_cast<int>(e), start[e], start[e + 1]});
         }
       }
     }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const auto& a, const auto& b) { return a.edge < b.edge; });
+  std::vector<WallPiece<Spatial>> pieces;
+  for (auto& of_edge : at_edge)
+    for (auto& piece : of_edge) pieces.push_back(std::move(piece));
   return pieces;
 }
 

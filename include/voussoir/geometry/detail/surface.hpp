@@ -30,8 +30,7 @@ struct Surface {
   std::vector<Face> faces;
 
   [[nodiscard]] std::span<const int> loop(const Face& face) const {
-    return std::span<const int>(loops).subspan(static_cast<std::size_t>(face.begin),
-                                               static_cast<std::size_t>(face.end - face.begin));
+    return {loops.data() + face.begin, static_cast<std::size_t>(face.end - face.begin)};
   }
 };
 

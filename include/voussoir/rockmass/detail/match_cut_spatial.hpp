@@ -96,7 +96,7 @@ class CutOverlay {
   }
 
   [[nodiscard]] std::span<const Corner> corners(const FlatFace& face) const {
-    return std::span<const Corner>(corners_).subspan(face.begin, face.end - face.begin);
+    return {corners_.data() + face.begin, face.end - face.begin};
   }
 
   /// The part of one face that lies over another, empty if narrower than the tolerance.
