@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
