@@ -30,8 +30,8 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
 ///
 /// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
 template <class Anchors>
-concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> &&
-    Copyable<Anchors> && DefaultConstructible<Anchors> && HasAnchorDistances<Anchors>;
+concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> && Copyable<Anchors> &&
+    DefaultConstructible<Anchors> && HasAnchorDistances<Anchors>;
 
 template <class Anchors>
 consteval bool explain_bolt_anchors() {

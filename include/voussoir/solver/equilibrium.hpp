@@ -106,9 +106,8 @@ concept HasEquilibriumSearch = requires(const Method method, System& system,
 ///
 /// Models: TwoLevel, Relaxation, Explicit.
 template <class Method, class System>
-concept EquilibriumMethod =
-    Fills<Method, roles::Equilibrium> && HasName<Method> && Copyable<Method> &&
-    DefaultConstructible<Method> && HasEquilibriumSearch<Method, System>;
+concept EquilibriumMethod = Fills<Method, roles::Equilibrium> && HasName<Method> &&
+    Copyable<Method> && DefaultConstructible<Method> && HasEquilibriumSearch<Method, System>;
 
 template <class Method, class System>
 consteval bool explain_equilibrium_method() {
