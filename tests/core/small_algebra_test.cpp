@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <voussoir/core/random.hpp>
 #include <voussoir/core/small_algebra.hpp>
@@ -105,6 +106,35 @@ TEST_SUITE("core/small_algebra") {
           (Matrix<2, 3>() << 1, 2, 3, 4, 5, 6).finished());
   }
 
+  TEST_CASE_TEMPLATE(
+      "products of vectors and sums in place, bit by bit where nothing is rounded twice", Size,
+      Sizes<1, 1, 1>, Sizes<2, 1, 1>, Sizes<3, 1, 1>, Sizes<6, 1, 1>) {
+    constexpr int size = Size::rows;
+    voussoir::Random random(5, size);
+    for (int round = 0; round < 100; ++round) {
+      const auto a = random_matrix<size, 1>(random), b = random_matrix<size, 1>(random);
+      const double dot = voussoir::dot_product(a, b), tolerance = size * 2.3e-16;
+      CHECK(std::abs(dot - a.dot(b)) <= tolerance);
+      CHECK(std::abs(voussoir::squared_length_of(a) - a.squaredNorm()) <= tolerance);
+      CHECK(std::abs(voussoir::length_of(a) - a.norm()) <= tolerance);
+      CHECK(same_to_rounding(voussoir::normalized(a), a.normalized(), 2));
+      Matrix<size, 1> ours = a, eigens = a;
+      voussoir::operator+=(ours, b);
+      CHECK(ours == (eigens += b));
+      voussoir::operator-=(ours, Matrix<size, 1>(3 * b));
+      CHECK(ours == (eigens -= Matrix<size, 1>(3 * b)));
+      voussoir::operator*=(ours, 0.3);
+      CHECK(ours == (eigens *= 0.3));
+      voussoir::operator/=(ours, 7);
+      CHECK(ours == (eigens /= 7));
+      CHECK(voussoir::operator==(ours, eigens));
+    }
+    const auto none = voussoir::zeros<Matrix<size, 1>>();
+    CHECK(none == Matrix<size, 1>::Zero());
+    CHECK(voussoir::normalized(none) == none);
+    CHECK(voussoir::zeros<Matrix<size, 2>>() == Matrix<size, 2>::Zero());
+  }
+
   TEST_CASE("comparisons entry by entry, and numbers that are none") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const voussoir::Vec2 low(1, 2), high(3, 4), across(0, 5), none(nan, 0);
@@ -128,7 +158,7 @@ TEST_SUITE("core/small_algebra") {
     CHECK(voussoir::quotients(high, low) == voussoir::Vec2(3, 2));
     CHECK(voussoir::magnitudes(voussoir::Vec2(-1, 2)) == low);
     CHECK(voussoir::is_zero(voussoir::Vec2(0, -0.0)));
-    CHECK_FALSE(voussoir::same(none, none));
+    CHECK_FALSE(voussoir::operator==(none, none));
   }
 }
 

@@ -30,8 +30,8 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
 ///
 /// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
 template <class Anchors>
-concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> &&
-    std::copyable<Anchors> && std::default_initializable<Anchors> && HasAnchorDistances<Anchors>;
+concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> && Copyable<Anchors> &&
+    DefaultConstructible<Anchors> && HasAnchorDistances<Anchors>;
 
 template <class Anchors>
 consteval bool explain_bolt_anchors() {
@@ -39,10 +39,10 @@ consteval bool explain_bolt_anchors() {
                 "bolt anchors: add `using role = voussoir::roles::BoltAnchors`");
   static_assert(HasName<Anchors>,
                 "bolt anchors: add `static constexpr const char* name` for the log");
-  static_assert(std::copyable<Anchors>, "bolt anchors: must be copyable");
+  static_assert(Copyable<Anchors>, "bolt anchors: must be copyable");
   static_assert(HasAnchorDistances<Anchors>,
                 "bolt anchors: add `AnchorDistances distances(const BoltCrossing&) const` [m]");
-  static_assert(std::default_initializable<Anchors>,
+  static_assert(DefaultConstructible<Anchors>,
                 "bolt anchors: add a default constructor (the documented default placement)");
   return true;
 }

@@ -15,19 +15,19 @@ struct BoltSpan {
   Vec<Dim> motion;   ///< of the second anchor relative to the first since installation [m]
   /// Of the second body relative to the first since then, where the bar crosses the joint [m].
   /// Other than `motion` it is free of the rotation of the rock as a whole.
-  Vec<Dim> jump = Vec<Dim>::Zero();
+  Vec<Dim> jump = zeros<Vec<Dim>>();
 };
 
 /// What the bolt does at one joint.
 template <int Dim>
 struct BoltForce {
-  Vec<Dim> pull = Vec<Dim>::Zero();   ///< on the first anchor; the second gets the opposite [N]
-  double axial = 0;                   ///< along the line of the anchors, tension positive [N]
-  Vec<Dim> dowel = Vec<Dim>::Zero();  ///< on the first body where the bar crosses the joint [N]
+  Vec<Dim> pull = zeros<Vec<Dim>>();   ///< on the first anchor; the second gets the opposite [N]
+  double axial = 0;                    ///< along the line of the anchors, tension positive [N]
+  Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first body where the bar crosses the joint [N]
 };
 
 template <class Law, int Dim>
-concept HasBoltState = std::default_initializable<typename Law::State>;
+concept HasBoltState = DefaultConstructible<typename Law::State>;
 /// A `State` that is a template, as that of a contact law is.
 template <class Law, int Dim>
 concept HasTemplateState = requires {
@@ -60,7 +60,7 @@ concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
 /// Models: AxialBolt, AxialShearBolt.
 template <class Law, int Dim>
 concept BoltLaw =
-    Fills<Law, roles::BoltLaw> && HasName<Law> && std::copyable<Law> && HasBoltState<Law, Dim> &&
+    Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> && HasBoltState<Law, Dim> &&
     HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
 
 template <class Law, int Dim>
@@ -68,7 +68,7 @@ consteval bool explain_bolt_law() {
   static_assert(Fills<Law, roles::BoltLaw>,
                 "bolt law: add `using role = voussoir::roles::BoltLaw`");
   static_assert(HasName<Law>, "bolt law: add `static constexpr const char* name` for the log");
-  static_assert(std::copyable<Law>, "bolt law: must be copyable");
+  static_assert(Copyable<Law>, "bolt law: must be copyable");
   static_assert(!HasTemplateState<Law, Dim>,
                 "bolt law: `State` must be no template: `struct State`");
   static_assert(HasBoltState<Law, Dim>,

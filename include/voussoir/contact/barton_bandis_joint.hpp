@@ -71,8 +71,8 @@ class BartonBandisJoint {
 
   template <int Dim>
   struct State {
-    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
-    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T at the last commit [N]
+    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
+    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T at the last commit [N]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params

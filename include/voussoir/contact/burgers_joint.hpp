@@ -38,8 +38,8 @@ class BurgersJoint {
 
   template <int Dim>
   struct State {
-    CoulombJoint::State<Dim> joint;                    ///< its plastic slip is q + v
-    Vec<Dim - 1> delayed_slip = Vec<Dim - 1>::Zero();  ///< v [m]
+    CoulombJoint::State<Dim> joint;                     ///< its plastic slip is q + v
+    Vec<Dim - 1> delayed_slip = zeros<Vec<Dim - 1>>();  ///< v [m]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params

@@ -17,8 +17,8 @@ struct PointMotion {
 /// Force at one contact point, on body b (a gets the opposite).
 template <int Dim>
 struct PointForce {
-  double normal = 0;                               ///< compression positive [N]
-  Vec<Dim - 1> tangential = Vec<Dim - 1>::Zero();  ///< along the tangents [N]
+  double normal = 0;                                ///< compression positive [N]
+  Vec<Dim - 1> tangential = zeros<Vec<Dim - 1>>();  ///< along the tangents [N]
 };
 
 /// A contact point as a law sees it: the length (2-D) or area (3-D) it stands for [m], [m^2], the
@@ -31,7 +31,7 @@ struct PointLoad {
 };
 
 template <class Law, int Dim>
-concept HasContactState = std::default_initializable<typename Law::template State<Dim>>;
+concept HasContactState = DefaultConstructible<typename Law::template State<Dim>>;
 /// A `State` that is no template: that of a point in 2-D cannot be that of one in 3-D.
 template <class Law>
 concept HasPlainState = requires {
@@ -72,7 +72,7 @@ concept HasJointStiffness = requires(const Law law) {
 /// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
 /// BurgersJoint, SmoothWall (edge of the domain).
 template <class Law, int Dim>
-concept ContactLaw = Fills<Law, roles::ContactLaw> && HasName<Law> && std::copyable<Law> &&
+concept ContactLaw = Fills<Law, roles::ContactLaw> && HasName<Law> && Copyable<Law> &&
     HasContactState<Law, Dim> && HasContactForce<Law, Dim> && HasContactCommit<Law, Dim> &&
     HasStoredEnergy<Law, Dim> && HasJointStiffness<Law>;
 
@@ -95,7 +95,7 @@ consteval bool explain_contact_law() {
   static_assert(Fills<Law, roles::ContactLaw>,
                 "contact law: add `using role = voussoir::roles::ContactLaw`");
   static_assert(HasName<Law>, "contact law: add `static constexpr const char* name` for the log");
-  static_assert(std::copyable<Law>, "contact law: must be copyable");
+  static_assert(Copyable<Law>, "contact law: must be copyable");
   static_assert(!HasPlainState<Law>,
                 "contact law: `State` must be a template: `template <int Dim> struct State`");
   static_assert(HasContactState<Law, Dim>,

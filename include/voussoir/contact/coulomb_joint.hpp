@@ -34,8 +34,8 @@ class CoulombJoint {
 
   template <int Dim>
   struct State {
-    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
-    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T then, for the friction work alone [N]
+    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
+    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T then, for the friction work alone [N]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -102,7 +102,7 @@ class CoulombJoint {
     return Vec<1>(std::clamp(shear[0], -limit, limit));
   }
   [[nodiscard]] static Vec<2> shortened(const Vec<2>& shear, double limit) {
-    const double length = shear.norm();
+    const double length = length_of(shear);
     return length > limit ? Vec<2>(shear * (limit / length)) : shear;
   }
 

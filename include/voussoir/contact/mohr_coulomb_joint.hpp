@@ -45,9 +45,9 @@ class MohrCoulombJoint {
 
   template <int Dim>
   struct State {
-    Vec<Dim - 1> plastic_slip = Vec<Dim - 1>::Zero();  ///< q [m]
-    Vec<Dim - 1> shear = Vec<Dim - 1>::Zero();         ///< T at the last commit [N]
-    double path = 0;                                   ///< Q [m]
+    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
+    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T at the last commit [N]
+    double path = 0;                                    ///< Q [m]
     bool failed = false;
   };
 

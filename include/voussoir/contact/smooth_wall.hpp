@@ -28,7 +28,7 @@ class SmoothWall {
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>&) const {
     return {std::max(0.0, load.initial.normal - stiffness_ * load.weight * load.motion.opening),
-            Vec<Dim - 1>::Zero()};
+            zeros<Vec<Dim - 1>>()};
   }
   template <int Dim>
   double commit(const PointLoad<Dim>&, State<Dim>&) const {

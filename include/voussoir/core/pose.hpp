@@ -18,7 +18,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 
 /// Rodrigues' formula. @param spin  axis times angle, right-handed [rad]; of any size
 [[nodiscard]] inline Rotation<3> rotation_by(const Spin<3>& spin) {
-  const double angle = spin.norm();
+  const double angle = length_of(spin);
   // sin(t)/t and (1 - cos(t))/t^2, the latter as a square of a sine: no cancellation, and 0 is
   // fine.
   const double half = 0.5 * angle;
@@ -32,7 +32,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 /// Where a rigid body is: a point p of its own frame lies at position + rotation p.
 template <int Dim>
 struct Pose {
-  Vec<Dim> position = Vec<Dim>::Zero();  ///< of the origin of the body's frame [m]
+  Vec<Dim> position = zeros<Vec<Dim>>();  ///< of the origin of the body's frame [m]
   Rotation<Dim> rotation = diagonal_of<Dim>(1);
 
   [[nodiscard]] Vec<Dim> operator()(const Vec<Dim>& local) const {

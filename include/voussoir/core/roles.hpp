@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <type_traits>
 
 /// The roles that the policies of a `Solver` fill. A policy says which one with `using role = ...`.
 namespace voussoir::roles {
@@ -38,6 +39,14 @@ concept Fills = requires {
   typename Policy::role;
 }
 &&std::same_as<typename Policy::role, Role>;
+
+/// Copied and assigned as a value. (std::copyable also looks for swaps and common references, which
+/// the compiler pays for at every policy; the same goes for std::default_initializable.)
+template <class Policy>
+concept Copyable = std::is_copy_constructible_v<Policy> && std::is_copy_assignable_v<Policy>;
+
+template <class Policy>
+concept DefaultConstructible = std::is_default_constructible_v<Policy>;
 
 /// The policy has a name, for the first line of a log.
 template <class Policy>

@@ -68,6 +68,42 @@ requires(Rows > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Cols> operator/(
   return quotient;
 }
 
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator+=(Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] += b.data()[k];
+  return a;
+}
+
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator-=(Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] -= b.data()[k];
+  return a;
+}
+
+template <int Rows, int Cols, Arithmetic Scalar>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator*=(Fixed<Rows, Cols>& a,
+                                                                    Scalar factor) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] *= static_cast<double>(factor);
+  return a;
+}
+
+template <int Rows, int Cols, Arithmetic Scalar>
+requires(Rows > 0 && Cols > 0) inline Fixed<Rows, Cols>& operator/=(Fixed<Rows, Cols>& a,
+                                                                    Scalar divisor) {
+  for (int k = 0; k < Rows * Cols; ++k) a.data()[k] /= static_cast<double>(divisor);
+  return a;
+}
+
+template <int Rows, int Cols>
+requires(Rows > 0 && Cols > 0) [[nodiscard]] inline bool operator==(const Fixed<Rows, Cols>& a,
+                                                                    const Fixed<Rows, Cols>& b) {
+  for (int k = 0; k < Rows * Cols; ++k)
+    if (a.data()[k] != b.data()[k]) return false;
+  return true;
+}
+
 template <int Rows, int Inner, int Cols>
 requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Cols> operator*(
     const Fixed<Rows, Inner>& a, const Fixed<Inner, Cols>& b) {
@@ -81,6 +117,27 @@ requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Col
       for (int r = 0; r < Rows; ++r) column[r] += left[k * Rows + r] * right[k];
   }
   return product;
+}
+
+template <int Size>
+[[nodiscard]] inline double dot_product(const Fixed<Size, 1>& a, const Fixed<Size, 1>& b) {
+  double sum = a.data()[0] * b.data()[0];
+  for (int k = 1; k < Size; ++k) sum += a.data()[k] * b.data()[k];
+  return sum;
+}
+template <int Size>
+[[nodiscard]] inline double squared_length_of(const Fixed<Size, 1>& a) {
+  return dot_product(a, a);
+}
+template <int Size>
+[[nodiscard]] inline double length_of(const Fixed<Size, 1>& a) {
+  return std::sqrt(squared_length_of(a));
+}
+/// The vector of length 1 in the same direction; 0 and what is not a number stay as they are.
+template <int Size>
+[[nodiscard]] inline Fixed<Size, 1> normalized(const Fixed<Size, 1>& a) {
+  const double squared = squared_length_of(a);
+  return squared > 0 ? a / std::sqrt(squared) : a;
 }
 
 template <int Rows, int Cols>
@@ -151,13 +208,6 @@ template <int Rows, int Cols>
     if (!std::isfinite(a.data()[k])) return false;
   return true;
 }
-template <int Size>
-[[nodiscard]] inline bool same(const Fixed<Size, 1>& a, const Fixed<Size, 1>& b) {
-  for (int k = 0; k < Size; ++k)
-    if (a.data()[k] != b.data()[k]) return false;
-  return true;
-}
-
 template <int Size>
 [[nodiscard]] inline bool is_zero(const Fixed<Size, 1>& a) {
   for (int k = 0; k < Size; ++k)
@@ -263,6 +313,13 @@ template <int Size>
   Fixed<Size, 1> constant;
   for (int k = 0; k < Size; ++k) constant.data()[k] = value;
   return constant;
+}
+/// A vector or matrix of zeros: `zeros<Vec3>()`.
+template <class Matrix>
+[[nodiscard]] inline Matrix zeros() {
+  Matrix zero;
+  for (int k = 0; k < zero.size(); ++k) zero.data()[k] = 0;
+  return zero;
 }
 /// One vector below another.
 template <int Upper, int Lower>

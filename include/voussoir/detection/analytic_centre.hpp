@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,7 +83,7 @@ class AnalyticCentre::Pair {
   /// changes answers by roundings only.
   struct Memory {
     detail::PlaneAxis<Dim> axis{};
-    Vec<Dim> inside = Vec<Dim>::Zero();  ///< [m]
+    Vec<Dim> inside = zeros<Vec<Dim>>();  ///< [m]
     bool overlapping = false;
   };
 
@@ -175,14 +174,15 @@ class AnalyticCentre::Pair {
                                                       detail::Until until) {
     // A vertex of a sees all of the overlap within the extent of a.
     const Vec<Dim> view = a.vertex(0);
-    Lanes region = Lanes::Zero();
+    Lanes region = Lanes::all(0);
     for (const Shape* shape : {&a, &b})
       for (int axis = 0; axis < Dim; ++axis)
-        for (std::size_t k = 0; k < shape->vertex_stride(); k += lane_count)
-          region =
-              region.max((Eigen::Map<const Lanes>(shape->vertices(axis) + k) - view[axis]).abs());
+        for (std::size_t k = 0; k < shape->vertex_stride(); k += lane_count) {
+          const Lanes to_vertex = Lanes::load(shape->vertices(axis) + k) - Lanes::all(view[axis]);
+          region = max(region, max(to_vertex, Lanes::all(0) - to_vertex));
+        }
     planes_.gather(a, b, view);
-    return {planes_, 2 * region.maxCoeff(), start, until};
+    return {planes_, 2 * region.largest(), start, until};
   }
 
   /// Unit vector up the potential of a and down that of b, at the point of view of `planes_`.
@@ -196,12 +196,15 @@ class AnalyticCentre::Pair {
   /// Half the gradient of a's barrier less that of b's, over the sum of the weights 1 / room.
   [[nodiscard]] Vec<Dim> barrier_gradients() const {
     std::array<Lanes, Dim + 1> sums;
-    sums.fill(Lanes::Zero());
+    sums.fill(Lanes::all(0));
     for (std::size_t group = 0; group < planes_.padded_count(); group += lane_count) {
-      const Lanes weight = 1 / planes_.room(group), signed_weight = planes_.side(group) * weight;
-      for (int axis = 0; axis < Dim; ++axis)
-        sums[static_cast<std::size_t>(axis)] += signed_weight * planes_.normal(axis, group);
-      sums[Dim] += weight;
+      const Lanes weight = Lanes::all(1) / planes_.room(group);
+      const Lanes signed_weight = planes_.side(group) * weight;
+      for (int axis = 0; axis < Dim; ++axis) {
+        Lanes& sum = sums[static_cast<std::size_t>(axis)];
+        sum = sum + signed_weight * planes_.normal(axis, group);
+      }
+      sums[Dim] = sums[Dim] + weight;
     }
     Vec<Dim> n;
     for (int axis = 0; axis < Dim; ++axis) n[axis] = sums[static_cast<std::size_t>(axis)].sum();
@@ -210,11 +213,11 @@ class AnalyticCentre::Pair {
 
   /// The unit gradient of a's rounded inner particle less that of b's.
   [[nodiscard]] Vec<Dim> rounded_gradients() const {
-    Vec<Dim> difference = Vec<Dim>::Zero();
+    Vec<Dim> difference = zeros<Vec<Dim>>();
     for (const bool of_a : {true, false}) {
       const std::size_t first = of_a ? 0 : planes_.count_a();
       const std::size_t last = of_a ? planes_.count_a() : planes_.count();
-      Vec<Dim> gradient = Vec<Dim>::Zero();
+      Vec<Dim> gradient = zeros<Vec<Dim>>();
       std::size_t nearest = first;
       for (std::size_t plane = first; plane < last; ++plane) {
         gradient += std::fmax(rounding_ - planes_.room_of(plane), 0.0) * planes_.normal_of(plane);
@@ -240,21 +243,22 @@ class AnalyticCentre::Pair {
 
   /// Way from the point to where it leaves a along the normal, and b against it [m].
   [[nodiscard]] double depth_along(const Vec<Dim>& n) const {
-    Lanes exit_a = Lanes::Constant(infinite), exit_b = exit_a;
+    const Lanes never = Lanes::all(infinite);
+    Lanes exit_a = never, exit_b = never;
     for (std::size_t group = 0; group < planes_.padded_count(); group += lane_count) {
       const Lanes side = planes_.side(group), along = side * planes_.along(n, group);
-      const Lanes exit = (along > 0).select(planes_.room(group) / along, infinite);
-      exit_a = exit_a.min((side > 0).select(exit, infinite));
-      exit_b = exit_b.min((side < 0).select(exit, infinite));
+      const Lanes exit = where_positive(along, planes_.room(group) / along, never);
+      exit_a = min(exit_a, where_positive(side, exit, never));
+      exit_b = min(exit_b, where_positive(side, never, exit));
     }
-    return exit_a.minCoeff() + exit_b.minCoeff();
+    return exit_a.smallest() + exit_b.smallest();
   }
 
   const PlacedShapes<Dim>* shapes_;
   double rounding_;
   Planes planes_;
   detail::BarrierCentre<Dim> centre_;
-  Vec<Dim> point_ = Vec<Dim>::Zero();
+  Vec<Dim> point_ = zeros<Vec<Dim>>();
 };
 
 }  // namespace voussoir

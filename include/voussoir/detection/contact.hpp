@@ -24,7 +24,7 @@ enum class Touch : unsigned char {
 template <int Dim>
 struct Contact {
   Touch touch = Touch::none;
-  Vec<Dim> normal = Vec<Dim>::Zero();
+  Vec<Dim> normal = zeros<Vec<Dim>>();
   double separation = 0;              ///< along the normal, < 0: depth of the overlap [m]
   double measure = 0;                 ///< length (2-D) or area (3-D) of the polygon [m], [m^2]
   std::span<const Vec<Dim>> polygon;  ///< 3-D: anticlockwise seen from b [m]

@@ -48,7 +48,7 @@ concept HasPairQueries = requires(const PlacedShapes<Dim>& shapes,
                                   std::size_t shape, double reach) {
   typename Detector::template Pair<Dim>;
   {typename Detector::template Pair<Dim>(shapes)};
-  requires std::default_initializable<typename Detector::template Pair<Dim>::Memory>;
+  requires DefaultConstructible<typename Detector::template Pair<Dim>::Memory>;
   { pair.overlap(shape, shape, memory) } -> std::same_as<bool>;
   { pair.separation(shape, shape, memory) } -> std::same_as<double>;
   { pair.contact(shape, shape, memory, reach) } -> std::same_as<Contact<Dim>>;

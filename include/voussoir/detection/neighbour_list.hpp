@@ -89,7 +89,7 @@ class NeighbourList {
 
   void make(const PlacedShapes<Dim>& shapes) {
     boxes_.clear();
-    Vec<Dim> extent = Vec<Dim>::Zero();
+    Vec<Dim> extent = zeros<Vec<Dim>>();
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       Box<Dim> box = bounding_box(shapes[k]);
       if (!(is_finite(box.low) && is_finite(box.high)))
@@ -160,7 +160,7 @@ class NeighbourList {
   [[nodiscard]] static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
 
   double margin_, reach_;
-  Vec<Dim> origin_ = Vec<Dim>::Zero(), size_ = Vec<Dim>::Ones();
+  Vec<Dim> origin_ = zeros<Vec<Dim>>(), size_ = all_entries<Dim>(1);
   std::vector<Box<Dim>> boxes_;  ///< enlarged
   std::vector<Pair> pairs_;
 };

@@ -247,7 +247,7 @@ class PlacedShapes {
     links.first_fan = begins_.size();
     for (const auto& fan : fans) {
       mark();
-      indices_.insert(indices_.end(), fan.begin(), fan.end());
+      for (const auto index : fan) indices_.push_back(index);
     }
     mark();
     links_.push_back(links);

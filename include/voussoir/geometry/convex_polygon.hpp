@@ -57,7 +57,7 @@ class ConvexPolygon {
   /// Signed distance of a point from the line of face k, positive outside [m]. As exact as the
   /// point is near, wherever both are.
   [[nodiscard]] double distance(std::size_t k, const Vec2& point) const {
-    return half_space(k).normal.dot(point - vertices_[k]);
+    return dot_product(half_space(k).normal, point - vertices_[k]);
   }
 
   /// Cuts the polygon by a line into the parts below and above; nothing if the line misses it.
@@ -111,7 +111,7 @@ class ConvexPolygon {
     double squared = 0;
     for (std::size_t i = 0; i < size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        squared = std::max(squared, (vertices_[i] - vertices_[j]).squaredNorm());
+        squared = std::max(squared, squared_length_of(vertices_[i] - vertices_[j]));
     return std::sqrt(squared);
   }
 
@@ -149,7 +149,7 @@ class ConvexPolygon {
       const Segment in = face(k), out = face(corner);
       if (!(in.length() > 0)) fail(k, "is repeated by the next one");
       const Vec2 u = in.end - in.start, v = out.end - out.start;
-      const double turn = std::atan2(cross(u, v), u.dot(v));
+      const double turn = std::atan2(cross(u, v), dot_product(u, v));
       if (!(cross(u, v) >= 0))
         fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
                          message_number(turn * 180 / 3.141592653589793) +

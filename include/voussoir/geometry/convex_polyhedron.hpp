@@ -54,7 +54,7 @@ class ConvexPolyhedron {
     surface_.vertices = std::move(vertices);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto begin = static_cast<int>(surface_.loops.size());
-      surface_.loops.insert(surface_.loops.end(), faces[f].begin(), faces[f].end());
+      for (const int v : faces[f]) surface_.loops.push_back(v);
       surface_.faces.push_back({{}, cuts[f], begin, static_cast<int>(surface_.loops.size())});
     }
     detail::SurfaceCheck(surface_).run();
@@ -87,7 +87,7 @@ class ConvexPolyhedron {
   /// wherever both are.
   [[nodiscard]] double distance(std::size_t k, const Vec3& point) const {
     const Vec3& on_face = vertex(static_cast<std::size_t>(loop(k).front()));
-    return half_space(k).normal.dot(point - on_face);
+    return dot_product(half_space(k).normal, point - on_face);
   }
   [[nodiscard]] bool contains(const Vec3& point, double tolerance = 0) const {
     for (std::size_t k = 0; k < size(); ++k)
@@ -116,7 +116,7 @@ class ConvexPolyhedron {
     std::size_t best = 0;
     double farthest = 0;  // relative to vertex 0, so that no digit is lost far from the origin
     for (std::size_t k = 1; k < vertices().size(); ++k)
-      if (const double d = direction.dot(vertex(k) - vertex(0)); d > farthest) {
+      if (const double d = dot_product(direction, vertex(k) - vertex(0)); d > farthest) {
         farthest = d;
         best = k;
       }
@@ -155,7 +155,7 @@ class ConvexPolyhedron {
     double squared = 0;
     for (std::size_t i = 0; i < vertices().size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        squared = std::max(squared, (vertex(i) - vertex(j)).squaredNorm());
+        squared = std::max(squared, squared_length_of(vertex(i) - vertex(j)));
     return std::sqrt(squared);
   }
 
@@ -164,9 +164,9 @@ class ConvexPolyhedron {
     double sum = 0;
     for (std::size_t k = 0; k < size(); ++k) {
       const auto corners = loop(k);
-      sum += detail::doubled_area(corners.size(), [&](std::size_t i) -> const Vec3& {
-               return vertex(static_cast<std::size_t>(corners[i]));
-             }).norm();
+      sum += length_of(detail::doubled_area(corners.size(), [&](std::size_t i) -> const Vec3& {
+        return vertex(static_cast<std::size_t>(corners[i]));
+      }));
     }
     return 0.5 * sum;
   }

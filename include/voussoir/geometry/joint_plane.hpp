@@ -31,8 +31,8 @@ struct JointPlane {
     if (is_unbounded()) return std::numeric_limits<double>::infinity();
     double doubled = 0;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-      doubled +=
-          plane.normal.dot(cross(Vec3(corners[k] - corners[0]), Vec3(corners[k + 1] - corners[0])));
+      doubled += dot_product(
+          plane.normal, cross(Vec3(corners[k] - corners[0]), Vec3(corners[k + 1] - corners[0])));
     return 0.5 * doubled;
   }
 };
@@ -109,7 +109,7 @@ VOUSSOIR_INLINE JointPlane unbounded_joint(const Vec3& point, const Vec3& normal
 VOUSSOIR_INLINE JointPlane joint_rectangle(const Vec3& centre, const Vec3& along,
                                            const Vec3& across) {
   JointPlane joint = unbounded_joint(centre, repeatable::cross(along, across));
-  if (!(std::abs(along.dot(across)) <= 1e-9 * along.norm() * across.norm()))
+  if (!(std::abs(dot_product(along, across)) <= 1e-9 * length_of(along) * length_of(across)))
     throw InvalidInput("joint rectangle at " + text_of<3>(centre) +
                        " m: its sides must be perpendicular");
   joint.corners = {centre - along - across, centre + along - across, centre + along + across,
@@ -154,27 +154,28 @@ VOUSSOIR_INLINE JointPlane joint_polygon(std::vector<Vec3> corners) {
     throw InvalidInput("joint polygon: corner " + std::to_string(k) + " " + rule);
   };
   if (corners.size() < 3) throw InvalidInput("joint polygon: needs at least 3 corners");
-  Vec3 area = Vec3::Zero(), centre = Vec3::Zero();
+  Vec3 area = zeros<Vec3>(), centre = zeros<Vec3>();
   double size = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (!is_finite(corners[k])) fail(k, "is not finite");
     centre += (corners[k] - corners[0]) / static_cast<double>(corners.size());
-    size = std::fmax(size, (corners[k] - corners[0]).norm());
+    size = std::fmax(size, length_of(corners[k] - corners[0]));
     if (k > 0)
       area += 0.5 * cross(Vec3(corners[k - 1] - corners[0]), Vec3(corners[k] - corners[0]));
   }
-  if (!(area.norm() > 1e-12 * size * size)) throw InvalidInput("joint polygon: encloses no area");
+  if (!(length_of(area) > 1e-12 * size * size))
+    throw InvalidInput("joint polygon: encloses no area");
   JointPlane joint = unbounded_joint(corners[0] + centre, area);
   double turning = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec3 in = corners[k] - corners[k == 0 ? corners.size() - 1 : k - 1];
     const Vec3 out = corners[(k + 1) % corners.size()] - corners[k];
-    if (!(out.norm() > 0)) fail(k, "is repeated");
+    if (!(length_of(out) > 0)) fail(k, "is repeated");
     if (!(std::abs(joint.plane.distance(corners[k])) <= 1e-6 * size))
       fail(k, "is not in the plane");
-    const double sine = joint.plane.normal.dot(cross(in, out));
+    const double sine = dot_product(joint.plane.normal, cross(in, out));
     if (!(sine >= 0)) fail(k, "is not convex");
-    turning += std::atan2(sine, in.dot(out));
+    turning += std::atan2(sine, dot_product(in, out));
   }
   if (turning > 7) throw InvalidInput("joint polygon: the outline crosses itself");
   joint.corners = std::move(corners);

@@ -16,7 +16,7 @@ namespace detail {
 template <int Dim>
 [[nodiscard]] bool leaves(const Vec<Dim>& normal, const TangentBasis<Dim>& sideways) {
   for (int k = 0; k < Dim - 1; ++k) {
-    const double slope = normal.dot(column(sideways, k));
+    const double slope = dot_product(normal, column(sideways, k));
     if (k == Dim - 2 || std::abs(slope) > 1e-9) return slope > 0;
   }
   return false;

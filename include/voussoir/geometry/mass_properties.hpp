@@ -15,11 +15,11 @@ namespace voussoir {
 template <int Dim>
 struct MassProperties {
   using Inertia = Fixed<spin_count<Dim>, spin_count<Dim>>;
-  double measure = 0;                    ///< area [m^2] or volume [m^3]
-  Vec<Dim> centroid = Vec<Dim>::Zero();  ///< [m]
+  double measure = 0;                     ///< area [m^2] or volume [m^3]
+  Vec<Dim> centroid = zeros<Vec<Dim>>();  ///< [m]
   /// About the centroid; 2-D: polar moment [m^4]; 3-D: inertia tensor, the integral of
   /// r.r I - r r^T [m^5].
-  Inertia second_moment = Inertia::Zero();
+  Inertia second_moment = zeros<Inertia>();
 };
 
 /// Area, centroid and polar second moment of a simple polygon (Green's theorem).
@@ -32,7 +32,7 @@ struct MassProperties {
 [[nodiscard]] VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices);
 
 [[nodiscard]] inline MassProperties<2> mass_properties(const ConvexPolygon& polygon) {
-  return mass_properties(std::span<const Vec2>(polygon.vertices()));
+  return mass_properties({polygon.vertices().data(), polygon.size()});
 }
 
 /// Volume, centroid and inertia tensor, from tetrahedra between one vertex and the faces that do
@@ -73,28 +73,28 @@ template <class Shape>
 
 VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
   double area = 0, polar = 0;
-  Vec2 first_moment = Vec2::Zero();
+  Vec2 first_moment = zeros<Vec2>();
   const Vec2& origin = vertices.front();
   for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
     const Vec2 a = vertices[k] - origin, b = vertices[k + 1] - origin;
     const double triangle = 0.5 * cross(a, b);
     area += triangle;
     first_moment += triangle / 3.0 * (a + b);
-    polar += triangle / 6.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    polar += triangle / 6.0 * (squared_length_of(a) + dot_product(a, b) + squared_length_of(b));
   }
   MassProperties<2> result;
   result.measure = area;
   const Vec2 offset = first_moment / area;
   result.centroid = origin + offset;
-  result.second_moment(0, 0) = polar - area * offset.squaredNorm();
+  result.second_moment(0, 0) = polar - area * squared_length_of(offset);
   return result;
 }
 
 VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhedron) {
   const Vec3 origin = polyhedron.vertex(0);
   double volume = 0;
-  Vec3 first_moment = Vec3::Zero();
-  Fixed<3, 3> second = Fixed<3, 3>::Zero();  // integral of r r^T
+  Vec3 first_moment = zeros<Vec3>();
+  Fixed<3, 3> second = zeros<Fixed<3, 3>>();  // integral of r r^T
   for (std::size_t k = 0; k < polyhedron.size(); ++k) {
     const std::span<const int> loop = polyhedron.loop(k);
     const auto arm = [&](std::size_t i) -> Vec3 {
@@ -105,7 +105,7 @@ VOUSSOIR_INLINE MassProperties<3> mass_properties(const ConvexPolyhedron& polyhe
     for (std::size_t i = 2; i < loop.size(); ++i) {
       const Vec3 c = arm(i), sum = a + b + c;
       // Edges, not arms: of a needle one is short, and the product is exact to its own size.
-      const double tetrahedron = a.dot(cross(b - a, c - b)) / 6.0;
+      const double tetrahedron = dot_product(a, cross(b - a, c - b)) / 6.0;
       volume += tetrahedron;
       first_moment += tetrahedron / 4.0 * sum;
       second += tetrahedron / 20.0 * (outer(a, a) + outer(b, b) + outer(c, c) + outer(sum, sum));

@@ -64,7 +64,7 @@ VOUSSOIR_INLINE PrincipalAxes principal_axes(const Fixed<3, 3>& tensor) {
     set_column(axes.directions, k, Vec3(v[0][from], v[1][from], v[2][from]));
   }
   const Vec3 first = column(axes.directions, 0);
-  if (first.dot(cross(column(axes.directions, 1), column(axes.directions, 2))) < 0)
+  if (dot_product(first, cross(column(axes.directions, 1), column(axes.directions, 2))) < 0)
     set_column(axes.directions, 0, Vec3(-first));
   return axes;
 }

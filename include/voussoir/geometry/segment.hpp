@@ -13,15 +13,15 @@ namespace voussoir {
 /// One point of a numerical integration over a facet.
 template <int Dim>
 struct FacetPoint {
-  Vec<Dim> offset = Vec<Dim>::Zero();  ///< from the centre of the facet [m]
-  double weight = 0;                   ///< length (2-D) or area (3-D) that the point stands for
+  Vec<Dim> offset = zeros<Vec<Dim>>();  ///< from the centre of the facet [m]
+  double weight = 0;                    ///< length (2-D) or area (3-D) that the point stands for
 };
 
 /// A straight piece of line: a joint trace, a contact, a piece of tunnel wall.
 struct Segment {
   Vec2 start, end;  ///< [m]
 
-  [[nodiscard]] double length() const { return (end - start).norm(); }
+  [[nodiscard]] double length() const { return length_of(end - start); }
   /// What an integration point of the facet weighs in all: its length, one metre thick.
   [[nodiscard]] double measure() const { return length(); }
   [[nodiscard]] Vec2 centre() const { return 0.5 * (start + end); }

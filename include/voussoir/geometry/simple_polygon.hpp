@@ -47,7 +47,7 @@ class SimplePolygon {
   }
   /// Positive once constructed [m^2].
   [[nodiscard]] double area() const {
-    return mass_properties(std::span<const Vec2>(vertices_)).measure;
+    return mass_properties({vertices_.data(), vertices_.size()}).measure;
   }
   [[nodiscard]] double perimeter() const {
     double sum = 0;
@@ -88,13 +88,13 @@ class SimplePolygon {
     if (follows || closes) {
       // Neighbours share a corner; they overlap if the second folds back onto the first.
       const Vec2 u = follows ? Vec2(b - a) : Vec2(d - c), v = follows ? Vec2(d - c) : Vec2(b - a);
-      return std::abs(cross(u, v)) <= 1e-12 * u.norm() * v.norm() && u.dot(v) < 0;
+      return std::abs(cross(u, v)) <= 1e-12 * length_of(u) * length_of(v) && dot_product(u, v) < 0;
     }
     const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
       return cross(q - p, r - p);
     };
     const auto between = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-      return (r - p).dot(r - q) <= 0;
+      return dot_product(r - p, r - q) <= 0;
     };
     const double s1 = side(a, b, c), s2 = side(a, b, d), s3 = side(c, d, a), s4 = side(c, d, b);
     if (((s1 > 0 && s2 < 0) || (s1 < 0 && s2 > 0)) && ((s3 > 0 && s4 < 0) || (s3 < 0 && s4 > 0)))

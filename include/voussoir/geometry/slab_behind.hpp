@@ -18,7 +18,7 @@ namespace voussoir {
 /// @param thickness  [m], > 0
 /// @throws InvalidInput  the facet is no convex polygon with an area (3-D), or has no length
 [[nodiscard]] inline ConvexPolygon slab_behind(const Segment& facet, double thickness) {
-  const Vec2 in = -thickness * facet.area_vector().normalized();
+  const Vec2 in = -thickness * normalized(facet.area_vector());
   return ConvexPolygon({facet.start, facet.end, facet.end + in, facet.start + in}, {0, 0, 0, 0});
 }
 
@@ -28,7 +28,7 @@ namespace voussoir {
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE ConvexPolyhedron slab_behind(const SpatialFacet& facet, double thickness) {
-  const Vec3 in = -thickness * facet.area_vector().normalized();
+  const Vec3 in = -thickness * normalized(facet.area_vector());
   const int count = static_cast<int>(facet.vertices.size());
   std::vector<Vec3> vertices = facet.vertices;
   for (const Vec3& v : facet.vertices) vertices.emplace_back(v + in);

@@ -22,7 +22,7 @@ struct SpatialFacet {
                                       [&](std::size_t k) -> const Vec3& { return vertices[k]; });
   }
   /// Area [m^2].
-  [[nodiscard]] double measure() const { return area_vector().norm(); }
+  [[nodiscard]] double measure() const { return length_of(area_vector()); }
   [[nodiscard]] Vec3 centre() const { return vertices.front() + centre_from(vertices.front()); }
   /// Centroid as seen from `origin`; exact where `origin` is near, wherever both are.
   [[nodiscard]] Vec3 centre_from(const Vec3& origin) const {
@@ -40,7 +40,7 @@ struct SpatialFacet {
   /// A facet without area gives points at its centre that weigh nothing.
   [[nodiscard]] std::array<FacetPoint<3>, 4> gauss_points() const {
     const Vec3 doubled = 2 * area_vector();
-    const double area = 0.5 * doubled.norm();
+    const double area = 0.5 * length_of(doubled);
     if (!(area > 0)) return {};
     const Vec3 normal = doubled / (2 * area);
     const auto [along, across] = gyration(normal, area);
@@ -54,25 +54,26 @@ struct SpatialFacet {
   [[nodiscard]] std::array<Vec3, 2> gyration(const Vec3& normal, double area) const {
     // Along the longest edge the second moments of a thin facet are nearly uncoupled, and its small
     // one keeps its digits.
-    Vec3 first = Vec3::Zero();
+    Vec3 first = zeros<Vec3>();
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const Vec3 edge = vertices[k + 1 == vertices.size() ? 0 : k + 1] - vertices[k];
-      if (edge.squaredNorm() > (1 + 1e-9) * first.squaredNorm()) first = edge;
+      if (squared_length_of(edge) > (1 + 1e-9) * squared_length_of(first)) first = edge;
     }
-    first.normalize();
+    first = normalized(first);
     const Vec3 second = cross(normal, first), centre = centroid_arm();
     // Second moments of the triangles of a fan about its tip, over the area.
     double xx = 0, xy = 0, yy = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
       const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double share = normal.dot(cross(a, b - a)) / (2 * area) / 12;
-      const double ax = a.dot(first), ay = a.dot(second), bx = b.dot(first), by = b.dot(second);
+      const double share = dot_product(normal, cross(a, b - a)) / (2 * area) / 12;
+      const double ax = dot_product(a, first), ay = dot_product(a, second),
+                   bx = dot_product(b, first), by = dot_product(b, second);
       const double sx = ax + bx, sy = ay + by;
       xx += share * (ax * ax + bx * bx + sx * sx);
       yy += share * (ay * ay + by * by + sy * sy);
       xy += share * (ax * ay + bx * by + sx * sy);
     }
-    const double cx = centre.dot(first), cy = centre.dot(second);
+    const double cx = dot_product(centre, first), cy = dot_product(centre, second);
     xx -= cx * cx;
     yy -= cy * cy;
     xy -= cx * cy;
@@ -87,12 +88,12 @@ struct SpatialFacet {
 
   /// From the first vertex to the centroid.
   [[nodiscard]] Vec3 centroid_arm() const {
-    const Vec3 normal = area_vector().normalized();
-    Vec3 sum = Vec3::Zero();
+    const Vec3 normal = normalized(area_vector());
+    Vec3 sum = zeros<Vec3>();
     double weight = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
       const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double doubled = normal.dot(cross(a, b - a));
+      const double doubled = dot_product(normal, cross(a, b - a));
       weight += doubled;
       sum += doubled / 3.0 * (a + b);
     }

@@ -9,7 +9,7 @@ namespace voussoir {
 struct SpatialLine {
   Vec3 start, end;  ///< [m]
 
-  [[nodiscard]] double length() const { return (end - start).norm(); }
+  [[nodiscard]] double length() const { return length_of(end - start); }
   [[nodiscard]] Vec3 at(double t) const { return start + t * (end - start); }
 };
 

@@ -25,9 +25,9 @@ using TangentBasis = Eigen::Matrix<double, Dim, Dim - 1>;
 [[nodiscard]] inline TangentBasis<3> tangent_basis(const Vec<3>& normal) {
   const Vec3 s(2.0 / 7, 3.0 / 7, 6.0 / 7), u(6.0 / 7, 2.0 / 7, -3.0 / 7);  // 4 + 9 + 36 = 49
   const Vec3 h = s + normal;
-  const double length_squared = h.squaredNorm();
-  Vec3 first = length_squared > 0 ? Vec3(u - (2 * h.dot(u) / length_squared) * h) : u;
-  first = (first - normal.dot(first) * normal).normalized();
+  const double length_squared = squared_length_of(h);
+  Vec3 first = length_squared > 0 ? Vec3(u - (2 * dot_product(h, u) / length_squared) * h) : u;
+  first = normalized(first - dot_product(normal, first) * normal);
   TangentBasis<3> basis;
   set_column(basis, 0, first);
   set_column(basis, 1, cross(normal, first));

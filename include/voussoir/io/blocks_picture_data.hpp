@@ -25,28 +25,28 @@ struct PictureBlock {
 /// A stretch of joint between two blocks.
 struct PictureJoint {
   enum class State { closed, slipped, opened };
-  Vec2 p = Vec2::Zero(), q = Vec2::Zero();  ///< ends [m]
+  Vec2 p = zeros<Vec2>(), q = zeros<Vec2>();  ///< ends [m]
   State state = State::closed;
 };
 
 /// Where a bolt crosses a joint.
 struct PictureCrossing {
   enum class State { elastic, yielded, ruptured };
-  Vec2 point = Vec2::Zero();  ///< [m]
-  double force = 0;           ///< axial, tension positive [N]
+  Vec2 point = zeros<Vec2>();  ///< [m]
+  double force = 0;            ///< axial, tension positive [N]
   State state = State::elastic;
 };
 
 struct PictureBolt {
-  Vec2 head = Vec2::Zero(), tip = Vec2::Zero();  ///< at the opening, in the rock [m]
-  std::vector<PictureCrossing> crossings;        ///< from head to tip
+  Vec2 head = zeros<Vec2>(), tip = zeros<Vec2>();  ///< at the opening, in the rock [m]
+  std::vector<PictureCrossing> crossings;          ///< from head to tip
 };
 
 struct PictureLiningNode {
-  Vec2 point = Vec2::Zero();           ///< on the axis of the beam [m]
-  Vec2 outward_normal = Vec2::Zero();  ///< towards the rock, unit length
-  double thrust = 0;                   ///< N [N/m], compression positive
-  double moment = 0;                   ///< M [N m/m], positive: outer fibre in tension
+  Vec2 point = zeros<Vec2>();           ///< on the axis of the beam [m]
+  Vec2 outward_normal = zeros<Vec2>();  ///< towards the rock, unit length
+  double thrust = 0;                    ///< N [N/m], compression positive
+  double moment = 0;                    ///< M [N m/m], positive: outer fibre in tension
 };
 
 struct PictureLining {

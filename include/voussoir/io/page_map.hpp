@@ -13,7 +13,7 @@ namespace voussoir {
 
 /// A rectangle with sides along the axes: in the world [m, y up] or on the page [px, y down].
 struct ViewRect {
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< smallest and largest x and y
+  Vec2 low = zeros<Vec2>(), high = zeros<Vec2>();  ///< smallest and largest x and y
 
   [[nodiscard]] double width() const { return high.x() - low.x(); }
   [[nodiscard]] double height() const { return high.y() - low.y(); }

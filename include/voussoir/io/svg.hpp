@@ -76,7 +76,7 @@ class SvgPath {
   double unit_;
   int decimals_;
   char command_ = 'z';
-  Vec2 last_ = Vec2::Zero(), start_ = Vec2::Zero();  ///< in rounded steps
+  Vec2 last_ = zeros<Vec2>(), start_ = zeros<Vec2>();  ///< in rounded steps
   std::string data_;
 };
 
@@ -123,7 +123,7 @@ class SvgCanvas {
             R"(" font-family="sans-serif" stroke-linejoin="round">)"
             "\n<title>" +
             xml_escaped(title) + "</title>\n";
-    rectangle({Vec2::Zero(), Vec2(width, height)}, {.fill = "white"});
+    rectangle({zeros<Vec2>(), Vec2(width, height)}, {.fill = "white"});
   }
 
   /// A named layer, which a drawing program can hide. Layers may lie in layers.

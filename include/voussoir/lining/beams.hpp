@@ -69,7 +69,7 @@ struct PinnedBar {
       [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section,
                                                         double length) {
     constexpr int dim = Dof == 3 ? 2 : 3;
-    ElementMatrix<Dof> k = ElementMatrix<Dof>::Zero();
+    ElementMatrix<Dof> k = zeros<ElementMatrix<Dof>>();
     const double axial = section.axial_stiffness / length;
     k(0, 0) = k(Dof, Dof) = axial;
     k(0, Dof) = k(Dof, 0) = -axial;
@@ -93,13 +93,13 @@ struct BondedChain {
       [[nodiscard]] static ElementMatrix<Dof> stiffness(const LiningSection& section,
                                                         double length) {
     // Jump of the bond: rows; values of the two nodes: columns.
-    Fixed<Dof, 2 * Dof> jump = Fixed<Dof, 2 * Dof>::Zero();
+    Fixed<Dof, 2 * Dof> jump = zeros<Fixed<Dof, 2 * Dof>>();
     for (int r = 0; r < Dof; ++r) {
       jump(r, r) = -1;
       jump(r, Dof + r) = 1;
     }
     const double half = 0.5 * length;
-    Fixed<Dof, Dof> bond = Fixed<Dof, Dof>::Zero();
+    Fixed<Dof, Dof> bond = zeros<Fixed<Dof, Dof>>();
     const auto holds = [&bond](int direction, double stiffness) {
       bond(direction, direction) = stiffness;
     };
@@ -161,7 +161,7 @@ VOUSSOIR_INLINE ElementMatrix<6> space_frame(const LiningSection& section, doubl
                          in_xz = about(section.lateral_bending_stiffness);
   constexpr int xy[] = {0, 1, 5, 6, 7, 11}, xz[] = {0, 2, 4, 6, 8, 10};
   constexpr double sign[] = {1, 1, -1, 1, 1, -1};
-  ElementMatrix<6> k = ElementMatrix<6>::Zero();
+  ElementMatrix<6> k = zeros<ElementMatrix<6>>();
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) {
       k(xy[i], xy[j]) += in_xy(i, j);

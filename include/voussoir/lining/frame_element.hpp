@@ -29,7 +29,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] ElementMatrix<Dim + spin_count<Dim>> in_element_axes(const Rotation<Dim>& axes) {
   constexpr int dof = Dim + spin_count<Dim>;
-  ElementMatrix<dof> turn = ElementMatrix<dof>::Zero();
+  ElementMatrix<dof> turn = zeros<ElementMatrix<dof>>();
   for (int end = 0; end < 2; ++end) {
     set_block(turn, dof * end, dof * end, axes);
     if constexpr (Dim == 2)
@@ -65,7 +65,7 @@ struct FrameElement {
   Matrix local;           ///< stiffness in element axes
   /// Forces on the ends at displacement zero, element axes: not zero once contacts have been
   /// updated and the element has turned.
-  Values start = Values::Zero();
+  Values start = zeros<Values>();
 
   /// Forces on the two ends in element axes at displacement `u`.
   [[nodiscard]] Values end_forces(const double* u) const {
@@ -92,7 +92,7 @@ struct FrameElement {
   void follow(const Pose<dim>& a, const Pose<dim>& b, const double* u) {
     const Values forces = end_forces(a, b);
     turn = in_element_axes<dim>(axes_along(b.position - a.position, a));
-    start.setZero();
+    start = zeros<Values>();
     start = forces - end_forces(u);
   }
 
@@ -114,7 +114,7 @@ struct FrameElement {
   [[nodiscard]] Values deformation(const Pose<dim>& a, const Pose<dim>& b) const {
     const Vec<dim> along = b.position - a.position;
     const Rotation<dim> now = axes_along(along, a);
-    Values q = Values::Zero();
+    Values q = zeros<Values>();
     q[dof] = along.norm() - length;
     write_at(q.data() + dim, small_turn(now * a.rotation * transposed(at_rest)));
     write_at(q.data() + dof + dim, small_turn(now * b.rotation * transposed(at_rest)));

@@ -22,7 +22,7 @@ struct LiningMember {
   int first, second;  ///< node numbers
   /// In 3-D: towards the rock, about perpendicular to the member; bending in the plane of this
   /// and the member is that of `LiningSection::bending_stiffness`.
-  Vec<Geometry::dim> outward = Vec<Geometry::dim>::Zero();
+  Vec<Geometry::dim> outward = zeros<Vec<Geometry::dim>>();
   int section = 0;  ///< index into the sections given
 };
 

@@ -153,8 +153,8 @@ class ContactNetwork {
   }
   /// Force and moment of all contacts on a body, as last computed; world axes.
   [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {
-    Vec<Dim> force = Vec<Dim>::Zero();
-    Spin<Dim> moment = Spin<Dim>::Zero();
+    Vec<Dim> force = zeros<Vec<Dim>>();
+    Spin<Dim> moment = zeros<Spin<Dim>>();
     for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
       const Reaction<Dim>& r = reactions_[ends_[k].contact];
       // No branch: which end of a contact a body is cannot be foreseen.
@@ -319,7 +319,7 @@ class ContactNetwork {
   }
 
   [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const {
-    Stiffness sum = Stiffness::Zero();
+    Stiffness sum = zeros<Stiffness>();
     for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
       std::size_t before = 0;
       each_group([&](const auto& group) {

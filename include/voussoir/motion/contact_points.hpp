@@ -89,7 +89,7 @@ VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec3> poly
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t next = k + 1 == count ? 0 : k + 1;
     const double triangle =
-        0.5 * scale * cross(Vec3(polygon[k] - centre), Vec3(polygon[next] - centre)).norm();
+        0.5 * scale * length_of(cross(Vec3(polygon[k] - centre), Vec3(polygon[next] - centre)));
     points[k].weight += triangle / 12;
     points[next].weight += triangle / 12;
     points.push_back({(centre + polygon[k] + polygon[next]) / 3, 0.75 * triangle});

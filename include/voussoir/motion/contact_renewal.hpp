@@ -66,7 +66,7 @@ class ContactRenewal {
       Point point{};
       point.place = transposed(pose_b.rotation) * (it.place - pose_b.position);
       point.weight = it.weight;
-      point.zero.setZero();
+      point.zero = zeros<Vec<Dim>>();
       const PointMotion<Dim> now = Group::motion_of(point, at);
       // Crossing edges touch at one depth, a face is touched at the height of each point over it.
       const double opening =
@@ -94,7 +94,7 @@ class ContactRenewal {
   void place_at_edges(const voussoir::Contact<Dim>& found, int a, int b) {
     // The section of the overlap would be a spring that grows with the depth. A corner's share of a
     // face as large as the blocks is taken instead.
-    Vec<Dim> middle = Vec<Dim>::Zero();
+    Vec<Dim> middle = zeros<Vec<Dim>>();
     for (const Vec<Dim>& p : found.polygon) middle += p;
     places_ = {{middle / static_cast<double>(found.polygon.size()),
                 bodies_[static_cast<std::size_t>(a)].radius *

@@ -81,17 +81,17 @@ class HalfStep {
  private:
   template <class V>
   [[nodiscard]] static V opposed(const V& force, const V& velocity, double local_damping) {
-    V damping = V::Zero();
+    V damping = zeros<V>();
     for (Eigen::Index k = 0; k < force.size(); ++k)
       if (velocity[k] != 0)
         damping[k] = -local_damping * std::copysign(std::abs(force[k]), velocity[k]);
     return damping;
   }
 
-  Vec<Dim> acceleration_ = Vec<Dim>::Zero();  ///< [m/s^2]
-  Spin<Dim> torque_ = Spin<Dim>::Zero();      ///< frame of the body [N m]
-  Vec<Dim> damping_ = Vec<Dim>::Zero();       ///< local damping, part of the above [N]
-  Spin<Dim> damping_torque_ = Spin<Dim>::Zero();
+  Vec<Dim> acceleration_ = zeros<Vec<Dim>>();  ///< [m/s^2]
+  Spin<Dim> torque_ = zeros<Spin<Dim>>();      ///< frame of the body [N m]
+  Vec<Dim> damping_ = zeros<Vec<Dim>>();       ///< local damping, part of the above [N]
+  Spin<Dim> damping_torque_ = zeros<Spin<Dim>>();
 };
 
 }  // namespace voussoir::detail

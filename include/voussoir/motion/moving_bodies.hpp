@@ -29,7 +29,7 @@ struct LiningNode {
   Vec<Dim> place;                                        ///< [m]
   std::vector<typename PlacedShapes<Dim>::Shape> tiles;  ///< what rock touches
   double mass = 0;                                       ///< [kg], > 0
-  Spin<Dim> inertia = Spin<Dim>::Zero();                 ///< about its place [kg m^2], > 0
+  Spin<Dim> inertia = zeros<Spin<Dim>>();                ///< about its place [kg m^2], > 0
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -83,13 +83,13 @@ class MovingBodies {
 
   /// A force on the centre of mass from now on, besides the weight [N], and a moment [N m], both in
   /// world axes.
-  void add_load(int b, const Vec<Dim>& force, const Spin<Dim>& moment = Spin<Dim>::Zero()) {
+  void add_load(int b, const Vec<Dim>& force, const Spin<Dim>& moment = zeros<Spin<Dim>>()) {
     loads_[index(b)].force += force;
     loads_[index(b)].moment += moment;
     fresh_ = false;
   }
   /// @param spin  world axes [rad/s]
-  void set_velocity(int b, const Vec<Dim>& velocity, const Spin<Dim>& spin = Spin<Dim>::Zero()) {
+  void set_velocity(int b, const Vec<Dim>& velocity, const Spin<Dim>& spin = zeros<Spin<Dim>>()) {
     Body& body = bodies_[index(b)];
     const double before = body.kinetic_energy();
     body.velocity = velocity;
@@ -154,12 +154,12 @@ class MovingBodies {
     Body& body = bodies_[index(b)];
     if (body.movable()) kinetic_given_ -= body.kinetic_energy();
     body.mass = 0;
-    body.velocity.setZero();
-    body.momentum.setZero();
+    body.velocity = zeros<Vec<Dim>>();
+    body.momentum = zeros<Spin<Dim>>();
     fresh_ = false;
   }
 
-  Vec<Dim> origin_ = Vec<Dim>::Zero();
+  Vec<Dim> origin_ = zeros<Vec<Dim>>();
   std::vector<std::pair<Shape, int>> shapes_;  ///< where they were added, with their body
   std::vector<Body> bodies_;
   std::vector<Pose<Dim>> home_;  ///< where they were added

@@ -34,14 +34,14 @@ template <int Dim>
 /// inertia. Per metre out of plane in 2-D.
 template <int Dim>
 struct MovingBody {
-  Pose<Dim> pose;                          ///< from the body's frame to the world
-  Vec<Dim> velocity = Vec<Dim>::Zero();    ///< of the centre of mass [m/s]
-  Spin<Dim> momentum = Spin<Dim>::Zero();  ///< angular, in the body's frame [kg m^2/s]
-  double mass = 0;                         ///< [kg]; 0: the body cannot move
-  Spin<Dim> inertia = Spin<Dim>::Ones();   ///< principal moments [kg m^2]
-  double radius = 0;                       ///< of the farthest vertex from the centre [m]
-  double angle = 0;                        ///< 2-D: turned so far, whole turns included [rad]
-  bool is_gone = false;                    ///< taken out: it touches nothing
+  Pose<Dim> pose;                                       ///< from the body's frame to the world
+  Vec<Dim> velocity = zeros<Vec<Dim>>();                ///< of the centre of mass [m/s]
+  Spin<Dim> momentum = zeros<Spin<Dim>>();              ///< angular, in the body's frame [kg m^2/s]
+  double mass = 0;                                      ///< [kg]; 0: the body cannot move
+  Spin<Dim> inertia = all_entries<spin_count<Dim>>(1);  ///< principal moments [kg m^2]
+  double radius = 0;     ///< of the farthest vertex from the centre [m]
+  double angle = 0;      ///< 2-D: turned so far, whole turns included [rad]
+  bool is_gone = false;  ///< taken out: it touches nothing
 
   [[nodiscard]] bool movable() const { return mass > 0; }
   /// Angular velocity in the body's frame [rad/s].

@@ -25,14 +25,14 @@ class MovingBolts : public Support<Dim> {
   struct Spring {
     int a = 0, b = 0, bolt = 0;
     double position = 0;  ///< of the joint, from the head [m]
-    Vec<Dim> anchor_a = Vec<Dim>::Zero(), anchor_b = Vec<Dim>::Zero();  ///< [m]
-    Vec<Dim> joint_a = Vec<Dim>::Zero(), joint_b = Vec<Dim>::Zero();    ///< [m]
-    Vec<Dim> initial = Vec<Dim>::Zero(), axis = Vec<Dim>::Zero();       ///< [m], [-]
+    Vec<Dim> anchor_a = zeros<Vec<Dim>>(), anchor_b = zeros<Vec<Dim>>();  ///< [m]
+    Vec<Dim> joint_a = zeros<Vec<Dim>>(), joint_b = zeros<Vec<Dim>>();    ///< [m]
+    Vec<Dim> initial = zeros<Vec<Dim>>(), axis = zeros<Vec<Dim>>();       ///< [m], [-]
     double share = 1;  ///< 1 / spacing along the tunnel in 2-D [1/m]
     typename Law::State state{};
     bool broken = false;
-    Vec<Dim> pull = Vec<Dim>::Zero();  ///< on anchor a, at the last step, shared [N]
-    Vec<Dim> now = Vec<Dim>::Zero();   ///< from anchor to anchor, then [m]
+    Vec<Dim> pull = zeros<Vec<Dim>>();  ///< on anchor a, at the last step, shared [N]
+    Vec<Dim> now = zeros<Vec<Dim>>();   ///< from anchor to anchor, then [m]
     bool seen = false;
     double axial = 0;  ///< then, of the bolt [N]
     double work = 0;   ///< done on the bolt so far, shared [J]
@@ -89,7 +89,7 @@ class MovingBolts : public Support<Dim> {
   void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const override {
     for (const Spring& s : springs_) {
       if (s.broken) continue;
-      const BoltSpan<Dim> span{s.initial, s.axis, Vec<Dim>::Zero()};
+      const BoltSpan<Dim> span{s.initial, s.axis, zeros<Vec<Dim>>()};
       // Of a symmetric matrix without negative eigenvalues the trace bounds the largest; a dowel
       // may be as stiff again.
       const double stiffness = 2 * s.share * law_.stiffness(span).trace();

@@ -97,8 +97,8 @@ class MovingContacts {
     const Rotation<Dim> frame = a.pose.rotation * c.frame;
     const Vec<Dim> arm = b.pose.position - a.pose.position;
     const Place at{transposed(b.pose.rotation) * frame, transposed(frame) * arm};
-    Vec<Dim> force = Vec<Dim>::Zero();     // frame of b
-    Spin<Dim> moment = Spin<Dim>::Zero();  // about the centre of b, frame of b
+    Vec<Dim> force = zeros<Vec<Dim>>();     // frame of b
+    Spin<Dim> moment = zeros<Spin<Dim>>();  // about the centre of b, frame of b
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
       Point& p = points_[i];
       const PointLoad<Dim> load = load_of(p, at);

@@ -24,7 +24,7 @@ struct RunSizes {
                                        const DynamicsSettings& settings) {
     double size = 0, thrown = 0;
     int count = 0;
-    Vec<Dim> low = Vec<Dim>::Zero(), high = low;
+    Vec<Dim> low = zeros<Vec<Dim>>(), high = low;
     for (const MovingBody<Dim>& body : bodies) {
       low = smaller_of(low, body.pose.position);
       high = larger_of(high, body.pose.position);

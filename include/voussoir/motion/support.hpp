@@ -14,8 +14,8 @@ namespace voussoir {
 /// A force and a moment about the centre of a body, world axes.
 template <int Dim>
 struct Load {
-  Vec<Dim> force = Vec<Dim>::Zero();     ///< [N]
-  Spin<Dim> moment = Spin<Dim>::Zero();  ///< [N m]
+  Vec<Dim> force = zeros<Vec<Dim>>();     ///< [N]
+  Spin<Dim> moment = zeros<Spin<Dim>>();  ///< [N m]
 };
 
 /// What holds moving bodies besides contacts: bolts, a lining, a spring of a test.

@@ -90,8 +90,9 @@ VOUSSOIR_INLINE void check_inside(const PrismaticOpening& opening, const Domain<
 
 /// True if two faces of one cut touch over more than `tolerance`.
 [[nodiscard]] inline bool overlap(const Segment& a, const Segment& b, double tolerance) {
-  const Vec2 along = (a.end - a.start).normalized();
-  const double a1 = a.length(), b0 = along.dot(b.start - a.start), b1 = along.dot(b.end - a.start);
+  const Vec2 along = normalized(a.end - a.start);
+  const double a1 = a.length(), b0 = dot_product(along, b.start - a.start),
+               b1 = dot_product(along, b.end - a.start);
   return std::min(a1, std::max(b0, b1)) - std::max(0.0, std::min(b0, b1)) > tolerance;
 }
 /// The part of a face inside the prism over another, which faces the other way.
@@ -264,15 +265,15 @@ VOUSSOIR_INLINE void check_inside(const PrismaticOpening& opening, const Domain<
 
 VOUSSOIR_INLINE std::optional<JointPlane> common_part(const SpatialFacet& a, const SpatialFacet& b,
                                                       double tolerance) {
-  const Vec3 normal = a.area_vector().normalized();
+  const Vec3 normal = normalized(a.area_vector());
   std::optional<JointPlane> rest =
       JointPlane{HalfSpace<3>::through(a.vertices.front(), normal), a.vertices};
-  const Vec3 other = b.area_vector().normalized();
+  const Vec3 other = normalized(b.area_vector());
   for (std::size_t k = 0; rest && k < b.vertices.size(); ++k) {
     const Vec3 &from = b.vertices[k], &to = b.vertices[k + 1 == b.vertices.size() ? 0 : k + 1];
     const Vec3 out = cross(Vec3(to - from), other);
-    if (!(out.norm() > tolerance)) continue;
-    rest = split(std::move(*rest), HalfSpace<3>::through(from, out.normalized()), tolerance).below;
+    if (!(length_of(out) > tolerance)) continue;
+    rest = split(std::move(*rest), HalfSpace<3>::through(from, normalized(out)), tolerance).below;
   }
   return rest;
 }
@@ -298,8 +299,8 @@ VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar
           const Segment edge = opening.edge(e), face = part.face(k);
           const Vec2 along = (edge.end - edge.start) / edge.length();
           // The outline is anticlockwise round the opening, the face round the rock: opposite ways.
-          const double from = std::max(0.0, along.dot(face.end - edge.start));
-          const double to = std::min(edge.length(), along.dot(face.start - edge.start));
+          const double from = std::max(0.0, dot_product(along, face.end - edge.start));
+          const double to = std::min(edge.length(), dot_product(along, face.start - edge.start));
           if (to - from <= tolerance) continue;
           const HalfSpace<2> line = left_of(edge.start, edge.end);
           if (std::abs(line.distance(face.start)) > tolerance ||
@@ -331,7 +332,7 @@ VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spati
   std::vector<JointPlane> sides;
   for (std::size_t e = 0; e < section.size(); ++e)
     sides.push_back(detail::outline_piece(opening, e, mass.domain));
-  std::vector<WallPiece<Spatial>> pieces;
+  std::vector<std::vector<WallPiece<Spatial>>> at_edge(section.size());
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
       if (detail::apart(part, low, high)) continue;
@@ -340,7 +341,7 @@ VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spati
         const Vec3 normal = part.half_space(k).normal;
         for (std::size_t e = 0; e < section.size(); ++e) {
           // The face looks into the opening: the same way as the half space on its left.
-          if (!(normal.dot(sides[e].plane.normal) < -0.5)) continue;
+          if (!(dot_product(normal, sides[e].plane.normal) < -0.5)) continue;
           if (std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vec3& v) {
                 return std::abs(sides[e].plane.distance(v)) > tolerance;
               }))
@@ -348,16 +349,17 @@ VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spati
           // Towards the rock, as the left side of a planar facet.
           const auto common = detail::common_part(face, {sides[e].corners}, tolerance);
           if (!common || common->area() <= tolerance * std::sqrt(face.measure())) continue;
-          pieces.push_back({static_cast<int>(b),
-                            {{common->corners.rbegin(), common->corners.rend()}},
-                            static_cast<int>(e),
-                            start[e],
-                            start[e + 1]});
+          SpatialFacet facet;
+          for (std::size_t c = common->corners.size(); c-- > 0;)
+            facet.vertices.push_back(common->corners[c]);
+          at_edge[e].push_back(
+              {static_cast<int>(b), std::move(facet), static_cast<int>(e), start[e], start[e + 1]});
         }
       }
     }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const auto& a, const auto& b) { return a.edge < b.edge; });
+  std::vector<WallPiece<Spatial>> pieces;
+  for (auto& of_edge : at_edge)
+    for (auto& piece : of_edge) pieces.push_back(std::move(piece));
   return pieces;
 }
 

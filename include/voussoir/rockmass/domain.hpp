@@ -23,8 +23,8 @@ namespace voussoir {
 /// of the roundings.
 template <int Dim>
 struct Domain {
-  Vec<Dim> low, high;                       ///< corners [m]
-  Vec<Dim> site_origin = Vec<Dim>::Zero();  ///< [m]
+  Vec<Dim> low, high;                        ///< corners [m]
+  Vec<Dim> site_origin = zeros<Vec<Dim>>();  ///< [m]
 
   [[nodiscard]] Vec<Dim> size() const { return high - low; }
   [[nodiscard]] double measure() const { return product_of_entries(size()); }

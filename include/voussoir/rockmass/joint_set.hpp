@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
@@ -65,8 +66,8 @@ template <class Set, int Dim>
   domain.check();
   std::vector<JointOf<Dim>> all;
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    const auto joints = generate(sets[k], static_cast<int>(k), domain, seed, progress);
-    all.insert(all.end(), joints.begin(), joints.end());
+    for (auto& joint : generate(sets[k], static_cast<int>(k), domain, seed, progress))
+      all.push_back(std::move(joint));
   }
   Random(seed, 0).shuffle(all);
   return all;

@@ -59,8 +59,9 @@ struct Orientation {
 VOUSSOIR_INLINE Orientation mean_orientation(std::span<const Vec3> normals) {
   Vec3 side = normals.front();
   for (int round = 0; round < 2; ++round) {  // the first normal may be an outlier, its mean is not
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& normal : normals) sum += normal.dot(side) < 0 ? Vec3(-normal) : normal;
+    Vec3 sum = zeros<Vec3>();
+    for (const Vec3& normal : normals)
+      sum += dot_product(normal, side) < 0 ? Vec3(-normal) : normal;
     side = sum;
   }
   return orientation_of(side);

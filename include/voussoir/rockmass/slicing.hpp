@@ -53,7 +53,7 @@ enum class Fit { good, too_small, too_long };
 /// Radius of the ball about the mean of the vertices: the inscribed one is at least as large [m].
 template <class Shape>
 [[nodiscard]] double central_radius(const Shape& block) {
-  Vec<Shape::dim> arm = Vec<Shape::dim>::Zero();
+  Vec<Shape::dim> arm = zeros<Vec<Shape::dim>>();
   for (const auto& v : block.vertices()) arm += v - block.vertex(0);
   const Vec<Shape::dim> centre =
       block.vertex(0) + arm / static_cast<double>(block.vertices().size());
@@ -295,8 +295,8 @@ VOUSSOIR_INLINE double hydraulic_radius(const ConvexPolyhedron& block) {
       return block.vertex(static_cast<std::size_t>(loop[i]));
     };
     const Vec3 area = doubled_area(loop.size(), corner);
-    surface += area.norm();
-    volume += area.dot(corner(0) - block.vertex(0)) / 3;
+    surface += length_of(area);
+    volume += dot_product(area, corner(0) - block.vertex(0)) / 3;
   }
   return volume / surface;
 }

@@ -59,7 +59,7 @@ VOUSSOIR_INLINE std::optional<Segment> inside_of(const Domain<2>& domain, const 
   for (int axis = 0; axis < 2; ++axis)
     for (const double sign : {1.0, -1.0}) {
       if (!inside) return inside;
-      const HalfSpace<2> side{sign * Vec2::Unit(axis),
+      const HalfSpace<2> side{sign * axis_vector<2>(axis),
                               sign > 0 ? domain.high[axis] : -domain.low[axis]};
       inside = split(*inside, side, domain.tolerance()).below;
     }
@@ -145,7 +145,7 @@ VOUSSOIR_INLINE double estimated_blocks(const std::vector<Joint>& joints, const 
         cell[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(
             std::clamp((middle[axis] - domain.low[axis]) / size[axis] * cells, 0.0, cells - 1.0));
       lengths[(cell[1] * cells + cell[0]) * directions + direction] +=
-          (at[k] - at[k - 1]) * run.norm();
+          (at[k] - at[k - 1]) * length_of(run);
     }
   }
   const double cell_area = domain.measure() / (cells * cells);

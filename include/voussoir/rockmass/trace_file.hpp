@@ -114,11 +114,9 @@ class BoundedLines {
 /// @throws InvalidInput  naming file and line: wrong number of fields, not a finite number, zero
 ///                       length, a set that is not accepted, no trace at all, more than `limits`
 /// @throws Stopped
-[[nodiscard]] VOUSSOIR_INLINE std::vector<Joint> read_traces(std::istream& in,
-                                                             const std::string& name,
-                                                             const Vec2& site_origin = Vec2::Zero(),
-                                                             const TraceFileLimits& limits = {},
-                                                             const Progress& progress = {});
+[[nodiscard]] VOUSSOIR_INLINE std::vector<Joint> read_traces(
+    std::istream& in, const std::string& name, const Vec2& site_origin = zeros<Vec2>(),
+    const TraceFileLimits& limits = {}, const Progress& progress = {});
 
 #if VOUSSOIR_BODIES
 

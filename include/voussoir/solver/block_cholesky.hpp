@@ -31,7 +31,7 @@ class BlockCholesky {
     inverse_.resize(n);
     std::vector<std::size_t> end(n);
     for (std::size_t k = 0; k < n; ++k) end[k] = pattern_.begin(k);
-    std::vector<Block> work(n, Block::Zero());
+    std::vector<Block> work(n, zeros<Block>());
     BlockElimination::RowWalk walk(pattern_);
     for (std::size_t i = 0; i < n; ++i) {
       const Block& diagonal = matrix.diagonal(pattern_.original(i));
@@ -46,7 +46,7 @@ class BlockCholesky {
           [&](std::size_t j) {
             // L(i, j) = work(j) L(j, j)^-T; what remains of row i then loses L(i, j) L(k, j)^T.
             const Block lij = work[j] * transposed(inverse_[j]);
-            work[j].setZero();
+            work[j] = zeros<Block>();
             for (std::size_t p = pattern_.begin(j); p < end[j]; ++p)
               subtract_product_transposed(work[static_cast<std::size_t>(rows_[p])], lij,
                                           blocks_[p]);

@@ -34,7 +34,7 @@ class BlockLU {
     inverse_.resize(n);
     std::vector<std::size_t> end(n);
     for (std::size_t k = 0; k < n; ++k) end[k] = pattern_.begin(k);
-    std::vector<Block> left(n, Block::Zero()), top(n, Block::Zero());
+    std::vector<Block> left(n, zeros<Block>()), top(n, zeros<Block>());
     BlockElimination::RowWalk walk(pattern_);
     for (std::size_t i = 0; i < n; ++i) {
       Block pivot = matrix.diagonal[static_cast<std::size_t>(pattern_.original(i))];
@@ -48,8 +48,8 @@ class BlockLU {
           },
           [&](std::size_t j) {
             const Block lij = left[j] * inverse_[j], uji = top[j];
-            left[j].setZero();
-            top[j].setZero();
+            left[j] = zeros<Block>();
+            top[j] = zeros<Block>();
             for (std::size_t p = pattern_.begin(j); p < end[j]; ++p) {
               const auto k = static_cast<std::size_t>(rows_[p]);
               subtract_product(left[k], lij, upper_[p]);

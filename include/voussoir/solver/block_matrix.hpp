@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
@@ -16,7 +17,7 @@ class BlockMatrix {
  public:
   using Block = Fixed<Dof, Dof>;
 
-  explicit BlockMatrix(int bodies) : diagonal_(static_cast<std::size_t>(bodies), Block::Zero()) {}
+  explicit BlockMatrix(int bodies) : diagonal_(static_cast<std::size_t>(bodies), zeros<Block>()) {}
 
   [[nodiscard]] int size() const { return static_cast<int>(diagonal_.size()); }
   [[nodiscard]] const Block& diagonal(int i) const {
@@ -64,7 +65,7 @@ class BlockMatrix {
 
   /// Sum of the absolute values in every row: Gershgorin's bound on the eigenvalues.
   [[nodiscard]] Eigen::VectorXd absolute_row_sums() const {
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(Dof * size());
+    Eigen::VectorXd sums = zeros(Dof * size());
     const auto add_rows = [&sums](int row, const Block& block) {
       for (int c = 0; c < Dof; ++c)
         for (int r = 0; r < Dof; ++r) sums[Dof * row + r] += std::abs(block(r, c));

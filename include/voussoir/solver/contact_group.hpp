@@ -52,7 +52,7 @@ class ContactGroup {
     PointForce<dim>
         initial;  ///< in the in-situ state, or minus what the installation must not feel
     /// Opening and slips at displacement zero: not zero once contacts have been updated [m].
-    Vec<dim> start = Vec<dim>::Zero();
+    Vec<dim> start = zeros<Vec<dim>>();
     [[no_unique_address]] State state{};
   };
 
@@ -153,7 +153,7 @@ class ContactGroup {
   void add_stiffness(Sink&& sink) const {
     using Block = Fixed<dof, dof>;
     for (const Contact& c : contacts_) {
-      Block aa = Block::Zero(), ab = Block::Zero(), bb = Block::Zero();
+      Block aa = zeros<Block>(), ab = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
         const Vec<dim> offset = offset_of(c, p);
@@ -184,7 +184,7 @@ class ContactGroup {
     constexpr double step = 1e-9;
     for (const int number : which) {
       const Contact& c = contacts_[static_cast<std::size_t>(number)];
-      Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
+      Block aa = zeros<Block>(), ab = zeros<Block>(), ba = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
         const Vec<dim> offset = offset_of(c, p);
@@ -263,8 +263,8 @@ class ContactGroup {
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
     const Vec<dim> jump = displacement_at<dim>(ub, c.arm_b) - displacement_at<dim>(ua, c.arm_a);
     const Spin<dim> turn = vector_at<dof - dim>(ub + dim) - vector_at<dof - dim>(ua + dim);
-    Vec<dim> force = Vec<dim>::Zero();
-    Spin<dim> moment = Spin<dim>::Zero();
+    Vec<dim> force = zeros<Vec<dim>>();
+    Spin<dim> moment = zeros<Spin<dim>>();
     for (int k = c.first; k < c.last; ++k) {
       Point& p = points_[static_cast<std::size_t>(k)];
       const Vec<dim> offset = offset_of(c, p);

@@ -106,9 +106,8 @@ concept HasEquilibriumSearch = requires(const Method method, System& system,
 ///
 /// Models: TwoLevel, Relaxation, Explicit.
 template <class Method, class System>
-concept EquilibriumMethod =
-    Fills<Method, roles::Equilibrium> && HasName<Method> && std::copyable<Method> &&
-    std::default_initializable<Method> && HasEquilibriumSearch<Method, System>;
+concept EquilibriumMethod = Fills<Method, roles::Equilibrium> && HasName<Method> &&
+    Copyable<Method> && DefaultConstructible<Method> && HasEquilibriumSearch<Method, System>;
 
 template <class Method, class System>
 consteval bool explain_equilibrium_method() {
@@ -116,11 +115,11 @@ consteval bool explain_equilibrium_method() {
                 "equilibrium method: add `using role = voussoir::roles::Equilibrium`");
   static_assert(HasName<Method>,
                 "equilibrium method: add `static constexpr const char* name` for the log");
-  static_assert(std::copyable<Method>, "equilibrium method: must be copyable");
+  static_assert(Copyable<Method>, "equilibrium method: must be copyable");
   static_assert(HasEquilibriumSearch<Method, System>,
                 "equilibrium method: add `template <class System> EquilibriumReport find(System&, "
                 "const SearchContext&) const`");
-  static_assert(std::default_initializable<Method>,
+  static_assert(DefaultConstructible<Method>,
                 "equilibrium method: add a default constructor (documented default settings)");
   return true;
 }

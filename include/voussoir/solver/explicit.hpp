@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
@@ -58,7 +59,7 @@ class Explicit {
   template <class System>
   [[nodiscard]] static double critical_step(const System& system, const Eigen::VectorXd& mass) {
     const Eigen::VectorXd sums = system.elastic_stiffness().absolute_row_sums();
-    return 2.0 / std::sqrt(sums.cwiseQuotient(mass).maxCoeff());
+    return 2.0 / std::sqrt(largest_quotient(sums, mass));
   }
 
  private:
@@ -96,8 +97,8 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
   if (detail::moves_too_far(system, context, solve, report)) return report;
   const double from = system.wall_fraction, to = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
-  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
-  Eigen::VectorXd mass = masses(system), inverse_mass = mass.cwiseInverse();
+  Eigen::VectorXd velocity = zeros(u.size()), f;
+  Eigen::VectorXd mass = masses(system), inverse_mass = inverses(mass);
   double step = stable_step(system, mass);
   double next_estimate = 1e300;  // look again only once the force ratio is well below
   while (report.steps < params_.max_steps) {
@@ -128,11 +129,11 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       for (int b = 0; b < system.body_count(); ++b)
-        if (!system.body(b).movable) set_part<dof>(velocity, dof * b, Fixed<dof, 1>::Zero());
+        if (!system.body(b).movable) set_part<dof>(velocity, dof * b, zeros<Fixed<dof, 1>>());
       report.largest_displacement = system.largest_translation(u);
       if (detail::has_collapsed<System::dim>(report, accept)) break;
       mass = masses(system);
-      inverse_mass = mass.cwiseInverse();
+      inverse_mass = inverses(mass);
       step = stable_step(system, mass);
       continue;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include <voussoir/core/long_vectors.hpp>
 
 namespace voussoir {
 
@@ -25,13 +26,13 @@ class Fire {
 
   /// @param row_sums  Gershgorin row sums of the stiffness, > 0
   Fire(const Eigen::VectorXd& row_sums, const Params& params)
-      : params_(params), inverse_mass_(4.0 * row_sums.cwiseInverse()) {
+      : params_(params), inverse_mass_(inverses(row_sums, 4)) {
     rest();
   }
 
   /// Forgets all momentum.
   void rest() {
-    velocity_.setZero(inverse_mass_.size());
+    velocity_ = zeros(inverse_mass_.size());
     step_ = params_.first_step;
     mixing_ = params_.mixing;
     downhill_ = 0;

@@ -116,7 +116,7 @@ class FoundAgain {
         point.weight = p.weight;
         point.initial = p.initial;
         point.state = p.state;
-        point.zero.setZero();
+        point.zero = zeros<Vec<dim>>();
         const PointMotion<dim> raw = MovingContacts<dim, Law>::motion_of(point, at);
         Vec<dim> motion = p.start;
         if (found_at != nullptr) motion += group.linear_motion(c, p, found_at);
@@ -179,7 +179,7 @@ class FoundAgain {
     const bool of_a = found.touch != Touch::face_b;
     const std::size_t owner = of_a ? pair.a : pair.b;
     const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
-    Vec<dim> middle = Vec<dim>::Zero();
+    Vec<dim> middle = zeros<Vec<dim>>();
     for (const Vec<dim>& p : found.polygon) middle += p;
     middle /= static_cast<double>(found.polygon.size());
     std::vector<typename Group::Point> points;
@@ -224,7 +224,7 @@ class FoundAgain {
     contact.a = c.a;
     contact.b = c.b;
     contact.law = c.law;
-    Vec<dim> middle = Vec<dim>::Zero();
+    Vec<dim> middle = zeros<Vec<dim>>();
     double whole = 0;
     for (const auto& p : points) {
       middle += p.weight * b(p.place);
@@ -266,7 +266,7 @@ class FoundAgain {
     const Vec<dim> jump = was.jump + moved(bolt.joint_a, bolt.joint_b);
     for (Vec<dim>* arm : {&bolt.arm_a, &bolt.joint_a}) *arm = turn_a * *arm;
     for (Vec<dim>* arm : {&bolt.arm_b, &bolt.joint_b}) *arm = turn_b * *arm;
-    bolt.span = {turn_a * initial, turn_a * was.axis, Vec<dim>::Zero()};
+    bolt.span = {turn_a * initial, turn_a * was.axis, zeros<Vec<dim>>()};
     const BoltSpan<dim> linear = bolt.span_at(u);
     bolt.span.motion = span - bolt.span.initial - linear.motion;
     bolt.span.jump = jump - linear.jump;

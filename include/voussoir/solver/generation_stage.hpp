@@ -76,9 +76,9 @@ template <class JointLaw>
       std::optional<ConvexPolygon> piece = part;
       for (std::size_t k = 0; piece && k < opening.size(); ++k) {
         const Segment edge = opening.edge(k);
-        const Vec2 outward = -perpendicular(edge.end - edge.start).normalized();
-        if (opening.edge(k + 1 == opening.size() ? 0 : k + 1).end.dot(outward) >
-            edge.end.dot(outward) + domain.tolerance())
+        const Vec2 outward = -normalized(perpendicular(edge.end - edge.start));
+        if (dot_product(opening.edge(k + 1 == opening.size() ? 0 : k + 1).end, outward) >
+            dot_product(edge.end, outward) + domain.tolerance())
           throw InvalidInput("generation stage: the opening is not convex");
         const auto side = HalfSpace<2>::through(edge.start, outward);
         const auto parts = piece->split(side, 0, domain.tolerance());

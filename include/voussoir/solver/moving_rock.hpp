@@ -129,7 +129,7 @@ class LiningTiles {
   using Shape = typename Run::Shape;
 
   LiningTiles(const Run& run, const LiningFrame<Geometry>& frame, double thickness)
-      : tiles_(frame.nodes.size()), shift_(frame.nodes.size(), Vec<dim>::Zero()) {
+      : tiles_(frame.nodes.size()), shift_(frame.nodes.size(), zeros<Vec<dim>>()) {
     std::vector<double> covered(frame.nodes.size(), 0.0), whole(frame.nodes.size(), 0.0);
     for (const auto& c : frame.contacts) {
       const Pose<dim> motion = run.motion(c.body);

@@ -42,7 +42,7 @@ struct Press {
   System<Geometry, JointLaw, AxialBolt> system;
   std::vector<double> measures;  ///< of the bodies [m^2], [m^3]
   int platen = -1;
-  Vec<dim> outward = Vec<dim>::Zero();  ///< of the loaded side
+  Vec<dim> outward = zeros<Vec<dim>>();  ///< of the loaded side
   double platen_area = 0, lateral_area = 0, length = 0, wall_stiffness;
 
   template <class Detector>
@@ -59,8 +59,8 @@ struct Press {
       system.add_body({body.properties.centroid, weight, 1.0, true});
       measures.push_back(body.properties.measure);
     }
-    const int ground = system.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
-    platen = system.add_body({Vec<dim>::Zero(), 0.0, 1.0, false});
+    const int ground = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
+    platen = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
     measures.resize(measures.size() + 2, 0.0);
     for (const auto& c : Detector::find(mass)) {
       const auto points = c.facet.gauss_points();

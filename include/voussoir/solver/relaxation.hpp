@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/solver/active_set.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/contact_group.hpp>
@@ -79,7 +80,7 @@ void Relaxation::follow(System& system, const SearchContext& context,
   const Acceptance& accept = context.acceptance;
   system.wall_fraction = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
-  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(u.size()), f;
+  Eigen::VectorXd velocity = zeros(u.size()), f;
   // Masses of a quarter of the row sums make the critical step 1 for every unknown.
   Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
   const double step = params_.safety / std::sqrt(1 + params_.damping);

@@ -28,7 +28,7 @@ template <int Size>
       lower[r][c] = sum / lower[c][c];
     }
   }
-  Fixed<Size, Size> inverse = Fixed<Size, Size>::Zero();
+  Fixed<Size, Size> inverse = zeros<Fixed<Size, Size>>();
   for (int c = 0; c < Size; ++c) {
     inverse(c, c) = 1 / lower[c][c];
     for (int r = c + 1; r < Size; ++r) {

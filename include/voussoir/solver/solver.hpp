@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/motion/contact_points.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -239,7 +240,7 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
   build(progress);
   Eigen::VectorXd f;
   system_.forces(system_.displacement, f);
-  system_.wall_load = -f;
+  system_.wall_load = opposite(f);
   system_.wall_fraction = 1;
 }
 
@@ -270,7 +271,7 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
     spring.joint_b = system_.arm(at.b, at.joint_b);
     spring.arm_a = spring.joint_a - at.before * axis;
     spring.arm_b = spring.joint_b + at.after * axis;
-    spring.span = {at.initial, axis, Vec<dim>::Zero()};
+    spring.span = {at.initial, axis, zeros<Vec<dim>>()};
     const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
     spring.span.motion = -present.motion;
     spring.span.jump = -present.jump;
@@ -313,7 +314,7 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
   typename SystemType::Interface interface({interface_law});
   for (const LiningContact<Geometry>& c : frame.contacts) {
     if (!system_.body(c.body).movable) continue;  // that block is detached
-    const FacetPoint<dim> point{Vec<dim>::Zero(), c.facet.measure()};
+    const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
     const int node = first_node_ + c.node;
     // A pin is pushed in its middle, wherever on its stretch the rock touches it.
     Vec<dim> centre = system_.body(node).centre;
@@ -386,7 +387,7 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
     system_.load[dof * b + dim - 1] = -weight;
     measures_.push_back(p.measure);
   }
-  const int fixed = system_.add_body({Vec<dim>::Zero(), 0.0, 1.0, false, false});
+  const int fixed = system_.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false, false});
   measures_.push_back(0.0);
   const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
   for (const auto& c : contacts_of(mass_, progress)) {

@@ -13,6 +13,7 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -158,7 +159,7 @@ class System {
   /// Out-of-balance force at displacement `u`; zero for bodies that cannot move.
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
-    f = load + wall_fraction * wall_load;
+    set_to_sum(f, load, wall_fraction, wall_load);
     joints.template add_forces<History>(u.data(), f.data());
     boundary.template add_forces<History>(u.data(), f.data());
     interface.template add_forces<History>(u.data(), f.data());
@@ -170,7 +171,7 @@ class System {
     }
     for (const auto& frame : frames) frame.add_force(u.data(), f.data());
     for (int b = 0; b < body_count(); ++b)
-      if (!body(b).movable) set_part<dof>(f, dof * b, Fixed<dof, 1>::Zero());
+      if (!body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
   }
 
   /// Brings all history up to date with the present displacement.
@@ -213,7 +214,7 @@ class System {
       is_gone[static_cast<std::size_t>(b)] = 1;
       bodies_[static_cast<std::size_t>(b)].movable = false;
       bodies_[static_cast<std::size_t>(b)].is_gone = true;
-      set_part<dof>(displacement, dof * b, Fixed<dof, 1>::Zero());
+      set_part<dof>(displacement, dof * b, zeros<Fixed<dof, 1>>());
     }
     const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
     joints.remove(test);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/solver/active_set.hpp>
 #include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/equilibrium.hpp>
@@ -190,8 +191,7 @@ class TwoLevel {
     correction();
     u += d;
     double estimate = 1;
-    Eigen::VectorXd reach =
-        Eigen::VectorXd::Constant(system.body_count(), 0.2 * longest_move(accept));
+    Eigen::VectorXd reach = constants(system.body_count(), 0.2 * longest_move(accept));
     // More often than a block can need on its way to the displacement limit is no progress.
     int may_find = 4 + static_cast<int>(8 * accept.displacement_limit / accept.refind_limit);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
@@ -336,7 +336,7 @@ class TwoLevel {
                       Eigen::VectorXd& f, Eigen::VectorXd& trial, EquilibriumReport& report) {
     const double before = f.squaredNorm();
     for (double part = 1; part > 0.2; part *= 0.5) {
-      trial = u + part * d;
+      set_to_sum(trial, u, part, d);
       system.forces(trial, f);
       ++report.steps;
       if (f.squaredNorm() <= 16 * before) {

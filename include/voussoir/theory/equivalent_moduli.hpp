@@ -153,7 +153,7 @@ VOUSSOIR_INLINE Eigen::Matrix3d joint_compliance(const std::vector<PersistentSet
                                                  const JointStiffness& joints) {
   joints.check();
   if (sets.empty()) throw InvalidInput("joint compliance: needs at least one joint set");
-  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d compliance = zeros<Eigen::Matrix3d>();
   for (const PersistentSet& set : sets) {
     require(set.spacing > 0 && std::isfinite(set.spacing), "joint spacing s", set.spacing, "> 0 m");
     require(std::isfinite(set.dip), "dip", set.dip, "finite [rad]");
@@ -170,8 +170,8 @@ VOUSSOIR_INLINE OedometerModuli oedometer_of(const Eigen::Matrix3d& compliance,
                                              CompressedAlong along, ShearCondition shear) {
   // Cofactors: Eigen/Core has no solver, and three unknowns need none.
   const Vec3 c0 = column(compliance, 0), c1 = column(compliance, 1), c2 = column(compliance, 2);
-  const double determinant = c0.dot(cross(c1, c2));
-  if (!(std::abs(determinant) > 1e-12 * c0.norm() * c1.norm() * c2.norm()))
+  const double determinant = dot_product(c0, cross(c1, c2));
+  if (!(std::abs(determinant) > 1e-12 * length_of(c0) * length_of(c1) * length_of(c2)))
     throw InvalidInput("oedometer of a compliance: singular; needs two joint sets that cross");
   Eigen::Matrix3d stiffness;
   set_row(stiffness, 0, cross(c1, c2) / determinant);
@@ -200,7 +200,8 @@ VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets
   for (const PersistentSet& set : sets) {
     require(set.spacing > 0 && std::isfinite(set.spacing), "joint spacing s", set.spacing, "> 0 m");
     frequency +=
-        std::abs(set.normal().dot(Vec2(std::cos(direction), std::sin(direction)))) / set.spacing;
+        std::abs(dot_product(set.normal(), Vec2(std::cos(direction), std::sin(direction)))) /
+        set.spacing;
   }
   return frequency;
 }

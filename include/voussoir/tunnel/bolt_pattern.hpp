@@ -54,10 +54,10 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
   require(spacing > 0 && std::isfinite(spacing) && !(pattern.wall_spacing > 0 && angular),
           "bolt spacing", spacing, "> 0, either along the wall or as an angle");
   double reach = 0;
-  for (const Vec2& v : opening.vertices()) reach = std::max(reach, v.norm());
+  for (const Vec2& v : opening.vertices()) reach = std::max(reach, length_of(v));
   const auto wall_point = [&](double angle) {
     const Vec2 far = 2 * reach * Vec2(std::cos(angle), std::sin(angle));
-    const auto t = opening.last_crossing({Vec2::Zero(), far});
+    const auto t = opening.last_crossing({zeros<Vec2>(), far});
     if (!t) throw InvalidInput("bolts: the tunnel centre is not inside the opening");
     return Vec2(*t * far);
   };
@@ -66,9 +66,8 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
   std::vector<double> along{0.0};
   for (int k = 1; k <= samples; ++k) {
     const double step = angular ? arc / samples
-                                : (wall_point(pattern.from + arc * k / samples) -
-                                   wall_point(pattern.from + arc * (k - 1) / samples))
-                                      .norm();
+                                : length_of(wall_point(pattern.from + arc * k / samples) -
+                                            wall_point(pattern.from + arc * (k - 1) / samples));
     along.push_back(along.back() + step);
   }
   const double total = along.back();

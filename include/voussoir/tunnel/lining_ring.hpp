@@ -221,9 +221,9 @@ VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
     }
   for (const WallPiece<Spatial>& wall : wall_pieces(mass)) {
     const Segment edge = section.edge(static_cast<std::size_t>(wall.edge));
-    const Vec3 along = PrismaticOpening::in_space((edge.end - edge.start).normalized(), 0);
+    const Vec3 along = PrismaticOpening::in_space(normalized(edge.end - edge.start), 0);
     const Vec3 begin = PrismaticOpening::in_space(edge.start, 0);
-    const Vec3 normal = wall.facet.area_vector().normalized();
+    const Vec3 normal = normalized(wall.facet.area_vector());
     const auto first = static_cast<int>(std::floor(wall.from / nodes.stretch));
     for (int k = std::max(0, first); k < ribs.ring.nodes && k * nodes.stretch < wall.to; ++k) {
       const int node = nodes.number[static_cast<std::size_t>(k)];

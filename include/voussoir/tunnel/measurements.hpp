@@ -32,7 +32,7 @@ template <class Solver>
     double angle = std::atan2(p.y(), p.x());
     if (angle < 0) angle += 2 * std::numbers::pi;
     motion.push_back(
-        {angle, piece.facet.length(), -solver.displacement_of(piece.body, p).dot(p.normalized())});
+        {angle, piece.facet.length(), -solver.displacement_of(piece.body, p).dot(normalized(p))});
   }
   return motion;
 }
@@ -114,7 +114,7 @@ namespace detail {
 template <class Elements, class EndForces>
 [[nodiscard]] std::vector<LiningForce> mean_of_members(const Elements& elements, int first,
                                                        int count, EndForces&& end_forces) {
-  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {Vec2::Zero(), 0, 0, 0, 0});
+  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {zeros<Vec2>(), 0, 0, 0, 0});
   std::vector<int> ends(forces.size(), 0);
   for (const auto& element : elements) {
     // Members run anticlockwise: their second axis points into the opening, so what a beam calls
@@ -173,7 +173,7 @@ requires(Geometry::dim == 2)
     const int body = first + static_cast<int>(k);
     const Vec2 home = run.home(body).position;
     forces[k].position = run.position(body);
-    forces[k].convergence = (home - forces[k].position).dot(home.normalized());
+    forces[k].convergence = (home - forces[k].position).dot(normalized(home));
   }
   return forces;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,31 +33,33 @@ class BarrierStep {
   /// @param rows  working memory: one for each group of planes
   BarrierStep(const PlanePair<Dim>& planes, std::span<Rows> rows) : rows_(rows) {
     for (std::size_t g = 0; g < rows_.size(); ++g) {
-      const Lanes inverse = 1 / planes.room(g * lane_count);
+      const Lanes inverse = Lanes::all(1) / planes.room(g * lane_count);
       for (int axis = 0; axis < Dim; ++axis)
         rows_[g].column[static_cast<std::size_t>(axis)] =
             planes.normal(axis, g * lane_count) * inverse;
-      rows_[g].fit.setZero();
+      rows_[g].fit = Lanes::all(0);
     }
     for (std::size_t d = 0; d < size; ++d) {
       std::array<Lanes, size> products;
-      products.fill(Lanes::Zero());
-      Lanes left = Lanes::Zero();
+      products.fill(Lanes::all(0));
+      Lanes left = Lanes::all(0);
       for (std::size_t g = 0; g < rows_.size(); ++g) {
         const Rows& row = rows_[g];
-        for (std::size_t e = d; e < size; ++e) products[e] += row.column[d] * row.column[e];
-        left += row.column[d] * (1 + row.fit);
+        for (std::size_t e = d; e < size; ++e)
+          products[e] = products[e] + row.column[d] * row.column[e];
+        left = left + row.column[d] * (Lanes::all(1) + row.fit);
       }
-      const double squared = sum_of(products[d]);
+      const double squared = products[d].sum();
       inverse_squared_[d] = 1 / squared;
-      share_[d] = -sum_of(left) * inverse_squared_[d];
+      share_[d] = -left.sum() * inverse_squared_[d];
       decrement_squared_ += share_[d] * share_[d] * squared;
       for (std::size_t e = d + 1; e < size; ++e)
-        upper_[d][e] = sum_of(products[e]) * inverse_squared_[d];
+        upper_[d][e] = products[e].sum() * inverse_squared_[d];
       for (std::size_t g = 0; g < rows_.size(); ++g) {
         Rows& row = rows_[g];
-        for (std::size_t e = d + 1; e < size; ++e) row.column[e] -= upper_[d][e] * row.column[d];
-        row.fit += share_[d] * row.column[d];
+        for (std::size_t e = d + 1; e < size; ++e)
+          row.column[e] = row.column[e] - Lanes::all(upper_[d][e]) * row.column[d];
+        row.fit = row.fit + Lanes::all(share_[d]) * row.column[d];
       }
     }
   }
@@ -68,14 +69,15 @@ class BarrierStep {
   /// The correction of third order (Chebyshev): adds what solves J^T J q = -J^T v^2.
   void correct() {
     std::array<Lanes, size> products;
-    products.fill(Lanes::Zero());
+    products.fill(Lanes::all(0));
     for (std::size_t g = 0; g < rows_.size(); ++g)
       for (std::size_t d = 0; d < size; ++d)
-        products[d] += rows_[g].column[d] * rows_[g].fit.square();
+        products[d] = products[d] + rows_[g].column[d] * (rows_[g].fit * rows_[g].fit);
     for (std::size_t d = 0; d < size; ++d) {
-      const double share = -sum_of(products[d]) * inverse_squared_[d];
+      const double share = -products[d].sum() * inverse_squared_[d];
       share_[d] += share;
-      for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].fit += share * rows_[g].column[d];
+      for (std::size_t g = 0; g < rows_.size(); ++g)
+        rows_[g].fit = rows_[g].fit + Lanes::all(share) * rows_[g].column[d];
     }
   }
 
@@ -86,17 +88,17 @@ class BarrierStep {
   /// long overlap, where the linear program leaves its point, full steps only double the distance.
   void search_along() {
     Lanes fastest = rows_[0].fit;
-    for (std::size_t g = 1; g < rows_.size(); ++g) fastest = fastest.max(rows_[g].fit);
-    const double limit = fastest.maxCoeff();
+    for (std::size_t g = 1; g < rows_.size(); ++g) fastest = max(fastest, rows_[g].fit);
+    const double limit = fastest.largest();
     double low = 1 / (1 + limit), high = 1 / limit;
     for (int halving = 0; halving < 6 && high > 4 * low; ++halving) {
       const double middle = 0.5 * (low + high);
-      Lanes slope = Lanes::Zero();
+      Lanes slope = Lanes::all(0);
       for (std::size_t g = 0; g < rows_.size(); ++g)
-        slope += rows_[g].fit / (1 - middle * rows_[g].fit);
-      (sum_of(slope) < 0 ? low : high) = middle;
+        slope = slope + rows_[g].fit / (Lanes::all(1) - Lanes::all(middle) * rows_[g].fit);
+      (slope.sum() < 0 ? low : high) = middle;
     }
-    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].fit *= low;
+    for (std::size_t g = 0; g < rows_.size(); ++g) rows_[g].fit = rows_[g].fit * Lanes::all(low);
     for (double& share : share_) share *= low;
   }
 
@@ -115,10 +117,6 @@ class BarrierStep {
 
  private:
   static constexpr auto size = static_cast<std::size_t>(Dim);
-
-  [[nodiscard]] static double sum_of(const Lanes& lanes) {
-    return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
-  }
 
   std::span<Rows> rows_;
   std::array<std::array<double, size>, size> upper_;  ///< J = columns upper, diagonal 1

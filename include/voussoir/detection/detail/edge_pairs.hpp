@@ -63,7 +63,7 @@ class EdgePairs {
   struct Best {
     double separation = -std::numeric_limits<double>::infinity();
     std::uint16_t edge_a = 0, edge_b = 0;
-    Vec3 normal = Vec3::Zero();  ///< from a to b
+    Vec3 normal = zeros<Vec3>();  ///< from a to b
   };
 
   /// @param list_a, list_b  the edges to try
@@ -101,7 +101,7 @@ class EdgePairs {
   struct Axis {
     double separation = -std::numeric_limits<double>::infinity();  ///< of the shapes [m]
     double gap = 0;                                                ///< of the two edges [m]
-    Vec3 normal = Vec3::Zero();                                    ///< from a to b
+    Vec3 normal = zeros<Vec3>();                                   ///< from a to b
 
     /// Whether nothing of either shape lies beyond its edge.
     [[nodiscard]] bool is_of_edges() const { return gap - separation <= 4 * rounding; }
@@ -114,16 +114,16 @@ class EdgePairs {
     const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
     const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
     const Vec3 outward = a.shape.normal(of_a.left) + a.shape.normal(of_a.right);
-    const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    const double uu = squared_length_of(u), vv = squared_length_of(v);
     Axis found;
     Vec3& normal = found.normal;
     normal = cross(u, v);
-    if (normal.squaredNorm() <= 1e-24 * uu * vv) return found;
+    if (squared_length_of(normal) <= 1e-24 * uu * vv) return found;
     // Its rounding matters along the longer edge only; across it, it moves neither of the two.
     const Vec3& longer = uu > vv ? u : v;
-    normal -= (normal.dot(longer) / std::max(uu, vv)) * longer;
-    normal *= (normal.dot(outward) < 0 ? -1 : 1) / normal.norm();
-    found.gap = normal.dot(q - p);
+    normal -= (dot_product(normal, longer) / std::max(uu, vv)) * longer;
+    normal *= (dot_product(normal, outward) < 0 ? -1 : 1) / length_of(normal);
+    found.gap = dot_product(normal, q - p);
     if (!(found.gap > enough)) return found;  // there is not more room than between them
     found.separation = lowest(normal, b.shape) + lowest(-normal, a.shape);
     return found;
@@ -131,8 +131,8 @@ class EdgePairs {
 
   /// Where an edge of a passes one of b, as seen along their common normal.
   struct Crossing {
-    double room = -1;           ///< to the rim of the parallelogram of both; < 0: no crossing [m]
-    Vec3 point = Vec3::Zero();  ///< on the edge of a [m]
+    double room = -1;            ///< to the rim of the parallelogram of both; < 0: no crossing [m]
+    Vec3 point = zeros<Vec3>();  ///< on the edge of a [m]
   };
   [[nodiscard]] static Crossing crossing(const LinkedShape& a, std::uint16_t i,
                                          const LinkedShape& b, std::uint16_t j) {
@@ -140,12 +140,13 @@ class EdgePairs {
     const Vec3 p = a.shape.vertex(of_a.from), u = a.shape.vertex(of_a.to) - p;
     const Vec3 q = b.shape.vertex(of_b.from), v = b.shape.vertex(of_b.to) - q;
     const Vec3 both = cross(u, v), offset = q - p;
-    const double squared = both.squaredNorm();
-    const double s = cross(offset, v).dot(both), t = cross(offset, u).dot(both);
+    const double squared = squared_length_of(both);
+    const double s = dot_product(cross(offset, v), both), t = dot_product(cross(offset, u), both);
     const double of_u = std::min(s, squared - s), of_v = std::min(t, squared - t);
     if (!(std::min(of_u, of_v) >= 0)) return {};
     return {
-        std::sqrt(std::min(of_u * of_u / v.squaredNorm(), of_v * of_v / u.squaredNorm()) / squared),
+        std::sqrt(std::min(of_u * of_u / squared_length_of(v), of_v * of_v / squared_length_of(u)) /
+                  squared),
         p + (s / squared) * u};
   }
 

@@ -30,7 +30,7 @@ class FaceClip {
     origin_ = p.vertex(face[0]);
     along_ = p.vertex(face[1]) - origin_;
     across_ = cross(normal, along_);
-    scale_ = 1 / along_.squaredNorm();
+    scale_ = 1 / squared_length_of(along_);
     grow(face.size(), face.size() + other.size() + 3);
     // Seen along the reference normal the other face runs clockwise: turn it round.
     count_ = other.size();
@@ -142,7 +142,7 @@ class FaceClip {
 
   [[nodiscard]] Point in_plane(const Vec3& x) const {
     const Vec3 r = x - origin_;
-    return {r.dot(along_), r.dot(across_), r.dot(normal_)};
+    return {dot_product(r, along_), dot_product(r, across_), dot_product(r, normal_)};
   }
 
   void grow(std::size_t sides, std::size_t size) {

@@ -130,9 +130,9 @@ class FacePair2 {
     // From `low` to `high` the coordinate along the face rises; s is the fraction of the way.
     const Vec2 low = q.vertex(following(edge, q.vertex_count));
     const Vec2 span = q.vertex(edge) - low;
-    const double length = along.dot(span), start = along.dot(low - origin);
-    const double height = normal.dot(low - origin), rise = normal.dot(span);
-    const double face_length = along.dot(p.vertex(next) - origin);
+    const double length = dot_product(along, span), start = dot_product(along, low - origin);
+    const double height = dot_product(normal, low - origin), rise = dot_product(normal, span);
+    const double face_length = dot_product(along, p.vertex(next) - origin);
     const double scale = 1 / length;
     // Where the edge leaves the reach; parallel to the face it never does.
     const double leaves = (reach - height) / rise;

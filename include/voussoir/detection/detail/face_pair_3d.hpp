@@ -81,7 +81,8 @@ class FacePair3 {
     found.normal = normal_;
     // An edge pair whose normal is that of the face, but for the small angle between two faces
     // that touch, limits the depth of a contact of faces.
-    if (memory.by == Touch::edge_edge && !(area_ > 0 && normal_.dot(face_normal_) > flat)) {
+    if (memory.by == Touch::edge_edge &&
+        !(area_ > 0 && dot_product(normal_, face_normal_) > flat)) {
       found.touch = Touch::edge_edge;
       section_.run((*shapes_)[a], (*shapes_)[b], (*shapes_).topology(a), (*shapes_).topology(b),
                    memory.first, memory.second, normal_, polygon_);
@@ -265,7 +266,7 @@ class FacePair3 {
     }
     double facing = std::numeric_limits<double>::infinity();
     for (const std::uint16_t candidate : incident.topology.faces_at(deepest)) {
-      const double cosine = normal.dot(q.normal(candidate));
+      const double cosine = dot_product(normal, q.normal(candidate));
       other_ = cosine < facing ? candidate : other_;
       facing = std::min(facing, cosine);
     }
@@ -321,12 +322,12 @@ class FacePair3 {
   [[nodiscard]] bool is_largest(double separation, const Vec3& normal, double room,
                                 const Vec3& foot, double spread) const {
     if (separation >= 0) return true;
-    const double depth = -separation, chord = spread + (normal - other_normal_).norm();
+    const double depth = -separation, chord = spread + length_of(normal - other_normal_);
     // tan(t / 2) <= 0.6 chord up to a chord of 1.
     if (!(chord < 1 && room >= 0.6 * chord * depth)) return false;
     const Vec3 back = highest_ - foot;
-    const double behind = face_side_ == 0 ? normal.dot(back) : -normal.dot(back);
-    return (1 - 0.5 * chord * chord) * behind - chord * back.norm() > depth;
+    const double behind = face_side_ == 0 ? dot_product(normal, back) : -dot_product(normal, back);
+    return (1 - 0.5 * chord * chord) * behind - chord * length_of(back) > depth;
   }
 
   /// The edges that come near enough to the other shape. If a pair of edges has the least depth of
@@ -403,11 +404,11 @@ class FacePair3 {
   // Of the pair at hand, from `find_axis` to `contact`.
   int face_side_ = 0;  ///< whose face is the best: 0 a's, 1 b's
   double area_ = 0;    ///< of the clipped face [m^2]
-  Vec3 normal_ = Vec3::Zero(), face_normal_ = Vec3::Zero();  ///< from a to b
+  Vec3 normal_ = zeros<Vec3>(), face_normal_ = zeros<Vec3>();  ///< from a to b
   // Of the shape across from the reference face: the face that was clipped, its normal as seen from
   // a, and the lowest and the highest vertex over the reference face.
   std::size_t other_ = 0;
-  Vec3 other_normal_ = Vec3::Zero(), deepest_ = Vec3::Zero(), highest_ = Vec3::Zero();
+  Vec3 other_normal_ = zeros<Vec3>(), deepest_ = zeros<Vec3>(), highest_ = zeros<Vec3>();
   std::vector<Vec3> polygon_;
   EdgeList edges_of_a_, edges_of_b_;
   std::vector<double> separations_, heights_, scores_;

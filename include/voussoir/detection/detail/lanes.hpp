@@ -39,6 +39,15 @@ class PlainLanes {
   friend PlainLanes max(const PlainLanes& a, const PlainLanes& b) {
     return each([&](std::size_t k) { return std::max(a.v_[k], b.v_[k]); });
   }
+  friend PlainLanes operator/(const PlainLanes& a, const PlainLanes& b) {
+    return each([&](std::size_t k) { return a.v_[k] / b.v_[k]; });
+  }
+  /// Where `sign` is positive `a`, elsewhere `b`.
+  friend PlainLanes where_positive(const PlainLanes& sign, const PlainLanes& a,
+                                   const PlainLanes& b) {
+    return each([&](std::size_t k) { return sign.v_[k] > 0 ? a.v_[k] : b.v_[k]; });
+  }
+  [[nodiscard]] double sum() const { return (v_[0] + v_[2]) + (v_[1] + v_[3]); }
   [[nodiscard]] double smallest() const { return *std::min_element(v_.begin(), v_.end()); }
   [[nodiscard]] double largest() const { return *std::max_element(v_.begin(), v_.end()); }
   void store(double* to) const { std::copy(v_.begin(), v_.end(), to); }
@@ -93,6 +102,25 @@ class RegisterLanes {
   }
   friend RegisterLanes max(const RegisterLanes& a, const RegisterLanes& b) {
     return each(a, b, [](Register x, Register y) { return x < y ? y : x; });
+  }
+  friend RegisterLanes operator/(const RegisterLanes& a, const RegisterLanes& b) {
+    return each(a, b, [](Register x, Register y) { return x / y; });
+  }
+  friend RegisterLanes where_positive(const RegisterLanes& sign, const RegisterLanes& a,
+                                      const RegisterLanes& b) {
+    RegisterLanes lanes;
+    lanes.first_ = sign.first_ > 0 ? a.first_ : b.first_;
+    if constexpr (two) lanes.second_ = sign.second_ > 0 ? a.second_ : b.second_;
+    return lanes;
+  }
+  /// Even and odd lanes first, as two registers are added.
+  [[nodiscard]] double sum() const {
+    if constexpr (two) {
+      const Register both = first_ + second_;
+      return both[0] + both[1];
+    } else {
+      return (first_[0] + first_[2]) + (first_[1] + first_[3]);
+    }
   }
   [[nodiscard]] double smallest() const {
     if constexpr (two) {

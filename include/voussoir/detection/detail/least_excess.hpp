@@ -163,11 +163,10 @@ class LeastExcess {
     PlaneExcess worst{0, -std::numeric_limits<double>::infinity()};
     const Vec<Dim> x = point();
     for (std::size_t group = 0; group < planes_->padded_count(); group += lane_count) {
-      const typename PlanePair<Dim>::Lanes excesses =
-          planes_->along(x, group) - planes_->room(group);
-      Eigen::Index lane = 0;
-      if (const double value = excesses.maxCoeff(&lane); value > worst.excess)
-        worst = {group + static_cast<std::size_t>(lane), value};
+      double excesses[lane_count];
+      (planes_->along(x, group) - planes_->room(group)).store(excesses);
+      for (std::size_t lane = 0; lane < lane_count; ++lane)
+        if (excesses[lane] > worst.excess) worst = {group + lane, excesses[lane]};
     }
     return worst;
   }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/detail/lanes.hpp>
 #include <voussoir/detection/detail/least_excess.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -15,22 +15,22 @@ namespace voussoir::detail {
 /// Least height of the vertices along a direction [m].
 template <int Dim>
 [[nodiscard]] double lowest(const PlacedShape<Dim>& shape, const Vec<Dim>& direction) {
-  using Lanes = Eigen::Array<double, static_cast<int>(lane_count), 1>;
-  Lanes low = Lanes::Constant(std::numeric_limits<double>::infinity());
+  using Lanes = VectorLanes;
+  Lanes low = Lanes::all(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < shape.vertex_stride(); k += lane_count) {
-    Lanes height = Eigen::Map<const Lanes>(shape.vertices(0) + k) * direction[0];
+    Lanes height = Lanes::load(shape.vertices(0) + k) * Lanes::all(direction[0]);
     for (int axis = 1; axis < Dim; ++axis)
-      height += Eigen::Map<const Lanes>(shape.vertices(axis) + k) * direction[axis];
-    low = low.min(height);
+      height = height + Lanes::load(shape.vertices(axis) + k) * Lanes::all(direction[axis]);
+    low = min(low, height);
   }
-  return low.minCoeff();
+  return low.smallest();
 }
 
 /// The outward normal of the face of `shape` that `other` has to move least along to leave it,
 /// and how far away it is then [m], < 0.
 template <int Dim>
 struct ShallowFace {
-  Vec<Dim> normal = Vec<Dim>::Zero();
+  Vec<Dim> normal = zeros<Vec<Dim>>();
   double separation = -std::numeric_limits<double>::infinity();
 
   ShallowFace(const PlacedShape<Dim>& shape, const PlacedShape<Dim>& other) {
@@ -103,9 +103,9 @@ class PlaneAxis {
       }
       if (of_a != 2 || of_b != 2) return never;
       Vec3 n = cross(cross(normals[0], normals[1]), cross(normals[2], normals[3]));
-      const double length = n.norm();
+      const double length = length_of(n);
       if (!(length > 0)) return never;
-      n *= (n.dot(normals[0] + normals[1]) < 0 ? -1 : 1) / length;
+      n *= (dot_product(n, normals[0] + normals[1]) < 0 ? -1 : 1) / length;
       return lowest<3>(b, n) + lowest<3>(a, -n);
     }
     return never;

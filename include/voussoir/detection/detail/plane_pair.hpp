@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <limits>
 #include <vector>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/detail/lanes.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
 namespace voussoir::detail {
@@ -20,7 +20,7 @@ namespace voussoir::detail {
 template <int Dim>
 class PlanePair {
  public:
-  using Lanes = Eigen::Array<double, static_cast<int>(lane_count), 1>;
+  using Lanes = VectorLanes;
 
   /// Gathers the half spaces of both shapes, seen from `point`. Allocates only when it has never
   /// seen as many.
@@ -48,18 +48,15 @@ class PlanePair {
   [[nodiscard]] std::size_t padded_count() const { return PlacedShape<Dim>::padded(count_); }
 
   [[nodiscard]] Lanes normal(int axis, std::size_t group) const {
-    return Eigen::Map<const Lanes>(normals(axis) + group);
+    return Lanes::load(normals(axis) + group);
   }
-  [[nodiscard]] Lanes room(std::size_t group) const {
-    return Eigen::Map<const Lanes>(rooms() + group);
-  }
+  [[nodiscard]] Lanes room(std::size_t group) const { return Lanes::load(rooms() + group); }
   /// +1 for planes of a, -1 for planes of b.
   [[nodiscard]] Lanes side(std::size_t group) const {
     static_assert(lane_count == 4);
-    Lanes sides;
-    for (std::size_t k = 0; k < lane_count; ++k)
-      sides[static_cast<Eigen::Index>(k)] = group + k < count_a_ ? 1 : -1;
-    return sides;
+    double sides[lane_count];
+    for (std::size_t k = 0; k < lane_count; ++k) sides[k] = group + k < count_a_ ? 1 : -1;
+    return Lanes::load(sides);
   }
 
   [[nodiscard]] Vec<Dim> normal_of(std::size_t plane) const {
@@ -71,8 +68,9 @@ class PlanePair {
 
   /// normal . direction of a group.
   [[nodiscard]] Lanes along(const Vec<Dim>& direction, std::size_t group) const {
-    Lanes sum = normal(0, group) * direction[0];
-    for (int axis = 1; axis < Dim; ++axis) sum += normal(axis, group) * direction[axis];
+    Lanes sum = normal(0, group) * Lanes::all(direction[0]);
+    for (int axis = 1; axis < Dim; ++axis)
+      sum = sum + normal(axis, group) * Lanes::all(direction[axis]);
     return sum;
   }
 
@@ -80,8 +78,8 @@ class PlanePair {
   [[nodiscard]] double smallest_room() const {
     Lanes least = room(0);
     for (std::size_t group = lane_count; group < padded_count(); group += lane_count)
-      least = least.min(room(group));
-    return least.minCoeff();
+      least = min(least, room(group));
+    return least.smallest();
   }
 
   /// Goes on by `step`.
@@ -93,7 +91,7 @@ class PlanePair {
   /// The same in two parts, for who knows by which fraction the step shrinks each room.
   void move_point(const Vec<Dim>& step) { point_ += step; }
   void shrink_room(std::size_t group, const Lanes& fraction) {
-    set_room(group, room(group) * (1 - fraction));
+    set_room(group, room(group) * (Lanes::all(1) - fraction));
   }
 
   /// Moves every half space outwards by `distance` [m].
@@ -111,22 +109,22 @@ class PlanePair {
   [[nodiscard]] double* rooms() { return normals(Dim); }
   [[nodiscard]] const double* rooms() const { return normals(Dim); }
 
-  void set_room(std::size_t group, const Lanes& room) { Eigen::Map<Lanes>{rooms() + group} = room; }
+  void set_room(std::size_t group, const Lanes& room) { room.store(rooms() + group); }
 
   void append(const PlacedShape<Dim>& shape, std::size_t at) {
     for (std::size_t k = 0; k < shape.face_stride(); k += lane_count) {
-      Lanes room = Eigen::Map<const Lanes>(shape.offsets() + k);
+      Lanes room = Lanes::load(shape.offsets() + k);
       for (int axis = 0; axis < Dim; ++axis) {
-        const Lanes n = Eigen::Map<const Lanes>(shape.normals(axis) + k);
-        room -= n * point_[axis];
-        Eigen::Map<Lanes>{normals(axis) + at + k} = n;
+        const Lanes n = Lanes::load(shape.normals(axis) + k);
+        room = room - n * Lanes::all(point_[axis]);
+        n.store(normals(axis) + at + k);
       }
-      Eigen::Map<Lanes>{rooms() + at + k} = room;
+      room.store(rooms() + at + k);
     }
   }
 
-  std::vector<double, Eigen::aligned_allocator<double>> data_;
-  Vec<Dim> point_ = Vec<Dim>::Zero();
+  std::vector<double> data_;
+  Vec<Dim> point_ = zeros<Vec<Dim>>();
   std::size_t stride_ = 0, count_a_ = 0, count_ = 0;
 };
 

@@ -29,8 +29,8 @@ class Section {
     for (const PlacedShape<3>* shape : {&a, &b})
       for (std::size_t face = 0; face < shape->face_count; ++face) {
         const Vec3 side = shape->normal(face);
-        const Vec2 slope(side.dot(first), side.dot(second));
-        keep(slope, shape->offset(face) - side.dot(middle));
+        const Vec2 slope(dot_product(side, first), dot_product(side, second));
+        keep(slope, shape->offset(face) - dot_product(side, middle));
       }
     area_ = 0;
     for (std::size_t k = 2; k < points_.size(); ++k)
@@ -53,8 +53,10 @@ class Section {
     const Vec3 p = a.vertex(edge_a.from), u = a.vertex(edge_a.to) - p;
     const Vec3 q = b.vertex(edge_b.from), v = b.vertex(edge_b.to) - q;
     const Vec3 both = cross(u, v), offset = q - p;
-    const double s = std::clamp(cross(offset, v).dot(both) / both.squaredNorm(), 0.0, 1.0);
-    const double t = std::clamp(cross(offset, u).dot(both) / both.squaredNorm(), 0.0, 1.0);
+    const double s =
+        std::clamp(dot_product(cross(offset, v), both) / squared_length_of(both), 0.0, 1.0);
+    const double t =
+        std::clamp(dot_product(cross(offset, u), both) / squared_length_of(both), 0.0, 1.0);
     return p + 0.5 * ((offset + t * v) + s * u);
   }
 
@@ -63,7 +65,7 @@ class Section {
     spare_.clear();
     for (std::size_t k = 0; k < points_.size(); ++k) {
       const Vec2 &here = points_[k], &next = points_[k + 1 == points_.size() ? 0 : k + 1];
-      const double d = slope.dot(here) - offset, e = slope.dot(next) - offset;
+      const double d = dot_product(slope, here) - offset, e = dot_product(slope, next) - offset;
       if (d <= 0) spare_.push_back(here);
       if ((d < 0 && e > 0) || (d > 0 && e < 0))
         spare_.emplace_back(here + d / (d - e) * (next - here));

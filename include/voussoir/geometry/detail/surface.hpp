@@ -30,8 +30,7 @@ struct Surface {
   std::vector<Face> faces;
 
   [[nodiscard]] std::span<const int> loop(const Face& face) const {
-    return std::span<const int>(loops).subspan(static_cast<std::size_t>(face.begin),
-                                               static_cast<std::size_t>(face.end - face.begin));
+    return {loops.data() + face.begin, static_cast<std::size_t>(face.end - face.begin)};
   }
 };
 
@@ -47,7 +46,7 @@ struct PairingFault {
 /// so that coordinates of 1e6 m lose nothing.
 template <class Corner>
 [[nodiscard]] Vec3 doubled_area(std::size_t count, Corner&& corner) {
-  Vec3 sum = Vec3::Zero();
+  Vec3 sum = zeros<Vec3>();
   if (count < 3) return sum;
   const Vec3& origin = corner(0);
   Vec3 previous = corner(1) - origin;

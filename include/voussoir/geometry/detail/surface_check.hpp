@@ -66,10 +66,11 @@ class SurfaceCheck {
     // A billionth of the size: coordinates written with ten digits pass, and no joint is so thin.
     // Far from the origin the coordinates themselves are rounded to more than that.
     const double farthest = largest_entry(larger_of(magnitudes(low), magnitudes(high)));
-    tolerance_ = 1e-9 * (high - low).norm() + 8 * std::numeric_limits<double>::epsilon() * farthest;
+    tolerance_ =
+        1e-9 * length_of(high - low) + 8 * std::numeric_limits<double>::epsilon() * farthest;
     for (std::size_t v = 0; v < vertices.size(); ++v)
       for (std::size_t w = 0; w < v; ++w)
-        if (const double gap = (vertices[v] - vertices[w]).norm(); !(gap > tolerance_))
+        if (const double gap = length_of(vertices[v] - vertices[w]); !(gap > tolerance_))
           refuse(vertex_name(v) + " repeats vertex " + std::to_string(w) + ": they are " +
                  number(gap) + " m apart, must be more than " + number(tolerance_) + " m");
   }
@@ -103,24 +104,25 @@ class SurfaceCheck {
     const Vec3 area = doubled_area(count, [&](std::size_t k) { return corner(face, k); });
     double longest = 0;
     for (std::size_t k = 0; k < count; ++k)
-      longest = std::max(longest, (corner(face, k + 1) - corner(face, k)).norm());
-    if (!(area.norm() > tolerance_ * longest))
-      refuse(face_name(f) + " has the area " + number(0.5 * area.norm()) +
+      longest = std::max(longest, length_of(corner(face, k + 1) - corner(face, k)));
+    if (!(length_of(area) > tolerance_ * longest))
+      refuse(face_name(f) + " has the area " + number(0.5 * length_of(area)) +
              " m^2: its vertices lie on one line or its outline crosses itself");
-    const Vec3 normal = area.normalized(), origin = corner(face, 0);
+    const Vec3 normal = normalized(area), origin = corner(face, 0);
     for (std::size_t k = 0; k < count; ++k) {
       const auto v = static_cast<std::size_t>(surface_.loop(face)[k]);
       const Vec3 arm = corner(face, k) - origin;
-      if (const double d = std::abs(normal.dot(arm)); !(d <= tolerance_))
+      if (const double d = std::abs(dot_product(normal, arm)); !(d <= tolerance_))
         refuse(face_name(f) + " is not planar: " + vertex_name(v) + " lies " + number(d) +
                " m off its plane, may lie " + number(tolerance_) + " m off");
       // Left turns everywhere; and seen from the first vertex the others pass by once, which a
       // star does not do.
       const Vec3 in = corner(face, k) - corner(face, k + count - 1);
       const Vec3 out = corner(face, k + 1) - corner(face, k);
-      const double turn = normal.dot(cross(in, out)), swept = normal.dot(cross(arm, out));
-      if (!(turn >= -tolerance_ * std::max(in.norm(), out.norm())) ||
-          !(swept >= -tolerance_ * std::max(arm.norm(), out.norm())))
+      const double turn = dot_product(normal, cross(in, out)),
+                   swept = dot_product(normal, cross(arm, out));
+      if (!(turn >= -tolerance_ * std::max(length_of(in), length_of(out))) ||
+          !(swept >= -tolerance_ * std::max(length_of(arm), length_of(out))))
         refuse(face_name(f) + " is not convex or crosses itself: at " + vertex_name(v) +
                " its outline turns the wrong way");
     }
@@ -134,7 +136,7 @@ class SurfaceCheck {
     double lowest = 0, highest = 0;
     std::size_t top = 0;
     for (std::size_t v = 0; v < surface_.vertices.size(); ++v) {
-      const double d = face.plane.normal.dot(surface_.vertices[v] - origin);
+      const double d = dot_product(face.plane.normal, surface_.vertices[v] - origin);
       lowest = std::min(lowest, d);
       if (d > highest) {
         highest = d;

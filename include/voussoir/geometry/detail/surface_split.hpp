@@ -53,7 +53,7 @@ class SurfaceSplit {
     const double here = plane.distance(origin);
     distance_.resize(whole.vertices.size());
     for (std::size_t k = 0; k < distance_.size(); ++k)
-      distance_[k] = here + plane.normal.dot(whole.vertices[k] - origin);
+      distance_[k] = here + dot_product(plane.normal, whole.vertices[k] - origin);
   }
 
   [[nodiscard]] bool classify(double tolerance) {

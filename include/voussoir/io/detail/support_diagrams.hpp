@@ -33,7 +33,7 @@ struct LiningDiagram {
   std::string unit;                ///< for the scale bar
   std::vector<double> values;      ///< one a node, in that unit
   double negligible = 0;           ///< this value at least fills the diagram
-  Vec2 centre = Vec2::Zero();      ///< of the opening, from which directions are counted [m]
+  Vec2 centre = zeros<Vec2>();     ///< of the opening, from which directions are counted [m]
 };
 
 VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,

@@ -32,13 +32,13 @@ VOUSSOIR_INLINE void match_cut(const RockMass<Planar>& mass, const FaceRef* firs
   Segment reference = facet_of(mass, *first);
   for (const FaceRef* f = first + 1; f != last; ++f)
     if (const Segment s = facet_of(mass, *f); s.length() > reference.length()) reference = s;
-  const Vec2 along = (reference.end - reference.start).normalized();
+  const Vec2 along = normalized(reference.end - reference.start);
   thread_local std::vector<Interval> left, right;
   left.clear();
   right.clear();
   for (const FaceRef* f = first; f != last; ++f) {
     const Segment s = facet_of(mass, *f);
-    const double from = along.dot(s.start), to = along.dot(s.end);
+    const double from = dot_product(along, s.start), to = dot_product(along, s.end);
     if (from < to) {
       left.push_back({from, to, s, f->body});
     } else {

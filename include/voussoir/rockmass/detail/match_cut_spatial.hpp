@@ -75,14 +75,14 @@ class CutOverlay {
     // Upwards is out of the blocks below. Every face of a cut keeps its plane, to the sign.
     const Vec3 up = shape_of(*first).half_space(face_of(*first)).normal;
     const Vec3 origin = shape_of(*first).vertex(0);
-    const Fixed<2, 3> axes = transposed(tangent_basis(up));
+    const Fixed<3, 2> axes = tangent_basis(up);
     for (const FaceRef* f = first; f != last; ++f) {
       const ConvexPolyhedron& shape = shape_of(*f);
-      const bool is_below = shape.half_space(face_of(*f)).normal.dot(up) > 0;
-      FlatFace face{Vec2::Zero(), Vec2::Zero(), f->body, corners_.size(), 0};
+      const bool is_below = dot_product(shape.half_space(face_of(*f)).normal, up) > 0;
+      FlatFace face{zeros<Vec2>(), zeros<Vec2>(), f->body, corners_.size(), 0};
       for (const int v : shape.loop(face_of(*f))) {
         const Vec3& point = shape.vertex(static_cast<std::size_t>(v));
-        const Vec2 flat = axes * (point - origin);
+        const Vec2 flat = transposed_product(axes, point - origin);
         const bool is_first = corners_.size() == face.begin;
         face.low = is_first ? flat : smaller_of(face.low, flat);
         face.high = is_first ? flat : larger_of(face.high, flat);
@@ -96,7 +96,7 @@ class CutOverlay {
   }
 
   [[nodiscard]] std::span<const Corner> corners(const FlatFace& face) const {
-    return std::span<const Corner>(corners_).subspan(face.begin, face.end - face.begin);
+    return {corners_.data() + face.begin, face.end - face.begin};
   }
 
   /// The part of one face that lies over another, empty if narrower than the tolerance.
@@ -134,7 +134,7 @@ class CutOverlay {
       const Vec2 here = inside_[k].flat - inside_[0].flat;
       const Vec2 next = inside_[k + 1 == inside_.size() ? 0 : k + 1].flat - inside_[0].flat;
       doubled += cross(here, next);
-      outline += (next - here).norm();
+      outline += length_of(next - here);
     }
     // A strip of width w and length l has the area w l and the outline 2 l.
     if (!(doubled > tolerance * outline)) return {};
@@ -143,12 +143,12 @@ class CutOverlay {
     for (Corner& corner : inside_) {
       for (const FlatFace* face : {&under, &over})
         for (const Corner& given : corners(*face))
-          if ((corner.flat - given.flat).squaredNorm() <= tolerance * tolerance)
+          if (squared_length_of(corner.flat - given.flat) <= tolerance * tolerance)
             corner.point = given.point;
-      if (facet.vertices.empty() || !same(facet.vertices.back(), corner.point))
+      if (facet.vertices.empty() || !(facet.vertices.back() == corner.point))
         facet.vertices.push_back(corner.point);
     }
-    if (same(facet.vertices.front(), facet.vertices.back())) facet.vertices.pop_back();
+    if (facet.vertices.front() == facet.vertices.back()) facet.vertices.pop_back();
     return facet;
   }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+/// What is done with vectors of all bodies' values, by plain loops: every expression of Eigen's is
+/// a type of its own, and the compiler of whoever includes the headers pays for it.
+namespace voussoir {
+
+[[nodiscard]] inline Eigen::VectorXd constants(Eigen::Index size, double value) {
+  Eigen::VectorXd vector(size);
+  std::fill(vector.data(), vector.data() + size, value);
+  return vector;
+}
+[[nodiscard]] inline Eigen::VectorXd zeros(Eigen::Index size) { return constants(size, 0); }
+
+[[nodiscard]] inline Eigen::VectorXd opposite(const Eigen::VectorXd& a) {
+  Eigen::VectorXd vector(a.size());
+  for (Eigen::Index k = 0; k < a.size(); ++k) vector.data()[k] = -a.data()[k];
+  return vector;
+}
+/// factor / a, entry by entry.
+[[nodiscard]] inline Eigen::VectorXd inverses(const Eigen::VectorXd& a, double factor = 1) {
+  Eigen::VectorXd vector(a.size());
+  for (Eigen::Index k = 0; k < a.size(); ++k) vector.data()[k] = factor / a.data()[k];
+  return vector;
+}
+/// target = a + factor * b
+inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& a, double factor,
+                       const Eigen::VectorXd& b) {
+  target.resize(a.size());
+  for (Eigen::Index k = 0; k < a.size(); ++k) target.data()[k] = a.data()[k] + factor * b.data()[k];
+}
+/// The largest entry of a over that of b. @pre neither is empty, every entry of b > 0
+[[nodiscard]] inline double largest_quotient(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double largest = a.data()[0] / b.data()[0];
+  for (Eigen::Index k = 1; k < a.size(); ++k)
+    largest = std::max(largest, a.data()[k] / b.data()[k]);
+  return largest;
+}
+
+}  // namespace voussoir
