@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-// One of the two sources of voussoir::compiled: what solver/compiled.hpp lists for this geometry.
+// One of the two sources of voussoir::compiled: what the headers list for this geometry.
 #define VOUSSOIR_SPATIAL_TEMPLATE template
-#include <voussoir/solver/compiled.hpp>
+#include <voussoir/voussoir.hpp>

@@ -21,3 +21,13 @@
 #define VOUSSOIR_BODIES 0
 #endif
 #endif
+
+/// Templates of which the library holds the common instances: a header that includes this one ends
+/// with a list of them under `#ifdef VOUSSOIR_COMPILED`. The library's own sources (cmake/compiled)
+/// define these words as plain `template`.
+#ifndef VOUSSOIR_PLANAR_TEMPLATE
+#define VOUSSOIR_PLANAR_TEMPLATE extern template
+#endif
+#ifndef VOUSSOIR_SPATIAL_TEMPLATE
+#define VOUSSOIR_SPATIAL_TEMPLATE extern template
+#endif

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/message_number.hpp>
 
 /// On in tests and debug builds: a broken invariant of the toolkit itself, never a user's mistake.
@@ -32,10 +33,7 @@ class NumericalFault : public std::runtime_error {
 
 /// Refuses a parameter outside its range; `range` reads like "> 0". Written so that NaN is refused:
 /// pass the condition that must hold.
-inline void require(bool holds, const char* name, double value, const char* range) {
-  if (holds) return;
-  throw InvalidInput(std::string(name) + " = " + message_number(value) + ": must be " + range);
-}
+VOUSSOIR_INLINE void require(bool holds, const char* name, double value, const char* range);
 
 /// Tells a law that its values are without units, or in others than SI: `CoulombJoint({1, 1, 0},
 /// any_units)`. Values too small to be meant in SI units are then taken too.
@@ -47,37 +45,15 @@ inline constexpr AnyUnits any_units{};
 /// @param unit    of the value, "Pa/m"
 /// @param least   the smallest that is plausible
 /// @param meant   the larger unit, "GPa/m", and how many of `unit` it is
-inline void require_plausible(double value, const char* name, const char* unit, double least,
-                              const char* meant, double factor) {
-  if (value >= least) return;
-  throw InvalidInput(std::string(name) + " = " + message_number(value) + " " + unit +
-                     ": must be >= " + message_number(least) + " " + unit + "; did you mean " +
-                     message_number(value) + " " + meant + " = " + message_number(factor * value) +
-                     " " + unit + "?");
-}
+VOUSSOIR_INLINE void require_plausible(double value, const char* name, const char* unit,
+                                       double least, const char* meant, double factor);
 
 /// Refuses an angle outside its range, and says what it is in degrees: radians are wanted.
-inline void require_angle(bool holds, const char* name, double value, const char* range) {
-  if (holds) return;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  std::string text = std::string(name) + " = " + message_number(value) + " rad (" +
-                     message_number(value / degree) + " deg): must be " + range;
-  if (value >= 2 && value <= 360)
-    text += "; did you mean " + message_number(value) + " deg = " + message_number(value * degree) +
-            " rad?";
-  throw InvalidInput(text);
-}
+VOUSSOIR_INLINE void require_angle(bool holds, const char* name, double value, const char* range);
 
 /// The same for an angle that may be low to high [rad].
 /// @param name  with what it belongs to: "joint set J1: dip"
-inline void require_angle(const std::string& name, double angle, double low, double high) {
-  if (angle >= low && angle <= high) return;
-  constexpr double degree = 3.14159265358979323846 / 180;
-  const std::string range = message_number(low) + " to " + message_number(high) + " rad (" +
-                            message_number(low / degree) + " to " + message_number(high / degree) +
-                            " deg)";
-  require_angle(false, name.c_str(), angle, range.c_str());
-}
+VOUSSOIR_INLINE void require_angle(const std::string& name, double angle, double low, double high);
 
 /// Runs `make`; if it refuses its data, the refusal says of what: "block 17: convex polygon: ...".
 /// A shape does not know its number, whoever builds it from a list does.
@@ -91,5 +67,43 @@ auto naming(const std::string& what, Make&& make) {
     throw InvalidInput(what + ": " + error.what());
   }
 }
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE void require(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  throw InvalidInput(std::string(name) + " = " + message_number(value) + ": must be " + range);
+}
+
+VOUSSOIR_INLINE void require_plausible(double value, const char* name, const char* unit,
+                                       double least, const char* meant, double factor) {
+  if (value >= least) return;
+  throw InvalidInput(std::string(name) + " = " + message_number(value) + " " + unit +
+                     ": must be >= " + message_number(least) + " " + unit + "; did you mean " +
+                     message_number(value) + " " + meant + " = " + message_number(factor * value) +
+                     " " + unit + "?");
+}
+
+VOUSSOIR_INLINE void require_angle(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  constexpr double degree = 3.14159265358979323846 / 180;
+  std::string text = std::string(name) + " = " + message_number(value) + " rad (" +
+                     message_number(value / degree) + " deg): must be " + range;
+  if (value >= 2 && value <= 360)
+    text += "; did you mean " + message_number(value) + " deg = " + message_number(value * degree) +
+            " rad?";
+  throw InvalidInput(text);
+}
+
+VOUSSOIR_INLINE void require_angle(const std::string& name, double angle, double low, double high) {
+  if (angle >= low && angle <= high) return;
+  constexpr double degree = 3.14159265358979323846 / 180;
+  const std::string range = message_number(low) + " to " + message_number(high) + " rad (" +
+                            message_number(low / degree) + " to " + message_number(high / degree) +
+                            " deg)";
+  require_angle(false, name.c_str(), angle, range.c_str());
+}
+
+#endif
 
 }  // namespace voussoir

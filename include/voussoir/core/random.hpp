@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 
 namespace voussoir {
 
@@ -25,33 +26,10 @@ class Random {
 
   /// One block of the generator: ten rounds on a 128-bit counter with a 64-bit key.
   [[nodiscard]] static std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
-                                                           std::array<std::uint32_t, 2> key) {
-    for (int round = 0; round < 10; ++round) {
-      const std::uint64_t left = std::uint64_t{0xD2511F53} * counter[0];
-      const std::uint64_t right = std::uint64_t{0xCD9E8D57} * counter[2];
-      counter = {static_cast<std::uint32_t>(right >> 32) ^ counter[1] ^ key[0],
-                 static_cast<std::uint32_t>(right),
-                 static_cast<std::uint32_t>(left >> 32) ^ counter[3] ^ key[1],
-                 static_cast<std::uint32_t>(left)};
-      key[0] += 0x9E3779B9;
-      key[1] += 0xBB67AE85;
-    }
-    return counter;
-  }
+                                                           std::array<std::uint32_t, 2> key);
 
   /// 64 random bits.
-  std::uint64_t bits() {
-    if (used_ == 2) {
-      const auto lower = [](std::uint64_t v) { return static_cast<std::uint32_t>(v); };
-      const auto upper = [](std::uint64_t v) { return static_cast<std::uint32_t>(v >> 32); };
-      block_ = philox({lower(counter_), upper(counter_), lower(stream_), upper(stream_)},
-                      {lower(seed_), upper(seed_)});
-      ++counter_;
-      used_ = 0;
-    }
-    const std::size_t first = 2 * used_++;
-    return block_[first] | (std::uint64_t{block_[first + 1]} << 32);
-  }
+  std::uint64_t bits();
 
   /// Uniform on [0, 1): a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
@@ -69,20 +47,7 @@ class Random {
   /// Source: Karney (2016), Sampling exactly from the normal distribution, ACM TOMS 42(1), 3,
   /// algorithm N: comparisons of uniform deviates only, hence the same bits everywhere, which an
   /// inverse distribution function or Box-Muller (logarithm, cosine) does not give.
-  double normal() {
-    for (;;) {
-      int k = 0;
-      while (accept_half()) ++k;
-      bool accepted = true;
-      for (int trial = 0; accepted && trial < k * (k - 1); ++trial) accepted = accept_half();
-      if (!accepted) continue;
-      const double x = uniform();
-      for (int trial = 0; accepted && trial <= k; ++trial) accepted = accept_tail(k, x);
-      if (!accepted) continue;
-      const double magnitude = k + x;
-      return (bits() & 1U) != 0U ? -magnitude : magnitude;
-    }
-  }
+  double normal();
 
   /// Fisher-Yates shuffle.
   template <class T>
@@ -122,5 +87,52 @@ class Random {
   std::array<std::uint32_t, 4> block_{};
   std::size_t used_ = 2;  ///< halves of the block already handed out
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::array<std::uint32_t, 4> Random::philox(std::array<std::uint32_t, 4> counter,
+                                                            std::array<std::uint32_t, 2> key) {
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t left = std::uint64_t{0xD2511F53} * counter[0];
+    const std::uint64_t right = std::uint64_t{0xCD9E8D57} * counter[2];
+    counter = {static_cast<std::uint32_t>(right >> 32) ^ counter[1] ^ key[0],
+               static_cast<std::uint32_t>(right),
+               static_cast<std::uint32_t>(left >> 32) ^ counter[3] ^ key[1],
+               static_cast<std::uint32_t>(left)};
+    key[0] += 0x9E3779B9;
+    key[1] += 0xBB67AE85;
+  }
+  return counter;
+}
+
+VOUSSOIR_INLINE std::uint64_t Random::bits() {
+  if (used_ == 2) {
+    const auto lower = [](std::uint64_t v) { return static_cast<std::uint32_t>(v); };
+    const auto upper = [](std::uint64_t v) { return static_cast<std::uint32_t>(v >> 32); };
+    block_ = philox({lower(counter_), upper(counter_), lower(stream_), upper(stream_)},
+                    {lower(seed_), upper(seed_)});
+    ++counter_;
+    used_ = 0;
+  }
+  const std::size_t first = 2 * used_++;
+  return block_[first] | (std::uint64_t{block_[first + 1]} << 32);
+}
+
+VOUSSOIR_INLINE double Random::normal() {
+  for (;;) {
+    int k = 0;
+    while (accept_half()) ++k;
+    bool accepted = true;
+    for (int trial = 0; accepted && trial < k * (k - 1); ++trial) accepted = accept_half();
+    if (!accepted) continue;
+    const double x = uniform();
+    for (int trial = 0; accepted && trial <= k; ++trial) accepted = accept_tail(k, x);
+    if (!accepted) continue;
+    const double magnitude = k + x;
+    return (bits() & 1U) != 0U ? -magnitude : magnitude;
+  }
+}
+
+#endif
 
 }  // namespace voussoir

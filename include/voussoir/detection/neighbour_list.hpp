@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -87,62 +88,10 @@ class NeighbourList {
     friend auto operator<=>(const Entry&, const Entry&) = default;
   };
 
-  void make(const PlacedShapes<Dim>& shapes) {
-    boxes_.clear();
-    Vec<Dim> extent = zeros<Vec<Dim>>();
-    for (std::size_t k = 0; k < shapes.size(); ++k) {
-      Box<Dim> box = bounding_box(shapes[k]);
-      if (!(is_finite(box.low) && is_finite(box.high)))
-        throw InvalidInput("neighbour list: shape " + std::to_string(k) +
-                           " has a coordinate that is not finite");
-      extent += box.high - box.low;
-      box.low = shifted_by(box.low, -0.5 * margin_);
-      box.high = shifted_by(box.high, 0.5 * margin_);
-      boxes_.push_back(box);
-    }
-    pairs_.clear();
-    if (boxes_.empty()) return;
-    // Cells as large as the mean box; larger while large boxes fill too many of them.
-    origin_ = boxes_.front().low;
-    size_ = shifted_by(extent / static_cast<double>(boxes_.size()), margin_ + reach_);
-    size_ = larger_of(size_, all_entries<Dim>(1e-3 * largest_entry(size_)));
-    if (!(largest_entry(size_) > 0)) size_ = all_entries<Dim>(1);
-    while (entries_needed() > 32.0 * static_cast<double>(boxes_.size())) size_ *= 2;
-    std::vector<Entry> entries;
-    for (std::size_t k = 0; k < boxes_.size(); ++k) {
-      const Cell low = cell_of(shifted_by(boxes_[k].low, -0.5 * reach_));
-      const Cell high = cell_of(shifted_by(boxes_[k].high, 0.5 * reach_));
-      for (Cell cell = low;;) {
-        entries.push_back({cell, static_cast<std::uint32_t>(k)});
-        int axis = 0;
-        while (axis < Dim && cell[index(axis)] == high[index(axis)]) {
-          cell[index(axis)] = low[index(axis)];
-          ++axis;
-        }
-        if (axis == Dim) break;
-        ++cell[index(axis)];
-      }
-    }
-    std::sort(entries.begin(), entries.end());
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j)
-        add(shapes, entries[i].shape, entries[j].shape, entries[i].cell);
-    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
-      return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
-    });
-  }
+  void make(const PlacedShapes<Dim>& shapes);
 
   /// Adds the pair if its boxes meet, and if this cell is the first they have in common.
-  void add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j, const Cell& cell) {
-    const Box<Dim>&a = boxes_[i], &b = boxes_[j];
-    if (!a.meets(b, reach_)) return;
-    if (cell_of(shifted_by(larger_of(a.low, b.low), -0.5 * reach_)) != cell) return;
-    const Vec<Dim>&home_i = shapes.home(i), &home_j = shapes.home(j);
-    bool swap = j < i;
-    for (int axis = Dim; axis-- > 0;)
-      if (home_i[axis] != home_j[axis]) swap = home_i[axis] > home_j[axis];
-    pairs_.push_back(swap ? Pair{j, i} : Pair{i, j});
-  }
+  void add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j, const Cell& cell);
 
   [[nodiscard]] double entries_needed() const {
     double sum = 0;
@@ -164,5 +113,69 @@ class NeighbourList {
   std::vector<Box<Dim>> boxes_;  ///< enlarged
   std::vector<Pair> pairs_;
 };
+
+template <int Dim>
+void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
+  boxes_.clear();
+  Vec<Dim> extent = zeros<Vec<Dim>>();
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    Box<Dim> box = bounding_box(shapes[k]);
+    if (!(is_finite(box.low) && is_finite(box.high)))
+      throw InvalidInput("neighbour list: shape " + std::to_string(k) +
+                         " has a coordinate that is not finite");
+    extent += box.high - box.low;
+    box.low = shifted_by(box.low, -0.5 * margin_);
+    box.high = shifted_by(box.high, 0.5 * margin_);
+    boxes_.push_back(box);
+  }
+  pairs_.clear();
+  if (boxes_.empty()) return;
+  // Cells as large as the mean box; larger while large boxes fill too many of them.
+  origin_ = boxes_.front().low;
+  size_ = shifted_by(extent / static_cast<double>(boxes_.size()), margin_ + reach_);
+  size_ = larger_of(size_, all_entries<Dim>(1e-3 * largest_entry(size_)));
+  if (!(largest_entry(size_) > 0)) size_ = all_entries<Dim>(1);
+  while (entries_needed() > 32.0 * static_cast<double>(boxes_.size())) size_ *= 2;
+  std::vector<Entry> entries;
+  for (std::size_t k = 0; k < boxes_.size(); ++k) {
+    const Cell low = cell_of(shifted_by(boxes_[k].low, -0.5 * reach_));
+    const Cell high = cell_of(shifted_by(boxes_[k].high, 0.5 * reach_));
+    for (Cell cell = low;;) {
+      entries.push_back({cell, static_cast<std::uint32_t>(k)});
+      int axis = 0;
+      while (axis < Dim && cell[index(axis)] == high[index(axis)]) {
+        cell[index(axis)] = low[index(axis)];
+        ++axis;
+      }
+      if (axis == Dim) break;
+      ++cell[index(axis)];
+    }
+  }
+  std::sort(entries.begin(), entries.end());
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j)
+      add(shapes, entries[i].shape, entries[j].shape, entries[i].cell);
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
+    return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
+  });
+}
+
+template <int Dim>
+void NeighbourList<Dim>::add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j,
+                             const Cell& cell) {
+  const Box<Dim>&a = boxes_[i], &b = boxes_[j];
+  if (!a.meets(b, reach_)) return;
+  if (cell_of(shifted_by(larger_of(a.low, b.low), -0.5 * reach_)) != cell) return;
+  const Vec<Dim>&home_i = shapes.home(i), &home_j = shapes.home(j);
+  bool swap = j < i;
+  for (int axis = Dim; axis-- > 0;)
+    if (home_i[axis] != home_j[axis]) swap = home_i[axis] > home_j[axis];
+  pairs_.push_back(swap ? Pair{j, i} : Pair{i, j});
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class NeighbourList<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class NeighbourList<3>;
+#endif
 
 }  // namespace voussoir

@@ -9,6 +9,7 @@
 #include <string>
 #include <type_traits>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -103,73 +104,11 @@ class PlacedShapes {
   /// @param origin  of the shape's own frame, e.g. its centroid [m]
   /// @return  its number, from 0
   /// @throws InvalidInput  the origin is not finite, or more than 65535 vertices or faces
-  std::size_t add(const Shape& shape, const Vec<Dim>& origin) {
-    const std::size_t vertex_count = shape.vertices().size(), face_count = shape.size();
-    const auto refuse = [this](const std::string& what) {
-      throw InvalidInput("placed shapes: shape " + std::to_string(size()) + what);
-    };
-    if (!is_finite(origin)) refuse(": the origin of its frame must be finite");
-    if (std::max(vertex_count, face_count) > UINT16_MAX)
-      refuse(" has more than 65535 vertices or faces");
-    const Record record{placed_.size(), static_cast<std::uint32_t>(vertex_count),
-                        static_cast<std::uint32_t>(face_count)};
-    const std::size_t vertex_stride = record.vertex_stride(), face_stride = record.face_stride();
-    records_.push_back(record);
-    homes_.push_back(origin);
-    const std::size_t length = Dim * vertex_stride + (Dim + 1) * face_stride;
-    own_.resize(own_.size() + length);
-    placed_.resize(own_.size());
-    double* out = own_.data() + records_.back().begin;
-    for (int axis = 0; axis < Dim; ++axis, out += vertex_stride)
-      for (std::size_t k = 0; k < vertex_stride; ++k)
-        out[k] = shape.vertex(std::min(k, vertex_count - 1))[axis] - origin[axis];
-    for (std::size_t k = 0; k < face_stride; ++k) {
-      const auto side = shape.half_space(std::min(k, face_count - 1));
-      for (int axis = 0; axis < Dim; ++axis)
-        out[static_cast<std::size_t>(axis) * face_stride + k] = side.normal[axis];
-      out[Dim * face_stride + k] = -shape.distance(std::min(k, face_count - 1), origin);
-    }
-    if constexpr (Dim == 3) add_topology(shape);
-    Pose<Dim> pose;
-    pose.position = origin;
-    place(records_.size() - 1, pose);
-    return records_.size() - 1;
-  }
+  std::size_t add(const Shape& shape, const Vec<Dim>& origin);
 
   /// Moves a shape from its own frame to `pose`.
   /// @throws InvalidInput  the pose is not finite; the shape stays where it was
-  void place(std::size_t shape, const Pose<Dim>& pose) {
-    if (!std::isfinite(pose.position.sum() + pose.rotation.sum()))
-      throw InvalidInput("placed shapes: pose of shape " + std::to_string(shape) + " at " +
-                         text_of<Dim>(pose.position) + ": position and rotation must be finite");
-    const Record& r = records_[shape];
-    const double* from = own_.data() + r.begin;
-    double* to = placed_.data() + r.begin;
-    const std::size_t vertex_stride = r.vertex_stride(), face_stride = r.face_stride();
-    using Lanes = detail::VectorLanes;
-    const auto turned = [&pose](const double* x, std::size_t stride, int axis) {
-      Lanes sum = Lanes::all(pose.rotation(axis, 0)) * Lanes::load(x) +
-                  Lanes::all(pose.rotation(axis, 1)) * Lanes::load(x + stride);
-      if constexpr (Dim == 3)
-        sum = sum + Lanes::all(pose.rotation(axis, 2)) * Lanes::load(x + 2 * stride);
-      return sum;
-    };
-    for (std::size_t k = 0; k < vertex_stride; k += lane_count)
-      for (int axis = 0; axis < Dim; ++axis)
-        (turned(from + k, vertex_stride, axis) + Lanes::all(pose.position[axis]))
-            .store(to + static_cast<std::size_t>(axis) * vertex_stride + k);
-    from += Dim * vertex_stride;
-    to += Dim * vertex_stride;
-    for (std::size_t k = 0; k < face_stride; k += lane_count) {
-      Lanes offset = Lanes::load(from + Dim * face_stride + k);
-      for (int axis = 0; axis < Dim; ++axis) {
-        const Lanes normal = turned(from + k, face_stride, axis);
-        normal.store(to + static_cast<std::size_t>(axis) * face_stride + k);
-        offset = offset + normal * Lanes::all(pose.position[axis]);
-      }
-      offset.store(to + Dim * face_stride + k);
-    }
-  }
+  void place(std::size_t shape, const Pose<Dim>& pose);
 
   [[nodiscard]] std::size_t size() const { return records_.size(); }
 
@@ -209,49 +148,7 @@ class PlacedShapes {
     double diameter, unevenness;
   };
 
-  void add_topology(const ConvexPolyhedron& shape) {
-    if (shape.size() > 65535 || shape.vertices().size() > 65535)
-      throw InvalidInput("placed shapes: shape " + std::to_string(links_.size()) + " has " +
-                         std::to_string(shape.size()) + " faces and " +
-                         std::to_string(shape.vertices().size()) +
-                         " vertices: at most 65535 of each");
-    const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
-    Links links{
-        edges_.size(), shape.edges().size(), begins_.size(), sides_.size(), 0, shape.diameter(), 0};
-    for (const auto& edge : shape.edges())
-      edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
-    std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
-    const auto mark = [this] { begins_.push_back(static_cast<std::uint32_t>(indices_.size())); };
-    for (std::size_t face = 0; face < shape.size(); ++face) {
-      mark();
-      for (const int vertex : shape.loop(face)) {
-        indices_.push_back(small(vertex));
-        const double off = shape.distance(face, shape.vertex(static_cast<std::size_t>(vertex)));
-        links.unevenness = std::max(links.unevenness, std::abs(off));
-        fans[static_cast<std::size_t>(vertex)].push_back(small(face));
-      }
-    }
-    mark();
-    sides_.resize(sides_.size() + 2 * links.edge_count);
-    const auto link = [&](int face, int vertex, std::size_t edge) {
-      const auto loop = shape.loop(static_cast<std::size_t>(face));
-      const auto k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
-      const std::size_t before =
-          begins_[links.first_loop + static_cast<std::size_t>(face)] - begins_[links.first_loop];
-      sides_[links.first_side + before + static_cast<std::size_t>(k)] = small(edge);
-    };
-    for (std::size_t k = 0; k < links.edge_count; ++k) {
-      link(shape.edges()[k].left, shape.edges()[k].from, k);
-      link(shape.edges()[k].right, shape.edges()[k].to, k);
-    }
-    links.first_fan = begins_.size();
-    for (const auto& fan : fans) {
-      mark();
-      for (const auto index : fan) indices_.push_back(index);
-    }
-    mark();
-    links_.push_back(links);
-  }
+  void add_topology(const ConvexPolyhedron& shape);
 
   template <class T>
   using Aligned = std::vector<T, Eigen::aligned_allocator<T>>;
@@ -264,5 +161,123 @@ class PlacedShapes {
   std::vector<std::uint16_t> indices_;  ///< vertices of loops, faces of fans
   std::vector<std::uint16_t> sides_;    ///< edges of loops
 };
+
+template <int Dim>
+std::size_t PlacedShapes<Dim>::add(const Shape& shape, const Vec<Dim>& origin) {
+  const std::size_t vertex_count = shape.vertices().size(), face_count = shape.size();
+  const auto refuse = [this](const std::string& what) {
+    throw InvalidInput("placed shapes: shape " + std::to_string(size()) + what);
+  };
+  if (!is_finite(origin)) refuse(": the origin of its frame must be finite");
+  if (std::max(vertex_count, face_count) > UINT16_MAX)
+    refuse(" has more than 65535 vertices or faces");
+  const Record record{placed_.size(), static_cast<std::uint32_t>(vertex_count),
+                      static_cast<std::uint32_t>(face_count)};
+  const std::size_t vertex_stride = record.vertex_stride(), face_stride = record.face_stride();
+  records_.push_back(record);
+  homes_.push_back(origin);
+  const std::size_t length = Dim * vertex_stride + (Dim + 1) * face_stride;
+  own_.resize(own_.size() + length);
+  placed_.resize(own_.size());
+  double* out = own_.data() + records_.back().begin;
+  for (int axis = 0; axis < Dim; ++axis, out += vertex_stride)
+    for (std::size_t k = 0; k < vertex_stride; ++k)
+      out[k] = shape.vertex(std::min(k, vertex_count - 1))[axis] - origin[axis];
+  for (std::size_t k = 0; k < face_stride; ++k) {
+    const auto side = shape.half_space(std::min(k, face_count - 1));
+    for (int axis = 0; axis < Dim; ++axis)
+      out[static_cast<std::size_t>(axis) * face_stride + k] = side.normal[axis];
+    out[Dim * face_stride + k] = -shape.distance(std::min(k, face_count - 1), origin);
+  }
+  if constexpr (Dim == 3) add_topology(shape);
+  Pose<Dim> pose;
+  pose.position = origin;
+  place(records_.size() - 1, pose);
+  return records_.size() - 1;
+}
+
+template <int Dim>
+void PlacedShapes<Dim>::place(std::size_t shape, const Pose<Dim>& pose) {
+  if (!std::isfinite(pose.position.sum() + pose.rotation.sum()))
+    throw InvalidInput("placed shapes: pose of shape " + std::to_string(shape) + " at " +
+                       text_of<Dim>(pose.position) + ": position and rotation must be finite");
+  const Record& r = records_[shape];
+  const double* from = own_.data() + r.begin;
+  double* to = placed_.data() + r.begin;
+  const std::size_t vertex_stride = r.vertex_stride(), face_stride = r.face_stride();
+  using Lanes = detail::VectorLanes;
+  const auto turned = [&pose](const double* x, std::size_t stride, int axis) {
+    Lanes sum = Lanes::all(pose.rotation(axis, 0)) * Lanes::load(x) +
+                Lanes::all(pose.rotation(axis, 1)) * Lanes::load(x + stride);
+    if constexpr (Dim == 3)
+      sum = sum + Lanes::all(pose.rotation(axis, 2)) * Lanes::load(x + 2 * stride);
+    return sum;
+  };
+  for (std::size_t k = 0; k < vertex_stride; k += lane_count)
+    for (int axis = 0; axis < Dim; ++axis)
+      (turned(from + k, vertex_stride, axis) + Lanes::all(pose.position[axis]))
+          .store(to + static_cast<std::size_t>(axis) * vertex_stride + k);
+  from += Dim * vertex_stride;
+  to += Dim * vertex_stride;
+  for (std::size_t k = 0; k < face_stride; k += lane_count) {
+    Lanes offset = Lanes::load(from + Dim * face_stride + k);
+    for (int axis = 0; axis < Dim; ++axis) {
+      const Lanes normal = turned(from + k, face_stride, axis);
+      normal.store(to + static_cast<std::size_t>(axis) * face_stride + k);
+      offset = offset + normal * Lanes::all(pose.position[axis]);
+    }
+    offset.store(to + Dim * face_stride + k);
+  }
+}
+
+template <int Dim>
+void PlacedShapes<Dim>::add_topology(const ConvexPolyhedron& shape) {
+  if (shape.size() > 65535 || shape.vertices().size() > 65535)
+    throw InvalidInput("placed shapes: shape " + std::to_string(links_.size()) + " has " +
+                       std::to_string(shape.size()) + " faces and " +
+                       std::to_string(shape.vertices().size()) +
+                       " vertices: at most 65535 of each");
+  const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
+  Links links{
+      edges_.size(), shape.edges().size(), begins_.size(), sides_.size(), 0, shape.diameter(), 0};
+  for (const auto& edge : shape.edges())
+    edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
+  std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
+  const auto mark = [this] { begins_.push_back(static_cast<std::uint32_t>(indices_.size())); };
+  for (std::size_t face = 0; face < shape.size(); ++face) {
+    mark();
+    for (const int vertex : shape.loop(face)) {
+      indices_.push_back(small(vertex));
+      const double off = shape.distance(face, shape.vertex(static_cast<std::size_t>(vertex)));
+      links.unevenness = std::max(links.unevenness, std::abs(off));
+      fans[static_cast<std::size_t>(vertex)].push_back(small(face));
+    }
+  }
+  mark();
+  sides_.resize(sides_.size() + 2 * links.edge_count);
+  const auto link = [&](int face, int vertex, std::size_t edge) {
+    const auto loop = shape.loop(static_cast<std::size_t>(face));
+    const auto k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
+    const std::size_t before =
+        begins_[links.first_loop + static_cast<std::size_t>(face)] - begins_[links.first_loop];
+    sides_[links.first_side + before + static_cast<std::size_t>(k)] = small(edge);
+  };
+  for (std::size_t k = 0; k < links.edge_count; ++k) {
+    link(shape.edges()[k].left, shape.edges()[k].from, k);
+    link(shape.edges()[k].right, shape.edges()[k].to, k);
+  }
+  links.first_fan = begins_.size();
+  for (const auto& fan : fans) {
+    mark();
+    for (const auto index : fan) indices_.push_back(index);
+  }
+  mark();
+  links_.push_back(links);
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class PlacedShapes<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class PlacedShapes<3>;
+#endif
 
 }  // namespace voussoir

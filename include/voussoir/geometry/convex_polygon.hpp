@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
@@ -65,31 +66,7 @@ class ConvexPolygon {
   /// Both parts get the very same new vertices, bit for bit, so contacts found later from shared
   /// vertices close exactly. A vertex within `tolerance` of the line is taken to lie on it.
   [[nodiscard]] std::optional<std::pair<ConvexPolygon, ConvexPolygon>> split(
-      const HalfSpace<2>& line, int cut, double tolerance) const {
-    std::vector<double> distances(size());
-    bool below = false, above = false;
-    for (std::size_t k = 0; k < size(); ++k) {
-      const double d = line.distance(vertices_[k]);
-      distances[k] = std::abs(d) <= tolerance ? 0.0 : d;
-      below = below || distances[k] < 0;
-      above = above || distances[k] > 0;
-    }
-    if (!below || !above) return std::nullopt;
-    std::pair<ConvexPolygon, ConvexPolygon> parts;
-    for (std::size_t k = 0; k < size(); ++k) {
-      const std::size_t next = k + 1 == size() ? 0 : k + 1;
-      const double here = distances[k], there = distances[next];
-      if (here <= 0) parts.first.append(vertices_[k], here == 0 && there > 0 ? cut : cuts_[k]);
-      if (here >= 0) parts.second.append(vertices_[k], here == 0 && there < 0 ? cut : cuts_[k]);
-      if (here * there < 0) {
-        const Vec2 crossing =
-            vertices_[k] + (here / (here - there)) * (vertices_[next] - vertices_[k]);
-        parts.first.append(crossing, here < 0 ? cut : cuts_[k]);
-        parts.second.append(crossing, here > 0 ? cut : cuts_[k]);
-      }
-    }
-    return parts;
-  }
+      const HalfSpace<2>& line, int cut, double tolerance) const;
 
   /// Replaces every vertex by `place(vertex)`, which must not move it by more than a rounding, and
   /// drops faces whose ends have become one vertex.
@@ -128,46 +105,77 @@ class ConvexPolygon {
     cuts_.push_back(cut);
   }
 
-  void check() const {
-    const auto fail = [this](std::size_t k, const std::string& rule) {
-      throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule +
-                         ": it is at " + text_of<2>(vertices_[k]) + " m");
-    };
-    if (size() < 3)
-      throw InvalidInput("convex polygon: needs at least 3 vertices, has " +
-                         std::to_string(size()));
-    if (cuts_.size() != size())
-      throw InvalidInput("convex polygon: needs one label per face, has " +
-                         std::to_string(cuts_.size()) + " for " + std::to_string(size()));
-    for (std::size_t k = 0; k < size(); ++k)
-      if (!is_finite(vertices_[k])) fail(k, "is not finite");
-    double turning = 0, doubled_area = 0;
-    for (std::size_t k = 0; k < size(); ++k) {
-      doubled_area +=
-          cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
-      const std::size_t corner = k + 1 == size() ? 0 : k + 1;
-      const Segment in = face(k), out = face(corner);
-      if (!(in.length() > 0)) fail(k, "is repeated by the next one");
-      const Vec2 u = in.end - in.start, v = out.end - out.start;
-      const double turn = std::atan2(cross(u, v), dot_product(u, v));
-      if (!(cross(u, v) >= 0))
-        fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
-                         message_number(turn * 180 / 3.141592653589793) +
-                         " degrees where it must turn left, by 0 or more");
-      turning += turn;
-    }
-    // Every corner turns left; a star polygon does so too, but turns more than once.
-    if (!(doubled_area > 0))
-      throw InvalidInput("convex polygon: encloses an area of " +
-                         message_number(0.5 * doubled_area) + " m^2, must be > 0");
-    if (!(std::abs(turning - 6.283185307179586) <= 1e-6))
-      throw InvalidInput("convex polygon: the outline crosses itself: it turns by " +
-                         message_number(turning * 180 / 3.141592653589793) +
-                         " degrees in all, must be 360");
-  }
+  void check() const;
 
   std::vector<Vec2> vertices_;
   std::vector<int> cuts_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE auto ConvexPolygon::split(const HalfSpace<2>& line, int cut, double tolerance) const
+    -> std::optional<std::pair<ConvexPolygon, ConvexPolygon>> {
+  std::vector<double> distances(size());
+  bool below = false, above = false;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double d = line.distance(vertices_[k]);
+    distances[k] = std::abs(d) <= tolerance ? 0.0 : d;
+    below = below || distances[k] < 0;
+    above = above || distances[k] > 0;
+  }
+  if (!below || !above) return std::nullopt;
+  std::pair<ConvexPolygon, ConvexPolygon> parts;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const std::size_t next = k + 1 == size() ? 0 : k + 1;
+    const double here = distances[k], there = distances[next];
+    if (here <= 0) parts.first.append(vertices_[k], here == 0 && there > 0 ? cut : cuts_[k]);
+    if (here >= 0) parts.second.append(vertices_[k], here == 0 && there < 0 ? cut : cuts_[k]);
+    if (here * there < 0) {
+      const Vec2 crossing =
+          vertices_[k] + (here / (here - there)) * (vertices_[next] - vertices_[k]);
+      parts.first.append(crossing, here < 0 ? cut : cuts_[k]);
+      parts.second.append(crossing, here > 0 ? cut : cuts_[k]);
+    }
+  }
+  return parts;
+}
+
+VOUSSOIR_INLINE void ConvexPolygon::check() const {
+  const auto fail = [this](std::size_t k, const std::string& rule) {
+    throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule + ": it is at " +
+                       text_of<2>(vertices_[k]) + " m");
+  };
+  if (size() < 3)
+    throw InvalidInput("convex polygon: needs at least 3 vertices, has " + std::to_string(size()));
+  if (cuts_.size() != size())
+    throw InvalidInput("convex polygon: needs one label per face, has " +
+                       std::to_string(cuts_.size()) + " for " + std::to_string(size()));
+  for (std::size_t k = 0; k < size(); ++k)
+    if (!is_finite(vertices_[k])) fail(k, "is not finite");
+  double turning = 0, doubled_area = 0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    doubled_area += cross(vertices_[k] - vertices_[0], vertices_[(k + 1) % size()] - vertices_[0]);
+    const std::size_t corner = k + 1 == size() ? 0 : k + 1;
+    const Segment in = face(k), out = face(corner);
+    if (!(in.length() > 0)) fail(k, "is repeated by the next one");
+    const Vec2 u = in.end - in.start, v = out.end - out.start;
+    const double turn = std::atan2(cross(u, v), dot_product(u, v));
+    if (!(cross(u, v) >= 0))
+      fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
+                       message_number(turn * 180 / 3.141592653589793) +
+                       " degrees where it must turn left, by 0 or more");
+    turning += turn;
+  }
+  // Every corner turns left; a star polygon does so too, but turns more than once.
+  if (!(doubled_area > 0))
+    throw InvalidInput("convex polygon: encloses an area of " + message_number(0.5 * doubled_area) +
+                       " m^2, must be > 0");
+  if (!(std::abs(turning - 6.283185307179586) <= 1e-6))
+    throw InvalidInput("convex polygon: the outline crosses itself: it turns by " +
+                       message_number(turning * 180 / 3.141592653589793) +
+                       " degrees in all, must be 360");
+}
+
+#endif
 
 }  // namespace voussoir

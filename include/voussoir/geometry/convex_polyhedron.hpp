@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/detail/surface.hpp>
@@ -47,18 +48,7 @@ class ConvexPolyhedron {
   ///                       and the rule. Lengths are compared with 1e-9 of the size.
   /// @cost  O(vertices * (vertices + faces)): all of them are compared with each other
   ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces,
-                   const std::vector<int>& cuts) {
-    if (cuts.size() != faces.size())
-      throw InvalidInput("convex polyhedron: has " + std::to_string(cuts.size()) + " labels for " +
-                         std::to_string(faces.size()) + " faces, needs one for each");
-    surface_.vertices = std::move(vertices);
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      const auto begin = static_cast<int>(surface_.loops.size());
-      for (const int v : faces[f]) surface_.loops.push_back(v);
-      surface_.faces.push_back({{}, cuts[f], begin, static_cast<int>(surface_.loops.size())});
-    }
-    detail::SurfaceCheck(surface_).run();
-  }
+                   const std::vector<int>& cuts);
 
   /// The same with faces that no cut made; enough for all but `CutContacts`.
   ConvexPolyhedron(std::vector<Vec3> vertices, const std::vector<std::vector<int>>& faces)
@@ -97,19 +87,7 @@ class ConvexPolyhedron {
 
   [[nodiscard]] std::size_t edge_count() const { return surface_.loops.size() / 2; }
   /// All edges, each once.
-  [[nodiscard]] std::vector<Edge> edges() const {
-    const auto at = [](int index) { return static_cast<std::size_t>(index); };
-    std::vector<int> face_of(surface_.loops.size());
-    for (std::size_t f = 0; f < size(); ++f)
-      for (int h = surface_.faces[f].begin; h < surface_.faces[f].end; ++h)
-        face_of[at(h)] = static_cast<int>(f);
-    std::vector<Edge> all;
-    all.reserve(edge_count());
-    for (std::size_t h = 0; h < surface_.loops.size(); ++h)
-      if (const std::size_t twin = at(surface_.twins[h]); h < twin)
-        all.push_back({surface_.loops[h], surface_.loops[twin], face_of[h], face_of[twin]});
-    return all;
-  }
+  [[nodiscard]] std::vector<Edge> edges() const;
 
   /// Number of the vertex farthest in a direction (of any length); the first of equals.
   [[nodiscard]] std::size_t support(const Vec3& direction) const {
@@ -174,5 +152,38 @@ class ConvexPolyhedron {
  private:
   detail::Surface surface_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE ConvexPolyhedron::ConvexPolyhedron(std::vector<Vec3> vertices,
+                                                   const std::vector<std::vector<int>>& faces,
+                                                   const std::vector<int>& cuts) {
+  if (cuts.size() != faces.size())
+    throw InvalidInput("convex polyhedron: has " + std::to_string(cuts.size()) + " labels for " +
+                       std::to_string(faces.size()) + " faces, needs one for each");
+  surface_.vertices = std::move(vertices);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto begin = static_cast<int>(surface_.loops.size());
+    for (const int v : faces[f]) surface_.loops.push_back(v);
+    surface_.faces.push_back({{}, cuts[f], begin, static_cast<int>(surface_.loops.size())});
+  }
+  detail::SurfaceCheck(surface_).run();
+}
+
+VOUSSOIR_INLINE auto ConvexPolyhedron::edges() const -> std::vector<Edge> {
+  const auto at = [](int index) { return static_cast<std::size_t>(index); };
+  std::vector<int> face_of(surface_.loops.size());
+  for (std::size_t f = 0; f < size(); ++f)
+    for (int h = surface_.faces[f].begin; h < surface_.faces[f].end; ++h)
+      face_of[at(h)] = static_cast<int>(f);
+  std::vector<Edge> all;
+  all.reserve(edge_count());
+  for (std::size_t h = 0; h < surface_.loops.size(); ++h)
+    if (const std::size_t twin = at(surface_.twins[h]); h < twin)
+      all.push_back({surface_.loops[h], surface_.loops[twin], face_of[h], face_of[twin]});
+  return all;
+}
+
+#endif
 
 }  // namespace voussoir

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
@@ -46,27 +47,7 @@ class PrismaticOpening {
   [[nodiscard]] std::size_t size() const { return section_.size() + ends().size(); }
   /// Piece k as a polygon that covers it, at most `reach` long. The half space of its plane is what
   /// lies to the left of the edge, as in the section: inside the opening next to it.
-  [[nodiscard]] JointPlane side(std::size_t k, double reach) const {
-    const double from = std::max(from_, -reach), to = std::min(to_, reach);
-    if (k < section_.size()) {
-      const Segment edge = section_.edge(k);
-      const HalfSpace<2> line = left_of(edge.start, edge.end);
-      const Vec3 normal = in_space(line.normal, 0);
-      return {{normal, line.offset},
-              {in_space(edge.start, from), in_space(edge.start, to), in_space(edge.end, to),
-               in_space(edge.end, from)}};
-    }
-    // The rectangle around the section: what it cuts beside the face stays one body.
-    Vec2 low = section_.vertices().front(), high = low;
-    for (const Vec2& v : section_.vertices()) {
-      low = smaller_of(low, v);
-      high = larger_of(high, v);
-    }
-    const double y = ends()[k - section_.size()];
-    return {{Vec3(0, 1, 0), y},
-            {in_space(low, y), in_space({low.x(), high.y()}, y), in_space(high, y),
-             in_space({high.x(), low.y()}, y)}};
-  }
+  [[nodiscard]] JointPlane side(std::size_t k, double reach) const;
 
  private:
   [[nodiscard]] std::vector<double> ends() const {
@@ -79,5 +60,31 @@ class PrismaticOpening {
   SimplePolygon section_;
   double from_, to_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE auto PrismaticOpening::side(std::size_t k, double reach) const -> JointPlane {
+  const double from = std::max(from_, -reach), to = std::min(to_, reach);
+  if (k < section_.size()) {
+    const Segment edge = section_.edge(k);
+    const HalfSpace<2> line = left_of(edge.start, edge.end);
+    const Vec3 normal = in_space(line.normal, 0);
+    return {{normal, line.offset},
+            {in_space(edge.start, from), in_space(edge.start, to), in_space(edge.end, to),
+             in_space(edge.end, from)}};
+  }
+  // The rectangle around the section: what it cuts beside the face stays one body.
+  Vec2 low = section_.vertices().front(), high = low;
+  for (const Vec2& v : section_.vertices()) {
+    low = smaller_of(low, v);
+    high = larger_of(high, v);
+  }
+  const double y = ends()[k - section_.size()];
+  return {{Vec3(0, 1, 0), y},
+          {in_space(low, y), in_space({low.x(), high.y()}, y), in_space(high, y),
+           in_space({high.x(), low.y()}, y)}};
+}
+
+#endif
 
 }  // namespace voussoir

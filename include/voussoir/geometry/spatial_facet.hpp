@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/detail/surface.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -51,54 +52,62 @@ struct SpatialFacet {
 
  private:
   /// Principal axes, as long as sqrt(2) times the radius of gyration along them.
-  [[nodiscard]] std::array<Vec3, 2> gyration(const Vec3& normal, double area) const {
-    // Along the longest edge the second moments of a thin facet are nearly uncoupled, and its small
-    // one keeps its digits.
-    Vec3 first = zeros<Vec3>();
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-      const Vec3 edge = vertices[k + 1 == vertices.size() ? 0 : k + 1] - vertices[k];
-      if (squared_length_of(edge) > (1 + 1e-9) * squared_length_of(first)) first = edge;
-    }
-    first = normalized(first);
-    const Vec3 second = cross(normal, first), centre = centroid_arm();
-    // Second moments of the triangles of a fan about its tip, over the area.
-    double xx = 0, xy = 0, yy = 0;
-    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
-      const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double share = dot_product(normal, cross(a, b - a)) / (2 * area) / 12;
-      const double ax = dot_product(a, first), ay = dot_product(a, second),
-                   bx = dot_product(b, first), by = dot_product(b, second);
-      const double sx = ax + bx, sy = ay + by;
-      xx += share * (ax * ax + bx * bx + sx * sx);
-      yy += share * (ay * ay + by * by + sy * sy);
-      xy += share * (ax * ay + bx * by + sx * sy);
-    }
-    const double cx = dot_product(centre, first), cy = dot_product(centre, second);
-    xx -= cx * cx;
-    yy -= cy * cy;
-    xy -= cx * cy;
-    const double half_difference = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
-    const double radius = std::hypot(half_difference, xy);
-    const double angle = radius > 1e-12 * mean ? 0.5 * std::atan2(xy, half_difference) : 0.0;
-    const Vec3 major = std::cos(angle) * first + std::sin(angle) * second;
-    const double large = mean + radius;
-    const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);  // the determinant over large
-    return {std::sqrt(2 * large) * major, std::sqrt(2 * small) * cross(normal, major)};
-  }
+  [[nodiscard]] std::array<Vec3, 2> gyration(const Vec3& normal, double area) const;
 
   /// From the first vertex to the centroid.
-  [[nodiscard]] Vec3 centroid_arm() const {
-    const Vec3 normal = normalized(area_vector());
-    Vec3 sum = zeros<Vec3>();
-    double weight = 0;
-    for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
-      const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-      const double doubled = dot_product(normal, cross(a, b - a));
-      weight += doubled;
-      sum += doubled / 3.0 * (a + b);
-    }
-    return weight > 0 ? Vec3(sum / weight) : sum;
-  }
+  [[nodiscard]] Vec3 centroid_arm() const;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::array<Vec3, 2> SpatialFacet::gyration(const Vec3& normal, double area) const {
+  // Along the longest edge the second moments of a thin facet are nearly uncoupled, and its small
+  // one keeps its digits.
+  Vec3 first = zeros<Vec3>();
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const Vec3 edge = vertices[k + 1 == vertices.size() ? 0 : k + 1] - vertices[k];
+    if (squared_length_of(edge) > (1 + 1e-9) * squared_length_of(first)) first = edge;
+  }
+  first = normalized(first);
+  const Vec3 second = cross(normal, first), centre = centroid_arm();
+  // Second moments of the triangles of a fan about its tip, over the area.
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+    const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
+    const double share = dot_product(normal, cross(a, b - a)) / (2 * area) / 12;
+    const double ax = dot_product(a, first), ay = dot_product(a, second),
+                 bx = dot_product(b, first), by = dot_product(b, second);
+    const double sx = ax + bx, sy = ay + by;
+    xx += share * (ax * ax + bx * bx + sx * sx);
+    yy += share * (ay * ay + by * by + sy * sy);
+    xy += share * (ax * ay + bx * by + sx * sy);
+  }
+  const double cx = dot_product(centre, first), cy = dot_product(centre, second);
+  xx -= cx * cx;
+  yy -= cy * cy;
+  xy -= cx * cy;
+  const double half_difference = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
+  const double radius = std::hypot(half_difference, xy);
+  const double angle = radius > 1e-12 * mean ? 0.5 * std::atan2(xy, half_difference) : 0.0;
+  const Vec3 major = std::cos(angle) * first + std::sin(angle) * second;
+  const double large = mean + radius;
+  const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);  // the determinant over large
+  return {std::sqrt(2 * large) * major, std::sqrt(2 * small) * cross(normal, major)};
+}
+
+VOUSSOIR_INLINE Vec3 SpatialFacet::centroid_arm() const {
+  const Vec3 normal = normalized(area_vector());
+  Vec3 sum = zeros<Vec3>();
+  double weight = 0;
+  for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+    const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
+    const double doubled = dot_product(normal, cross(a, b - a));
+    weight += doubled;
+    sum += doubled / 3.0 * (a + b);
+  }
+  return weight > 0 ? Vec3(sum / weight) : sum;
+}
+
+#endif
 
 }  // namespace voussoir

@@ -68,36 +68,7 @@ class StagedFile {
  public:
   /// @throws std::runtime_error  naming path and reason: no such folder, no permission, disk full,
   ///                             target is a folder
-  StagedFile(const std::filesystem::path& path, std::string_view content) : path_(path) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    // Follow a link, so that what it points to is replaced and not the link.
-    if (fs::is_symlink(fs::symlink_status(path_, ignored))) {
-      const fs::path pointed_to = fs::weakly_canonical(path_, ignored);
-      if (!ignored) path_ = pointed_to;
-    }
-    const fs::file_status status = fs::status(path_, ignored);
-    if (path_.filename().empty() || fs::is_directory(status)) {
-      detail::throw_write_error(path_, "it is a folder");
-    }
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-      content_for_device_ = content;
-      is_device_ = true;
-      return;
-    }
-    temporary_ = path_.parent_path() / detail::part_name(path_.filename().string());
-    errno = 0;
-    std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx");  // x: never an existing file
-    if (file == nullptr) {
-      const int reason = errno;
-      temporary_.clear();
-      detail::throw_write_error(path_, detail::error_text(reason));
-    }
-    if (const int reason = detail::write_and_close(file, content); reason != 0) {
-      discard();  // the destructor of a half-built object does not run
-      detail::throw_write_error(path_, detail::error_text(reason));
-    }
-  }
+  StagedFile(const std::filesystem::path& path, std::string_view content);
 
   StagedFile(StagedFile&& other) noexcept
       : path_(std::move(other.path_)),
@@ -112,21 +83,7 @@ class StagedFile {
   /// Puts the content in its place, replacing an older file in one step. A second call does
   /// nothing.
   /// @throws std::runtime_error  naming path and reason; the older file is then untouched
-  void publish() {
-    if (is_device_) {
-      is_device_ = false;
-      errno = 0;
-      std::FILE* file = std::fopen(path_.string().c_str(), "wb");
-      const int reason =
-          file == nullptr ? errno : detail::write_and_close(file, content_for_device_);
-      if (reason != 0) detail::throw_write_error(path_, detail::error_text(reason));
-    }
-    if (temporary_.empty()) return;
-    std::error_code failure;
-    std::filesystem::rename(temporary_, path_, failure);
-    if (failure) detail::throw_write_error(path_, failure.message());
-    temporary_.clear();
-  }
+  void publish();
 
  private:
   void discard() noexcept {
@@ -141,6 +98,57 @@ class StagedFile {
   std::string content_for_device_;
   bool is_device_ = false;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE StagedFile::StagedFile(const std::filesystem::path& path, std::string_view content)
+    : path_(path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  // Follow a link, so that what it points to is replaced and not the link.
+  if (fs::is_symlink(fs::symlink_status(path_, ignored))) {
+    const fs::path pointed_to = fs::weakly_canonical(path_, ignored);
+    if (!ignored) path_ = pointed_to;
+  }
+  const fs::file_status status = fs::status(path_, ignored);
+  if (path_.filename().empty() || fs::is_directory(status)) {
+    detail::throw_write_error(path_, "it is a folder");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    content_for_device_ = content;
+    is_device_ = true;
+    return;
+  }
+  temporary_ = path_.parent_path() / detail::part_name(path_.filename().string());
+  errno = 0;
+  std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx");  // x: never an existing file
+  if (file == nullptr) {
+    const int reason = errno;
+    temporary_.clear();
+    detail::throw_write_error(path_, detail::error_text(reason));
+  }
+  if (const int reason = detail::write_and_close(file, content); reason != 0) {
+    discard();  // the destructor of a half-built object does not run
+    detail::throw_write_error(path_, detail::error_text(reason));
+  }
+}
+
+VOUSSOIR_INLINE void StagedFile::publish() {
+  if (is_device_) {
+    is_device_ = false;
+    errno = 0;
+    std::FILE* file = std::fopen(path_.string().c_str(), "wb");
+    const int reason = file == nullptr ? errno : detail::write_and_close(file, content_for_device_);
+    if (reason != 0) detail::throw_write_error(path_, detail::error_text(reason));
+  }
+  if (temporary_.empty()) return;
+  std::error_code failure;
+  std::filesystem::rename(temporary_, path_, failure);
+  if (failure) detail::throw_write_error(path_, failure.message());
+  temporary_.clear();
+}
+
+#endif
 
 /// Writes a file so that a reader sees the old content or the new, never a part.
 /// @throws std::runtime_error  naming path and reason; the old file stays, no temporary is left

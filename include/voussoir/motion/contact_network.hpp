@@ -142,27 +142,9 @@ class ContactNetwork {
   void set_laws(const LawsBySet<JointLaw>& laws) { std::get<0>(groups_).set_laws(laws.all()); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
-  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
-    std::size_t before = 0;
-    each_group([&](auto& group) {
-      const std::size_t end = std::min(last, before + group.size());
-      for (std::size_t k = std::max(first, before); k < end; ++k)
-        reactions_[k] = group.react(k - before, bodies, lost);
-      before += group.size();
-    });
-  }
+  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost);
   /// Force and moment of all contacts on a body, as last computed; world axes.
-  [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {
-    Vec<Dim> force = zeros<Vec<Dim>>();
-    Spin<Dim> moment = zeros<Spin<Dim>>();
-    for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
-      const Reaction<Dim>& r = reactions_[ends_[k].contact];
-      // No branch: which end of a contact a body is cannot be foreseen.
-      force += ends_[k].sign() * r.force;
-      moment += r.moment[ends_[k].end];
-    }
-    return {force, moment};
-  }
+  [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const;
 
   [[nodiscard]] double stored_energy(const Bodies& bodies) const {
     double sum = 0;
@@ -269,25 +251,7 @@ class ContactNetwork {
   }
 
   /// Lists every body's contacts; those without points are on no list.
-  void list(std::size_t body_count) {
-    reactions_.resize(size());
-    first_end_.assign(body_count + 1, 0);
-    each([this](const auto&, const auto& c) {
-      if (c.first == c.last) return;
-      ++first_end_[index(c.a) + 1];
-      ++first_end_[index(c.b) + 1];
-    });
-    for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
-    ends_.resize(first_end_.back());
-    std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
-    std::uint32_t k = 0;
-    each([&](const auto&, const auto& c) {
-      const std::uint32_t contact = k++;
-      if (c.first == c.last) return;
-      ends_[next[index(c.a)]++] = {contact, 0};
-      ends_[next[index(c.b)]++] = {contact, 1};
-    });
-  }
+  void list(std::size_t body_count);
   /// Drops what is no longer used, and puts contacts in the order of the pairs.
   template <class KindOf>
   void tidy(Tracker& tracker, KindOf&& kind_of) {
@@ -318,24 +282,7 @@ class ContactNetwork {
     group.points().swap(points);
   }
 
-  [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const {
-    Stiffness sum = zeros<Stiffness>();
-    for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
-      std::size_t before = 0;
-      each_group([&](const auto& group) {
-        const std::size_t k = ends_[e].contact - before;  // wraps where it is of a group before
-        if (k < group.size()) add_springs(group, k, ends_[e].end == 1, bodies, sum);
-        before += group.size();
-      });
-    }
-    double largest = 0;
-    for (int r = 0; r < dof; ++r) {
-      double absolute = 0;
-      for (int k = 0; k < dof; ++k) absolute += std::abs(sum(r, k));
-      largest = std::max(largest, absolute);
-    }
-    return largest;
-  }
+  [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const;
   /// Adds M^-1/2 G^T K G M^-1/2 of one contact to the matrix of body a or b, in the body's frame.
   template <class Group>
   static void add_springs(const Group& group, std::size_t k, bool on_b, const Bodies& bodies,
@@ -374,5 +321,71 @@ class ContactNetwork {
   std::vector<char> is_stale_;    ///< contacts of the body have changed since `stiffest_`
   std::vector<double> stiffest_;  ///< [1/s^2]
 };
+
+template <int Dim, class JointLaw>
+void ContactNetwork<Dim, JointLaw>::react(std::size_t first, std::size_t last, const Bodies& bodies,
+                                          Dissipation& lost) {
+  std::size_t before = 0;
+  each_group([&](auto& group) {
+    const std::size_t end = std::min(last, before + group.size());
+    for (std::size_t k = std::max(first, before); k < end; ++k)
+      reactions_[k] = group.react(k - before, bodies, lost);
+    before += group.size();
+  });
+}
+
+template <int Dim, class JointLaw>
+auto ContactNetwork<Dim, JointLaw>::gather(std::size_t b) const -> std::pair<Vec<Dim>, Spin<Dim>> {
+  Vec<Dim> force = zeros<Vec<Dim>>();
+  Spin<Dim> moment = zeros<Spin<Dim>>();
+  for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
+    const Reaction<Dim>& r = reactions_[ends_[k].contact];
+    // No branch: which end of a contact a body is cannot be foreseen.
+    force += ends_[k].sign() * r.force;
+    moment += r.moment[ends_[k].end];
+  }
+  return {force, moment};
+}
+
+template <int Dim, class JointLaw>
+void ContactNetwork<Dim, JointLaw>::list(std::size_t body_count) {
+  reactions_.resize(size());
+  first_end_.assign(body_count + 1, 0);
+  each([this](const auto&, const auto& c) {
+    if (c.first == c.last) return;
+    ++first_end_[index(c.a) + 1];
+    ++first_end_[index(c.b) + 1];
+  });
+  for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
+  ends_.resize(first_end_.back());
+  std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
+  std::uint32_t k = 0;
+  each([&](const auto&, const auto& c) {
+    const std::uint32_t contact = k++;
+    if (c.first == c.last) return;
+    ends_[next[index(c.a)]++] = {contact, 0};
+    ends_[next[index(c.b)]++] = {contact, 1};
+  });
+}
+
+template <int Dim, class JointLaw>
+double ContactNetwork<Dim, JointLaw>::largest_row(std::size_t b, const Bodies& bodies) const {
+  Stiffness sum = zeros<Stiffness>();
+  for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
+    std::size_t before = 0;
+    each_group([&](const auto& group) {
+      const std::size_t k = ends_[e].contact - before;  // wraps where it is of a group before
+      if (k < group.size()) add_springs(group, k, ends_[e].end == 1, bodies, sum);
+      before += group.size();
+    });
+  }
+  double largest = 0;
+  for (int r = 0; r < dof; ++r) {
+    double absolute = 0;
+    for (int k = 0; k < dof; ++k) absolute += std::abs(sum(r, k));
+    largest = std::max(largest, absolute);
+  }
+  return largest;
+}
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
@@ -175,5 +176,10 @@ class ContactTracker {
   std::vector<Pose<Dim>> seen_;  ///< poses at the last update
   std::vector<double> placed_;   ///< for every shape, the path of its body when it was placed [m]
 };
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactTracker<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactTracker<3>;
+#endif
 
 }  // namespace voussoir

@@ -14,6 +14,7 @@
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/thread_team.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
@@ -123,15 +124,7 @@ class Dynamics : public MovingBodies<Dim> {
   }
   /// Loads every block with what it needs to be in equilibrium now, besides its other loads. This
   /// is what an excavation takes away: `set_held(fraction)` leaves a part of it.
-  void hold() {
-    begin();
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const auto [force, moment] = network_.gather(b);
-      held_[b] = {-force - loads_[b].force, -moment - loads_[b].moment};
-      held_[b].force[Dim - 1] += bodies_[b].mass * settings_.gravity;
-    }
-    set_held(1);
-  }
+  void hold();
   void set_held(double fraction) {
     held_fraction_ = fraction;
     fresh_ = false;
@@ -154,18 +147,7 @@ class Dynamics : public MovingBodies<Dim> {
   }
   /// Force and moment out of balance over the weight, the worst block [-]; a moment counts as a
   /// force at the radius.
-  [[nodiscard]] double unbalance_over_weight() {
-    begin();
-    double worst = 0;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const Body& body = bodies_[b];
-      if (!body.movable() || body.radius == 0) continue;
-      const Load<Dim> total = total_load(b);
-      worst = std::max(worst, (total.force.norm() + total.moment.norm() / body.radius) /
-                                  (body.mass * settings_.gravity));
-    }
-    return worst;
-  }
+  [[nodiscard]] double unbalance_over_weight();
 
   /// Where energy has gone since the beginning.
   [[nodiscard]] EnergyAudit energy() {
@@ -191,18 +173,7 @@ class Dynamics : public MovingBodies<Dim> {
 
   /// Moves on by a time; steps are shortened a little so that a whole number of them meets it.
   /// @throws NumericalFault  the run went bad (see `Health`): it is back in the last sound state
-  void advance(double time) {
-    require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
-    const double end = time_ + time;
-    while (end - time_ > 1e-12 * std::max(time, step_)) {
-      const double step = choose_step();
-      const int steps = static_cast<int>(std::min(std::ceil((end - time_) / step - 1e-9), 1e9));
-      const int batch = std::min(steps, settings_.check_every);
-      // A last step of another length would spoil the order of the scheme: all are shortened.
-      run_batch(batch, batch == steps ? (end - time_) / steps : step);
-    }
-    time_ = end;
-  }
+  void advance(double time);
   /// Moves on by a number of steps.
   void advance_steps(int count) {
     require(count >= 0, "steps to advance", count, ">= 0");
@@ -233,27 +204,7 @@ class Dynamics : public MovingBodies<Dim> {
     fresh_ = true;
   }
 
-  void take_in() {
-    if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
-    const bool is_first = known_bodies_ == 0;
-    if (is_first) {
-      sizes_ = detail::RunSizes::choose(bodies_, settings_);
-      tracker_.emplace(sizes_.reach, sizes_.refresh, 8 * sizes_.reach);
-    }
-    for (; known_shapes_ < shapes_.size(); ++known_shapes_) {
-      const auto& [shape, b] = shapes_[known_shapes_];
-      const Pose<Dim> home = this->home(b);
-      // Nodes of a lining do not touch one another: they are one family.
-      const bool of_lining = roles_[index(b)] == BodyRole::lining;
-      tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b);
-    }
-    known_bodies_ = bodies_.size();
-    held_.resize(known_bodies_);
-    acting_.resize(known_bodies_);
-    find_contacts();
-    forget();
-    if (is_first) start_audit();
-  }
+  void take_in();
   /// After a change by hand: the last sound state knows nothing of it, nor does what was computed.
   void forget() {
     sound_.reset();
@@ -269,48 +220,10 @@ class Dynamics : public MovingBodies<Dim> {
     forget();
   }
 
-  void find_contacts() {
-    const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
-      if (law_of_cut_.empty()) return 0;
-      const auto& [part, b] = shapes_[shape];
-      const Rotation<Dim> turn =
-          home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
-      const int cut = cut_facing(part, Vec<Dim>(turn * normal));
-      return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
-    };
-    if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.refound)) return;
-    stable_step_ = 0;
-    fresh_ = false;
-  }
+  void find_contacts();
 
   /// Looks whether the run is sound; if not, goes back to when it was, and says what is wrong.
-  void check() {
-    const std::string fault =
-        detail::Health<Dim>(bodies_, roles_, origin_, sizes_.speed_limit, settings_.overlap_limit)
-            .fault(std::as_const(network_), step_);
-    checked_ = steps_;
-    audit_.highest_kinetic =
-        std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
-    if (fault.empty()) {
-      sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, supports_.keep(), kinetic_given_,
-                           time_, steps_});
-      return;
-    }
-    const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
-    if (!sound_) throw NumericalFault(where);
-    bodies_ = sound_->bodies;
-    network_ = sound_->network;
-    tracker_ = sound_->tracker;
-    audit_ = sound_->audit;
-    sound_->supports();
-    kinetic_given_ = sound_->kinetic_given;
-    time_ = sound_->time;
-    steps_ = checked_ = sound_->steps;
-    stable_step_ = 0;
-    fresh_ = false;
-    throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) +
-                         ")");
-  }
+  void check();
 
   // ---- steps -----------------------------------------------------------------------------------
 
@@ -322,80 +235,13 @@ class Dynamics : public MovingBodies<Dim> {
     return 2 / std::sqrt(2 * largest * (1 + settings_.local_damping)) *
            (std::sqrt(1 + zeta * zeta) - zeta);
   }
-  [[nodiscard]] double choose_step() {
-    take_in();
-    if (!sound_) check();
-    if (stable_step_ == 0) stable_step_ = longest_step();
-    if (settings_.time_step > stable_step_)
-      throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
-                           message_number(settings_.time_step, 3) +
-                           " s that was asked for is longer than the stable one of " +
-                           message_number(stable_step_, 3) +
-                           " s; leave time_step at 0 to have it chosen");
-    step_ = settings_.time_step > 0 ? settings_.time_step : settings_.safety * stable_step_;
-    if (!std::isfinite(step_)) step_ = 1e-3;  // nothing touches
-    if (!settings_.find_contacts || shapes_.size() < 2) return step_;
-    // Within one step nothing is looked for: what is apart must not come to overlap in it.
-    begin();
-    const double longest = sizes_.longest_step(bodies_, acting_);
-    if (settings_.time_step > longest)
-      throw NumericalFault(
-          "dynamics: step " + std::to_string(steps_) + ": in the time step of " +
-          message_number(settings_.time_step, 3) +
-          " s that was asked for a body moves more than a quarter of the reach of " +
-          "contacts of " + message_number(sizes_.reach, 3) +
-          " m, and may pass into another unseen; leave time_step at 0, or give " +
-          "<= " + message_number(longest, 3) + " s");
-    if (longest > 0) step_ = std::min(step_, longest);
-    return step_;
-  }
+  [[nodiscard]] double choose_step();
 
   /// Makes `count` steps, or fewer: contacts are looked for again before a body can have moved
   /// further than they are listed for. The way is summed up step by step, with the speeds there
   /// are: what gravity, loads or a blow give to a body within the batch counts.
   /// @return  the number of steps made
-  int run_batch(int count, double step) {
-    step_ = step;
-    sums_.assign(team_->size(), {});
-    constexpr double never = std::numeric_limits<double>::infinity();
-    const double limit = settings_.find_contacts ? sizes_.travel_limit() : never,
-                 farthest = settings_.find_contacts ? 0.25 * sizes_.reach : never;
-    int made = 0;
-    team_->run([&](unsigned member) {
-      if (!fresh_) freshen(member);
-      Sums& sums = sums_[member];
-      const auto bodies = team_->share(bodies_.size(), member);
-      double way = 0;  // of the fastest body of each step: the same for all members
-      for (int k = 0; k < count; ++k) {
-        sums.fastest = 0;
-        for (std::size_t b = bodies.first; b < bodies.last; ++b)
-          if (bodies_[b].movable()) start(b, step, sums);
-        team_->meet();
-        double fastest = 0;
-        for (const Sums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
-        way += step * fastest;
-        respond(member, sums.lost);
-        sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
-        for (std::size_t b = bodies.first; b < bodies.last; ++b)
-          if (bodies_[b].movable()) {
-            settle(b);
-            finish(b, step, sums);
-          }
-        if (member == 0) made = k + 1;
-        // In the next step bodies may be faster; a pair that was apart must not come to touch.
-        if (way + step * fastest > limit || way + 1.5 * step * fastest > farthest) break;
-      }
-    });
-    fresh_ = true;
-    for (const Sums& sums : sums_) sums.add_to(audit_);
-    steps_ += made;
-    time_ += made * step;
-    for (Body& body : bodies_)
-      if (body.movable()) body.straighten();
-    if (steps_ - checked_ >= settings_.check_every) check();
-    if (settings_.find_contacts) find_contacts();
-    return made;
-  }
+  int run_batch(int count, double step);
 
   /// A member's share of what contacts and supports do to the bodies where they are; all of it is
   /// done when it returns.
@@ -472,5 +318,189 @@ class Dynamics : public MovingBodies<Dim> {
   std::optional<Sound> sound_;
   std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::hold() {
+  begin();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const auto [force, moment] = network_.gather(b);
+    held_[b] = {-force - loads_[b].force, -moment - loads_[b].moment};
+    held_[b].force[Dim - 1] += bodies_[b].mass * settings_.gravity;
+  }
+  set_held(1);
+}
+
+template <int Dim, class JointLaw>
+double Dynamics<Dim, JointLaw>::unbalance_over_weight() {
+  begin();
+  double worst = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
+    if (!body.movable() || body.radius == 0) continue;
+    const Load<Dim> total = total_load(b);
+    worst = std::max(worst, (total.force.norm() + total.moment.norm() / body.radius) /
+                                (body.mass * settings_.gravity));
+  }
+  return worst;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::advance(double time) {
+  require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
+  const double end = time_ + time;
+  while (end - time_ > 1e-12 * std::max(time, step_)) {
+    const double step = choose_step();
+    const int steps = static_cast<int>(std::min(std::ceil((end - time_) / step - 1e-9), 1e9));
+    const int batch = std::min(steps, settings_.check_every);
+    // A last step of another length would spoil the order of the scheme: all are shortened.
+    run_batch(batch, batch == steps ? (end - time_) / steps : step);
+  }
+  time_ = end;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::take_in() {
+  if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
+  const bool is_first = known_bodies_ == 0;
+  if (is_first) {
+    sizes_ = detail::RunSizes::choose(bodies_, settings_);
+    tracker_.emplace(sizes_.reach, sizes_.refresh, 8 * sizes_.reach);
+  }
+  for (; known_shapes_ < shapes_.size(); ++known_shapes_) {
+    const auto& [shape, b] = shapes_[known_shapes_];
+    const Pose<Dim> home = this->home(b);
+    // Nodes of a lining do not touch one another: they are one family.
+    const bool of_lining = roles_[index(b)] == BodyRole::lining;
+    tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b);
+  }
+  known_bodies_ = bodies_.size();
+  held_.resize(known_bodies_);
+  acting_.resize(known_bodies_);
+  find_contacts();
+  forget();
+  if (is_first) start_audit();
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::find_contacts() {
+  const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
+    if (law_of_cut_.empty()) return 0;
+    const auto& [part, b] = shapes_[shape];
+    const Rotation<Dim> turn =
+        home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
+    const int cut = cut_facing(part, Vec<Dim>(turn * normal));
+    return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
+  };
+  if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.refound)) return;
+  stable_step_ = 0;
+  fresh_ = false;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::check() {
+  const std::string fault =
+      detail::Health<Dim>(bodies_, roles_, origin_, sizes_.speed_limit, settings_.overlap_limit)
+          .fault(std::as_const(network_), step_);
+  checked_ = steps_;
+  audit_.highest_kinetic =
+      std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
+  if (fault.empty()) {
+    sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, supports_.keep(), kinetic_given_,
+                         time_, steps_});
+    return;
+  }
+  const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
+  if (!sound_) throw NumericalFault(where);
+  bodies_ = sound_->bodies;
+  network_ = sound_->network;
+  tracker_ = sound_->tracker;
+  audit_ = sound_->audit;
+  sound_->supports();
+  kinetic_given_ = sound_->kinetic_given;
+  time_ = sound_->time;
+  steps_ = checked_ = sound_->steps;
+  stable_step_ = 0;
+  fresh_ = false;
+  throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
+}
+
+template <int Dim, class JointLaw>
+double Dynamics<Dim, JointLaw>::choose_step() {
+  take_in();
+  if (!sound_) check();
+  if (stable_step_ == 0) stable_step_ = longest_step();
+  if (settings_.time_step > stable_step_)
+    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
+                         message_number(settings_.time_step, 3) +
+                         " s that was asked for is longer than the stable one of " +
+                         message_number(stable_step_, 3) +
+                         " s; leave time_step at 0 to have it chosen");
+  step_ = settings_.time_step > 0 ? settings_.time_step : settings_.safety * stable_step_;
+  if (!std::isfinite(step_)) step_ = 1e-3;  // nothing touches
+  if (!settings_.find_contacts || shapes_.size() < 2) return step_;
+  // Within one step nothing is looked for: what is apart must not come to overlap in it.
+  begin();
+  const double longest = sizes_.longest_step(bodies_, acting_);
+  if (settings_.time_step > longest)
+    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": in the time step of " +
+                         message_number(settings_.time_step, 3) +
+                         " s that was asked for a body moves more than a quarter of the reach of " +
+                         "contacts of " + message_number(sizes_.reach, 3) +
+                         " m, and may pass into another unseen; leave time_step at 0, or give " +
+                         "<= " + message_number(longest, 3) + " s");
+  if (longest > 0) step_ = std::min(step_, longest);
+  return step_;
+}
+
+template <int Dim, class JointLaw>
+int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
+  step_ = step;
+  sums_.assign(team_->size(), {});
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double limit = settings_.find_contacts ? sizes_.travel_limit() : never,
+               farthest = settings_.find_contacts ? 0.25 * sizes_.reach : never;
+  int made = 0;
+  team_->run([&](unsigned member) {
+    if (!fresh_) freshen(member);
+    Sums& sums = sums_[member];
+    const auto bodies = team_->share(bodies_.size(), member);
+    double way = 0;  // of the fastest body of each step: the same for all members
+    for (int k = 0; k < count; ++k) {
+      sums.fastest = 0;
+      for (std::size_t b = bodies.first; b < bodies.last; ++b)
+        if (bodies_[b].movable()) start(b, step, sums);
+      team_->meet();
+      double fastest = 0;
+      for (const Sums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
+      way += step * fastest;
+      respond(member, sums.lost);
+      sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
+      for (std::size_t b = bodies.first; b < bodies.last; ++b)
+        if (bodies_[b].movable()) {
+          settle(b);
+          finish(b, step, sums);
+        }
+      if (member == 0) made = k + 1;
+      // In the next step bodies may be faster; a pair that was apart must not come to touch.
+      if (way + step * fastest > limit || way + 1.5 * step * fastest > farthest) break;
+    }
+  });
+  fresh_ = true;
+  for (const Sums& sums : sums_) sums.add_to(audit_);
+  steps_ += made;
+  time_ += made * step;
+  for (Body& body : bodies_)
+    if (body.movable()) body.straighten();
+  if (steps_ - checked_ >= settings_.check_every) check();
+  if (settings_.find_contacts) find_contacts();
+  return made;
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class Dynamics<2, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class Dynamics<3, CoulombJoint>;
+#endif
 
 }  // namespace voussoir

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -178,21 +179,29 @@ class MovingBodies {
     body.pose.position = mass_properties(shape).centroid;
     return add({shape}, body, role);
   }
-  int add(const std::vector<Shape>& parts, Body body, BodyRole role = BodyRole::block) {
-    if (bodies_.empty()) origin_ = body.pose.position;
-    for (const Shape& part : parts)
-      for (const auto& v : part.vertices())
-        body.radius = std::max(body.radius, (v - body.pose.position).norm());
-    body.pose.position -= origin_;
-    const int b = body_count();
-    for (const Shape& part : parts) shapes_.emplace_back(part, b);
-    bodies_.push_back(body);
-    home_.push_back(body.pose);
-    roles_.push_back(role);
-    loads_.emplace_back();
-    fresh_ = false;
-    return b;
-  }
+  int add(const std::vector<Shape>& parts, Body body, BodyRole role = BodyRole::block);
 };
+
+template <int Dim>
+int MovingBodies<Dim>::add(const std::vector<Shape>& parts, Body body, BodyRole role) {
+  if (bodies_.empty()) origin_ = body.pose.position;
+  for (const Shape& part : parts)
+    for (const auto& v : part.vertices())
+      body.radius = std::max(body.radius, (v - body.pose.position).norm());
+  body.pose.position -= origin_;
+  const int b = body_count();
+  for (const Shape& part : parts) shapes_.emplace_back(part, b);
+  bodies_.push_back(body);
+  home_.push_back(body.pose);
+  roles_.push_back(role);
+  loads_.emplace_back();
+  fresh_ = false;
+  return b;
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class MovingBodies<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class MovingBodies<3>;
+#endif
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/solver/block_elimination.hpp>
 #include <voussoir/solver/small_inverse.hpp>
 
@@ -25,63 +26,10 @@ class BlockLU {
  public:
   using Block = Fixed<Dof, Dof>;
 
-  explicit BlockLU(const TangentMatrix<Dof>& matrix)
-      : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs) {
-    const std::size_t n = pattern_.size();
-    rows_.resize(pattern_.block_count());
-    lower_.resize(pattern_.block_count());
-    upper_.resize(pattern_.block_count());
-    inverse_.resize(n);
-    std::vector<std::size_t> end(n);
-    for (std::size_t k = 0; k < n; ++k) end[k] = pattern_.begin(k);
-    std::vector<Block> left(n, zeros<Block>()), top(n, zeros<Block>());
-    BlockElimination::RowWalk walk(pattern_);
-    for (std::size_t i = 0; i < n; ++i) {
-      Block pivot = matrix.diagonal[static_cast<std::size_t>(pattern_.original(i))];
-      walk(
-          i,
-          [&](const BlockElimination::Place& place) {
-            const auto pair = static_cast<std::size_t>(place.pair);
-            const auto column = static_cast<std::size_t>(place.column);
-            left[column] = place.flipped ? matrix.backward[pair] : matrix.forward[pair];
-            top[column] = place.flipped ? matrix.forward[pair] : matrix.backward[pair];
-          },
-          [&](std::size_t j) {
-            const Block lij = left[j] * inverse_[j], uji = top[j];
-            left[j] = zeros<Block>();
-            top[j] = zeros<Block>();
-            for (std::size_t p = pattern_.begin(j); p < end[j]; ++p) {
-              const auto k = static_cast<std::size_t>(rows_[p]);
-              subtract_product(left[k], lij, upper_[p]);
-              subtract_product(top[k], lower_[p], uji);
-            }
-            subtract_product(pivot, lij, uji);
-            rows_[end[j]] = static_cast<int>(i);
-            lower_[end[j]] = lij;
-            upper_[end[j]++] = uji;
-          });
-      inverse_[i] = inverse_of<Dof>(pivot);
-    }
-  }
+  explicit BlockLU(const TangentMatrix<Dof>& matrix);
 
   /// Solves A x = b in place.
-  void solve_in_place(Eigen::VectorXd& x) const {
-    const std::size_t n = inverse_.size();
-    Eigen::VectorXd y(x.size());
-    for (std::size_t k = 0; k < n; ++k)
-      set_part<Dof>(y, at(k), part<Dof>(x, Dof * pattern_.original(k)));
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        add_at<Dof>(y.data() + Dof * rows_[p], -(lower_[p] * part<Dof>(y, at(j))));
-    for (std::size_t j = n; j-- > 0;) {
-      Fixed<Dof, 1> v = part<Dof>(y, at(j));
-      for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
-        v -= upper_[p] * part<Dof>(y, Dof * rows_[p]);
-      set_part<Dof>(y, at(j), inverse_[j] * v);
-    }
-    for (std::size_t k = 0; k < n; ++k)
-      set_part<Dof>(x, Dof * pattern_.original(k), part<Dof>(y, at(k)));
-  }
+  void solve_in_place(Eigen::VectorXd& x) const;
 
  private:
   [[nodiscard]] static Eigen::Index at(std::size_t k) { return Dof * static_cast<Eigen::Index>(k); }
@@ -91,5 +39,69 @@ class BlockLU {
   std::vector<Block> lower_, upper_;  ///< column by column of L, row by row of U
   std::vector<Block> inverse_;        ///< of the pivots
 };
+
+template <int Dof>
+BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix)
+    : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs) {
+  const std::size_t n = pattern_.size();
+  rows_.resize(pattern_.block_count());
+  lower_.resize(pattern_.block_count());
+  upper_.resize(pattern_.block_count());
+  inverse_.resize(n);
+  std::vector<std::size_t> end(n);
+  for (std::size_t k = 0; k < n; ++k) end[k] = pattern_.begin(k);
+  std::vector<Block> left(n, zeros<Block>()), top(n, zeros<Block>());
+  BlockElimination::RowWalk walk(pattern_);
+  for (std::size_t i = 0; i < n; ++i) {
+    Block pivot = matrix.diagonal[static_cast<std::size_t>(pattern_.original(i))];
+    walk(
+        i,
+        [&](const BlockElimination::Place& place) {
+          const auto pair = static_cast<std::size_t>(place.pair);
+          const auto column = static_cast<std::size_t>(place.column);
+          left[column] = place.flipped ? matrix.backward[pair] : matrix.forward[pair];
+          top[column] = place.flipped ? matrix.forward[pair] : matrix.backward[pair];
+        },
+        [&](std::size_t j) {
+          const Block lij = left[j] * inverse_[j], uji = top[j];
+          left[j] = zeros<Block>();
+          top[j] = zeros<Block>();
+          for (std::size_t p = pattern_.begin(j); p < end[j]; ++p) {
+            const auto k = static_cast<std::size_t>(rows_[p]);
+            subtract_product(left[k], lij, upper_[p]);
+            subtract_product(top[k], lower_[p], uji);
+          }
+          subtract_product(pivot, lij, uji);
+          rows_[end[j]] = static_cast<int>(i);
+          lower_[end[j]] = lij;
+          upper_[end[j]++] = uji;
+        });
+    inverse_[i] = inverse_of<Dof>(pivot);
+  }
+}
+
+template <int Dof>
+void BlockLU<Dof>::solve_in_place(Eigen::VectorXd& x) const {
+  const std::size_t n = inverse_.size();
+  Eigen::VectorXd y(x.size());
+  for (std::size_t k = 0; k < n; ++k)
+    set_part<Dof>(y, at(k), part<Dof>(x, Dof * pattern_.original(k)));
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
+      add_at<Dof>(y.data() + Dof * rows_[p], -(lower_[p] * part<Dof>(y, at(j))));
+  for (std::size_t j = n; j-- > 0;) {
+    Fixed<Dof, 1> v = part<Dof>(y, at(j));
+    for (std::size_t p = pattern_.begin(j); p < pattern_.begin(j + 1); ++p)
+      v -= upper_[p] * part<Dof>(y, Dof * rows_[p]);
+    set_part<Dof>(y, at(j), inverse_[j] * v);
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    set_part<Dof>(x, Dof * pattern_.original(k), part<Dof>(y, at(k)));
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class BlockLU<3>;
+VOUSSOIR_SPATIAL_TEMPLATE class BlockLU<6>;
+#endif
 
 }  // namespace voussoir

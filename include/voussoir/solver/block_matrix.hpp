@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/small_algebra.hpp>
 
@@ -35,21 +36,7 @@ class BlockMatrix {
   }
 
   /// Sums entries of the same place. Call once, after the last `add`.
-  void compress() {
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& x, const Entry& y) {
-      return x.column != y.column ? x.column < y.column : x.row < y.row;
-    });
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-      if (kept > 0 && entries_[kept - 1].row == entries_[k].row &&
-          entries_[kept - 1].column == entries_[k].column) {
-        entries_[kept - 1].block += entries_[k].block;
-      } else {
-        entries_[kept++] = entries_[k];
-      }
-    }
-    entries_.resize(kept);
-  }
+  void compress();
 
   /// Coupled bodies (row, column), row > column, each once; valid after `compress`.
   [[nodiscard]] std::vector<std::pair<int, int>> pairs() const {
@@ -64,19 +51,7 @@ class BlockMatrix {
   }
 
   /// Sum of the absolute values in every row: Gershgorin's bound on the eigenvalues.
-  [[nodiscard]] Eigen::VectorXd absolute_row_sums() const {
-    Eigen::VectorXd sums = zeros(Dof * size());
-    const auto add_rows = [&sums](int row, const Block& block) {
-      for (int c = 0; c < Dof; ++c)
-        for (int r = 0; r < Dof; ++r) sums[Dof * row + r] += std::abs(block(r, c));
-    };
-    for (int i = 0; i < size(); ++i) add_rows(i, diagonal(i));
-    for (const Entry& e : entries_) {
-      add_rows(e.row, e.block);
-      add_rows(e.column, transposed(e.block));
-    }
-    return sums;
-  }
+  [[nodiscard]] Eigen::VectorXd absolute_row_sums() const;
 
  private:
   struct Entry {
@@ -86,5 +61,42 @@ class BlockMatrix {
   std::vector<Block> diagonal_;
   std::vector<Entry> entries_;
 };
+
+template <int Dof>
+void BlockMatrix<Dof>::compress() {
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& x, const Entry& y) {
+    return x.column != y.column ? x.column < y.column : x.row < y.row;
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    if (kept > 0 && entries_[kept - 1].row == entries_[k].row &&
+        entries_[kept - 1].column == entries_[k].column) {
+      entries_[kept - 1].block += entries_[k].block;
+    } else {
+      entries_[kept++] = entries_[k];
+    }
+  }
+  entries_.resize(kept);
+}
+
+template <int Dof>
+Eigen::VectorXd BlockMatrix<Dof>::absolute_row_sums() const {
+  Eigen::VectorXd sums = zeros(Dof * size());
+  const auto add_rows = [&sums](int row, const Block& block) {
+    for (int c = 0; c < Dof; ++c)
+      for (int r = 0; r < Dof; ++r) sums[Dof * row + r] += std::abs(block(r, c));
+  };
+  for (int i = 0; i < size(); ++i) add_rows(i, diagonal(i));
+  for (const Entry& e : entries_) {
+    add_rows(e.row, e.block);
+    add_rows(e.column, transposed(e.block));
+  }
+  return sums;
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class BlockMatrix<3>;
+VOUSSOIR_SPATIAL_TEMPLATE class BlockMatrix<6>;
+#endif
 
 }  // namespace voussoir

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/slicing.hpp>
@@ -10,26 +11,24 @@
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/solver/two_level.hpp>
 
-/// What the library `voussoir::compiled` holds: the common compositions, compiled once. A program
-/// that links it has VOUSSOIR_COMPILED defined; `solver.hpp` then includes this list, and the
-/// compiler leaves what stands in it to the library. Any other composition is compiled where it is
-/// used, as without the library: it saves time and changes no answer.
-///
-/// The library's own sources (cmake/compiled) define the words below as plain `template`.
-#ifndef VOUSSOIR_PLANAR_TEMPLATE
-#define VOUSSOIR_PLANAR_TEMPLATE extern template
-#endif
-#ifndef VOUSSOIR_SPATIAL_TEMPLATE
-#define VOUSSOIR_SPATIAL_TEMPLATE extern template
-#endif
+/// What the library `voussoir::compiled` holds of the solver: the common compositions, compiled
+/// once. A program that links it has VOUSSOIR_COMPILED defined; `solver.hpp` then includes this
+/// list, and the compiler leaves what stands in it to the library. Any other composition is
+/// compiled where it is used, as without the library: it saves time and changes no answer.
 
 /// The searches for equilibrium in one kind of system.
 #define VOUSSOIR_SEARCHES(WORD, ...)                                                           \
+  WORD class System<__VA_ARGS__>;                                                              \
   WORD EquilibriumReport TwoLevel::find(System<__VA_ARGS__>&, const SearchContext&) const;     \
   WORD EquilibriumReport Relaxation::find(System<__VA_ARGS__>&, const SearchContext&) const;   \
   WORD void Relaxation::follow(System<__VA_ARGS__>&, const SearchContext&, EquilibriumReport&) \
       const;                                                                                   \
   WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
+
+/// The contacts of one system: between blocks, at the edge of the domain.
+#define VOUSSOIR_GROUPS(WORD, GEOMETRY)            \
+  WORD class ContactGroup<GEOMETRY, CoulombJoint>; \
+  WORD class ContactGroup<GEOMETRY, SmoothWall>;
 
 /// Rock: its blocks, the opening in it, its contacts.
 #define VOUSSOIR_ROCK(WORD, GEOMETRY)                                                           \
@@ -44,6 +43,9 @@ namespace voussoir {
 VOUSSOIR_ROCK(VOUSSOIR_PLANAR_TEMPLATE, Planar)
 VOUSSOIR_ROCK(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
 
+VOUSSOIR_GROUPS(VOUSSOIR_PLANAR_TEMPLATE, Planar)
+VOUSSOIR_GROUPS(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
+
 VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialBolt)
 VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
                                               AxialBolt, EulerBernoulliBeam, TwoLevel>;
@@ -57,5 +59,6 @@ VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoin
 
 }  // namespace voussoir
 
+#undef VOUSSOIR_GROUPS
 #undef VOUSSOIR_ROCK
 #undef VOUSSOIR_SEARCHES

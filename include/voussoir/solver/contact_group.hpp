@@ -70,23 +70,7 @@ class ContactGroup {
   /// @param at        integration points of the facet
   /// @param law       index into the laws of the group
   void add(int a, int b, const typename Geometry::Facet& facet, const Vec<dim>& centre_a,
-           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at, int law = 0) {
-    Contact contact;
-    contact.law = law;
-    contact.normal = facet.area_vector().normalized();
-    contact.arm_a = facet.centre_from(centre_a);
-    contact.arm_b = facet.centre_from(centre_b);
-    contact.a = a;
-    contact.b = b;
-    contact.first = static_cast<int>(points_.size());
-    contact.last = contact.first + static_cast<int>(at.size());
-    contact.tangents = tangent_basis(contact.normal);
-    for (const FacetPoint<dim>& point : at) {
-      points_.push_back(
-          {stacked(0.0, transposed(contact.tangents) * point.offset), point.weight, {}});
-    }
-    contacts_.push_back(contact);
-  }
+           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at, int law = 0);
   /// Adds a contact as it is; `first` and `last` are set.
   void add(Contact contact, std::span<const Point> points) {
     contact.first = static_cast<int>(points_.size());
@@ -127,19 +111,7 @@ class ContactGroup {
 
   /// Brings the history up to date with displacement `u`.
   /// @return  points whose force changed by that: joints that failed, and are weaker now
-  int commit(const double* u) {
-    int weakened = 0;
-    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
-      const PointForce<dim> before = law_of(c).force(load, p.state);
-      law_of(c).commit(load, p.state);
-      const PointForce<dim> after = law_of(c).force(load, p.state);
-      const double change =
-          std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
-      if (change > 1e-9 * (std::abs(before.normal) + before.tangential.norm())) ++weakened;
-    });
-    return weakened;
-  }
+  int commit(const double* u);
 
   /// Lets joints creep for a time [s] at displacement `u`.
   void creep(const double* u, double time) requires CreepingLaw<Law, dim> {
@@ -342,5 +314,41 @@ class ContactGroup {
   std::vector<Contact> contacts_;
   std::vector<Point> points_;
 };
+
+template <class Geometry, class Law>
+void ContactGroup<Geometry, Law>::add(int a, int b, const typename Geometry::Facet& facet,
+                                      const Vec<dim>& centre_a, const Vec<dim>& centre_b,
+                                      std::span<const FacetPoint<dim>> at, int law) {
+  Contact contact;
+  contact.law = law;
+  contact.normal = facet.area_vector().normalized();
+  contact.arm_a = facet.centre_from(centre_a);
+  contact.arm_b = facet.centre_from(centre_b);
+  contact.a = a;
+  contact.b = b;
+  contact.first = static_cast<int>(points_.size());
+  contact.last = contact.first + static_cast<int>(at.size());
+  contact.tangents = tangent_basis(contact.normal);
+  for (const FacetPoint<dim>& point : at) {
+    points_.push_back(
+        {stacked(0.0, transposed(contact.tangents) * point.offset), point.weight, {}});
+  }
+  contacts_.push_back(contact);
+}
+
+template <class Geometry, class Law>
+int ContactGroup<Geometry, Law>::commit(const double* u) {
+  int weakened = 0;
+  for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
+    const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
+    const PointForce<dim> before = law_of(c).force(load, p.state);
+    law_of(c).commit(load, p.state);
+    const PointForce<dim> after = law_of(c).force(load, p.state);
+    const double change =
+        std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
+    if (change > 1e-9 * (std::abs(before.normal) + before.tangential.norm())) ++weakened;
+  });
+  return weakened;
+}
 
 }  // namespace voussoir

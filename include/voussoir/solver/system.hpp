@@ -75,42 +75,15 @@ class System {
   /// For every label of their faces the index of the joint law; null: the first for all.
   std::shared_ptr<const std::vector<int>> law_of_cut;
 
-  int add_body(const Body& body) {
-    bodies_.push_back(body);
-    const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
-    grow(displacement, size);
-    grow(load, size);
-    if (has_found_again()) {
-      grow(found_at_, size);
-      turned_.push_back(diagonal_of<dim>(1));
-    }
-    grow(wall_load, size);
-    return static_cast<int>(bodies_.size()) - 1;
-  }
+  int add_body(const Body& body);
 
   [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
 
   /// Where a body is: from axes of the in-situ state with their origin in its centre to the world.
-  [[nodiscard]] Pose<dim> pose(int b) const {
-    Pose<dim> at = pose_when_found(b);
-    if (!body(b).movable) return at;
-    at.position = body(b).centre + part<dim>(displacement, dof * b);
-    Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
-    if (has_found_again()) turn -= part<dof - dim>(found_at_, dof * b + dim);
-    at.rotation = rotation_by(turn) * at.rotation;
-    return at;
-  }
+  [[nodiscard]] Pose<dim> pose(int b) const;
   /// The same when contacts were last found.
-  [[nodiscard]] Pose<dim> pose_when_found(int b) const {
-    Pose<dim> at;
-    at.position = body(b).centre;
-    if (static_cast<std::size_t>(b) < turned_.size()) {
-      at.position += part<dim>(found_at_, dof * b);
-      at.rotation = turned_[static_cast<std::size_t>(b)];
-    }
-    return at;
-  }
+  [[nodiscard]] Pose<dim> pose_when_found(int b) const;
   /// The lever of a point that was there in the in-situ state, when contacts were last found [m].
   [[nodiscard]] Vec<dim> arm(int b, const Vec<dim>& point) const {
     const Vec<dim> arm = point - body(b).centre;
@@ -129,17 +102,7 @@ class System {
   }
   /// How far the block that has moved most has done so since contacts were found; turning counts at
   /// the radius of gyration [m].
-  [[nodiscard]] double moved_since_found() const {
-    double farthest = 0;
-    for (int b = 0; b < body_count(); ++b) {
-      if (!body(b).movable || !body(b).is_block) continue;
-      Fixed<dof, 1> u = part<dof>(displacement, dof * b);
-      if (has_found_again()) u -= part<dof>(found_at_, dof * b);
-      farthest = std::max(
-          farthest, part<dim>(u, 0).norm() + body(b).gyration * part<dof - dim>(u, dim).norm());
-    }
-    return farthest;
-  }
+  [[nodiscard]] double moved_since_found() const;
 
   [[nodiscard]] std::vector<int> movable_bodies() const {
     std::vector<int> movable;
@@ -187,70 +150,15 @@ class System {
 
   /// Stiffness with every contact closed and sticking, supports included but for broken bolts.
   /// Bodies that cannot move get a unit diagonal.
-  [[nodiscard]] Matrix elastic_stiffness() const {
-    Matrix k(body_count());
-    const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
-      const bool a_moves = body(a).movable, b_moves = body(b).movable;
-      if (a_moves) k.add(a, aa);
-      if (b_moves) k.add(b, bb);
-      if (a_moves && b_moves) k.add(a, b, ab);
-    };
-    joints.add_stiffness(sink);
-    boundary.add_stiffness(sink);
-    interface.add_stiffness(sink);
-    for (const auto& bolt : bolts)
-      bolt.add_stiffness(bolt_laws[static_cast<std::size_t>(bolt.law)], sink);
-    for (const auto& frame : frames) frame.add_stiffness(sink);
-    for (int b = 0; b < body_count(); ++b)
-      if (!body(b).movable) k.add(b, diagonal_of<dof>(1));
-    k.compress();
-    return k;
-  }
+  [[nodiscard]] Matrix elastic_stiffness() const;
 
   /// Takes bodies out for good: their contacts, bolts and frames go, and they stop moving.
-  void remove(const std::vector<int>& gone) {
-    std::vector<char> is_gone(bodies_.size(), 0);
-    for (const int b : gone) {
-      is_gone[static_cast<std::size_t>(b)] = 1;
-      bodies_[static_cast<std::size_t>(b)].movable = false;
-      bodies_[static_cast<std::size_t>(b)].is_gone = true;
-      set_part<dof>(displacement, dof * b, zeros<Fixed<dof, 1>>());
-    }
-    const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
-    joints.remove(test);
-    boundary.remove(test);
-    interface.remove(test);
-    std::erase_if(bolts, [&](const auto& bolt) { return test(bolt.a) || test(bolt.b); });
-    std::erase_if(frames, [&](const auto& frame) { return test(frame.i) || test(frame.j); });
-  }
+  void remove(const std::vector<int>& gone);
 
   /// Movable bodies without a chain of contacts and frames to a body that cannot move: they fall
   /// whatever the forces, alone or as a group that holds nothing but itself. Bolts alone do not
   /// hold: a block could still turn about them.
-  [[nodiscard]] std::vector<int> unsupported() const {
-    // Groups as trees: every body points towards the root of its group, that of the ground is
-    // `fixed`.
-    const std::size_t fixed = bodies_.size();
-    std::vector<std::size_t> up(bodies_.size() + 1);
-    std::iota(up.begin(), up.end(), std::size_t{0});
-    const auto root = [&](std::size_t b) {
-      while (up[b] != b) b = up[b] = up[up[b]];
-      return b;
-    };
-    const auto link = [&](int a, int b) {
-      up[root(static_cast<std::size_t>(a))] = root(static_cast<std::size_t>(b));
-    };
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
-      if (!bodies_[b].movable) up[b] = fixed;
-    for (const auto& c : joints.contacts()) link(c.a, c.b);
-    for (const auto& c : boundary.contacts()) link(c.a, c.b);
-    for (const auto& c : interface.contacts()) link(c.a, c.b);
-    for (const auto& f : frames) link(f.i, f.j);
-    std::vector<int> loose;
-    for (int b = 0; b < body_count(); ++b)
-      if (root(static_cast<std::size_t>(b)) != root(fixed)) loose.push_back(b);
-    return loose;
-  }
+  [[nodiscard]] std::vector<int> unsupported() const;
 
   /// Weight of the lightest block: the scale for weightless lining nodes [N].
   [[nodiscard]] double lightest_weight() const {
@@ -305,5 +213,118 @@ class System {
   Eigen::VectorXd found_at_;           ///< displacement at which contacts were updated
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
+
+template <class Geometry, class JointLaw, class BoltLaw>
+int System<Geometry, JointLaw, BoltLaw>::add_body(const Body& body) {
+  bodies_.push_back(body);
+  const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
+  grow(displacement, size);
+  grow(load, size);
+  if (has_found_again()) {
+    grow(found_at_, size);
+    turned_.push_back(diagonal_of<dim>(1));
+  }
+  grow(wall_load, size);
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+auto System<Geometry, JointLaw, BoltLaw>::pose(int b) const -> Pose<dim> {
+  Pose<dim> at = pose_when_found(b);
+  if (!body(b).movable) return at;
+  at.position = body(b).centre + part<dim>(displacement, dof * b);
+  Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
+  if (has_found_again()) turn -= part<dof - dim>(found_at_, dof * b + dim);
+  at.rotation = rotation_by(turn) * at.rotation;
+  return at;
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+auto System<Geometry, JointLaw, BoltLaw>::pose_when_found(int b) const -> Pose<dim> {
+  Pose<dim> at;
+  at.position = body(b).centre;
+  if (static_cast<std::size_t>(b) < turned_.size()) {
+    at.position += part<dim>(found_at_, dof * b);
+    at.rotation = turned_[static_cast<std::size_t>(b)];
+  }
+  return at;
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+double System<Geometry, JointLaw, BoltLaw>::moved_since_found() const {
+  double farthest = 0;
+  for (int b = 0; b < body_count(); ++b) {
+    if (!body(b).movable || !body(b).is_block) continue;
+    Fixed<dof, 1> u = part<dof>(displacement, dof * b);
+    if (has_found_again()) u -= part<dof>(found_at_, dof * b);
+    farthest = std::max(farthest,
+                        part<dim>(u, 0).norm() + body(b).gyration * part<dof - dim>(u, dim).norm());
+  }
+  return farthest;
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+auto System<Geometry, JointLaw, BoltLaw>::elastic_stiffness() const -> Matrix {
+  Matrix k(body_count());
+  const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
+    const bool a_moves = body(a).movable, b_moves = body(b).movable;
+    if (a_moves) k.add(a, aa);
+    if (b_moves) k.add(b, bb);
+    if (a_moves && b_moves) k.add(a, b, ab);
+  };
+  joints.add_stiffness(sink);
+  boundary.add_stiffness(sink);
+  interface.add_stiffness(sink);
+  for (const auto& bolt : bolts)
+    bolt.add_stiffness(bolt_laws[static_cast<std::size_t>(bolt.law)], sink);
+  for (const auto& frame : frames) frame.add_stiffness(sink);
+  for (int b = 0; b < body_count(); ++b)
+    if (!body(b).movable) k.add(b, diagonal_of<dof>(1));
+  k.compress();
+  return k;
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+void System<Geometry, JointLaw, BoltLaw>::remove(const std::vector<int>& gone) {
+  std::vector<char> is_gone(bodies_.size(), 0);
+  for (const int b : gone) {
+    is_gone[static_cast<std::size_t>(b)] = 1;
+    bodies_[static_cast<std::size_t>(b)].movable = false;
+    bodies_[static_cast<std::size_t>(b)].is_gone = true;
+    set_part<dof>(displacement, dof * b, zeros<Fixed<dof, 1>>());
+  }
+  const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
+  joints.remove(test);
+  boundary.remove(test);
+  interface.remove(test);
+  std::erase_if(bolts, [&](const auto& bolt) { return test(bolt.a) || test(bolt.b); });
+  std::erase_if(frames, [&](const auto& frame) { return test(frame.i) || test(frame.j); });
+}
+
+template <class Geometry, class JointLaw, class BoltLaw>
+std::vector<int> System<Geometry, JointLaw, BoltLaw>::unsupported() const {
+  // Groups as trees: every body points towards the root of its group, that of the ground is
+  // `fixed`.
+  const std::size_t fixed = bodies_.size();
+  std::vector<std::size_t> up(bodies_.size() + 1);
+  std::iota(up.begin(), up.end(), std::size_t{0});
+  const auto root = [&](std::size_t b) {
+    while (up[b] != b) b = up[b] = up[up[b]];
+    return b;
+  };
+  const auto link = [&](int a, int b) {
+    up[root(static_cast<std::size_t>(a))] = root(static_cast<std::size_t>(b));
+  };
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (!bodies_[b].movable) up[b] = fixed;
+  for (const auto& c : joints.contacts()) link(c.a, c.b);
+  for (const auto& c : boundary.contacts()) link(c.a, c.b);
+  for (const auto& c : interface.contacts()) link(c.a, c.b);
+  for (const auto& f : frames) link(f.i, f.j);
+  std::vector<int> loose;
+  for (int b = 0; b < body_count(); ++b)
+    if (root(static_cast<std::size_t>(b)) != root(fixed)) loose.push_back(b);
+  return loose;
+}
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/detail/surface.hpp>
 #include <voussoir/geometry/half_space.hpp>
@@ -56,17 +57,7 @@ class SurfaceSplit {
       distance_[k] = here + dot_product(plane.normal, whole.vertices[k] - origin);
   }
 
-  [[nodiscard]] bool classify(double tolerance) {
-    bool any_below = false, any_above = false;
-    side_.resize(distance_.size());
-    for (std::size_t k = 0; k < side_.size(); ++k) {
-      const double d = distance_[k];
-      side_[k] = static_cast<signed char>((d > tolerance) - (d < -tolerance));
-      any_below = any_below || side_[k] < 0;
-      any_above = any_above || side_[k] > 0;
-    }
-    return any_below && any_above;
-  }
+  [[nodiscard]] bool classify(double tolerance);
 
   [[nodiscard]] static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   [[nodiscard]] int side(const Surface& whole, int half) const {
@@ -82,19 +73,7 @@ class SurfaceSplit {
   }
 
   /// Appends a half-edge that starts at `vertex`; it is (a piece of) `old_half`, or new if < 0.
-  int append(const Surface& whole, Surface& part, Map& map, int vertex, int old_half) const {
-    int& number = map.number[at(vertex)];
-    if (number < 0) {
-      number = static_cast<int>(part.vertices.size());
-      const std::size_t old_count = whole.vertices.size();
-      part.vertices.push_back(at(vertex) < old_count ? whole.vertices[at(vertex)]
-                                                     : fresh_[at(vertex) - old_count]);
-    }
-    const int half = static_cast<int>(part.loops.size());
-    part.loops.push_back(number);
-    if (old_half >= 0) map.half[at(old_half)] = half;
-    return half;
-  }
+  int append(const Surface& whole, Surface& part, Map& map, int vertex, int old_half) const;
 
   static void finish_face(Surface& part, const HalfSpace<3>& plane, int cut) {
     const int begin = part.faces.empty() ? 0 : part.faces.back().end;
@@ -102,83 +81,11 @@ class SurfaceSplit {
   }
 
   /// A new vertex on every edge that the plane crosses, one for both of its half-edges.
-  void cross_edges(const Surface& whole) {
-    fresh_.clear();
-    crossing_.resize(whole.loops.size());
-    for (std::size_t h = 0; h < whole.loops.size(); ++h) {
-      const std::size_t twin = at(whole.twins[h]);
-      if (twin < h) continue;
-      const std::size_t v = at(whole.loops[h]), w = at(whole.loops[twin]);
-      if (side_[v] * side_[w] >= 0) continue;
-      crossing_[h] = crossing_[twin] = static_cast<int>(whole.vertices.size() + fresh_.size());
-      const double t = distance_[v] / (distance_[v] - distance_[w]);
-      fresh_.emplace_back(whole.vertices[v] + t * (whole.vertices[w] - whole.vertices[v]));
-    }
-  }
+  void cross_edges(const Surface& whole);
 
-  [[nodiscard]] bool divide(const Surface& whole) {
-    cross_edges(whole);
-    start(whole, below, below_);
-    start(whole, above, above_);
-    rims_.clear();
-    for (const Surface::Face& face : whole.faces)
-      if (!divide_face(whole, face)) return false;
-    // Edges on the plane between a face above and one below.
-    for (std::size_t h = 0; h < whole.loops.size(); ++h) {
-      const std::size_t twin = at(whole.twins[h]);
-      if (above_.half[h] >= 0 && above_.half[twin] < 0)
-        rims_.push_back({above_.half[h], below_.half[twin], whole.loops[h], whole.loops[twin]});
-    }
-    link(whole, below, below_);
-    link(whole, above, above_);
-    return rims_.size() >= 3;
-  }
+  [[nodiscard]] bool divide(const Surface& whole);
 
-  [[nodiscard]] bool divide_face(const Surface& whole, const Surface::Face& face) {
-    int runs = 0, first = 0;
-    bool any_below = false, any_above = false;
-    int before = side(whole, face.end - 1);
-    for (int h = face.begin; h < face.end; ++h) {
-      const int here = side(whole, h);
-      any_below = any_below || here < 0;
-      any_above = any_above || here > 0;
-      if (here > 0 && before <= 0) {
-        ++runs;
-        first = h;
-      }
-      before = here;
-    }
-    if (!any_above || !any_below) {
-      Surface& part = any_above ? above : below;
-      Map& map = any_above ? above_ : below_;
-      for (int h = face.begin; h < face.end; ++h) append(whole, part, map, whole.loops[at(h)], h);
-      finish_face(part, face.plane, face.cut);
-      return runs <= 1;
-    }
-    if (runs != 1) return false;
-    // The piece above: from where the loop comes up through the plane to where it goes down again,
-    // and straight back.
-    const auto after = [&](int h) { return h + 1 == face.end ? face.begin : h + 1; };
-    const int up = first == face.begin ? face.end - 1 : first - 1;
-    const bool up_inside = side(whole, up) < 0;  // within an edge, not at a vertex
-    const int entry = up_inside ? crossing_[at(up)] : whole.loops[at(up)];
-    append(whole, above, above_, entry, up);
-    int h = first;
-    for (; side(whole, h) > 0; h = after(h)) append(whole, above, above_, whole.loops[at(h)], h);
-    const int down = h == face.begin ? face.end - 1 : h - 1;
-    const bool down_inside = side(whole, h) < 0;
-    const int exit = down_inside ? crossing_[at(down)] : whole.loops[at(h)];
-    const int chord_above = append(whole, above, above_, exit, -1);
-    finish_face(above, face.plane, face.cut);
-    // The rest.
-    if (down_inside) append(whole, below, below_, exit, down);
-    for (; h != up; h = after(h)) append(whole, below, below_, whole.loops[at(h)], h);
-    if (up_inside) append(whole, below, below_, whole.loops[at(up)], up);
-    const int chord_below = append(whole, below, below_, entry, -1);
-    finish_face(below, face.plane, face.cut);
-    rims_.push_back({chord_above, chord_below, exit, entry});
-    return true;
-  }
+  [[nodiscard]] bool divide_face(const Surface& whole, const Surface::Face& face);
 
   static void link(const Surface& whole, Surface& part, const Map& map) {
     part.twins.assign(part.loops.size(), -1);
@@ -187,28 +94,7 @@ class SurfaceSplit {
   }
 
   /// Walks the rim and closes both parts by a cap; false if the rim is not one simple loop.
-  [[nodiscard]] bool close(const HalfSpace<3>& plane, int label) {
-    ending_.assign(above_.number.size(), -1);
-    for (std::size_t r = 0; r < rims_.size(); ++r) {
-      int& ending = ending_[at(rims_[r].to)];
-      if (ending >= 0) return false;
-      ending = static_cast<int>(r);
-    }
-    order_.clear();
-    int r = 0;
-    do {
-      order_.push_back(r);
-      r = ending_[at(rims_[at(r)].from)];
-    } while (r > 0);
-    if (r < 0 || order_.size() != rims_.size()) return false;
-    // Both caps start at the same vertex: a fan over either is then the same surface.
-    for (const int k : order_) join(above, above_, rims_[at(k)].to, rims_[at(k)].above_half);
-    finish_face(above, {-plane.normal, -plane.offset}, label);
-    for (std::size_t k = order_.size(); k-- > 0;)
-      join(below, below_, rims_[at(order_[k])].from, rims_[at(order_[k])].below_half);
-    finish_face(below, plane, label);
-    return true;
-  }
+  [[nodiscard]] bool close(const HalfSpace<3>& plane, int label);
 
   static void join(Surface& part, const Map& map, int vertex, int twin) {
     part.twins[at(twin)] = static_cast<int>(part.loops.size());
@@ -224,5 +110,137 @@ class SurfaceSplit {
   std::vector<Rim> rims_;
   std::vector<int> ending_, order_;
 };
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE bool SurfaceSplit::classify(double tolerance) {
+  bool any_below = false, any_above = false;
+  side_.resize(distance_.size());
+  for (std::size_t k = 0; k < side_.size(); ++k) {
+    const double d = distance_[k];
+    side_[k] = static_cast<signed char>((d > tolerance) - (d < -tolerance));
+    any_below = any_below || side_[k] < 0;
+    any_above = any_above || side_[k] > 0;
+  }
+  return any_below && any_above;
+}
+
+VOUSSOIR_INLINE int SurfaceSplit::append(const Surface& whole, Surface& part, Map& map, int vertex,
+                                         int old_half) const {
+  int& number = map.number[at(vertex)];
+  if (number < 0) {
+    number = static_cast<int>(part.vertices.size());
+    const std::size_t old_count = whole.vertices.size();
+    part.vertices.push_back(at(vertex) < old_count ? whole.vertices[at(vertex)]
+                                                   : fresh_[at(vertex) - old_count]);
+  }
+  const int half = static_cast<int>(part.loops.size());
+  part.loops.push_back(number);
+  if (old_half >= 0) map.half[at(old_half)] = half;
+  return half;
+}
+
+VOUSSOIR_INLINE void SurfaceSplit::cross_edges(const Surface& whole) {
+  fresh_.clear();
+  crossing_.resize(whole.loops.size());
+  for (std::size_t h = 0; h < whole.loops.size(); ++h) {
+    const std::size_t twin = at(whole.twins[h]);
+    if (twin < h) continue;
+    const std::size_t v = at(whole.loops[h]), w = at(whole.loops[twin]);
+    if (side_[v] * side_[w] >= 0) continue;
+    crossing_[h] = crossing_[twin] = static_cast<int>(whole.vertices.size() + fresh_.size());
+    const double t = distance_[v] / (distance_[v] - distance_[w]);
+    fresh_.emplace_back(whole.vertices[v] + t * (whole.vertices[w] - whole.vertices[v]));
+  }
+}
+
+VOUSSOIR_INLINE bool SurfaceSplit::divide(const Surface& whole) {
+  cross_edges(whole);
+  start(whole, below, below_);
+  start(whole, above, above_);
+  rims_.clear();
+  for (const Surface::Face& face : whole.faces)
+    if (!divide_face(whole, face)) return false;
+  // Edges on the plane between a face above and one below.
+  for (std::size_t h = 0; h < whole.loops.size(); ++h) {
+    const std::size_t twin = at(whole.twins[h]);
+    if (above_.half[h] >= 0 && above_.half[twin] < 0)
+      rims_.push_back({above_.half[h], below_.half[twin], whole.loops[h], whole.loops[twin]});
+  }
+  link(whole, below, below_);
+  link(whole, above, above_);
+  return rims_.size() >= 3;
+}
+
+VOUSSOIR_INLINE bool SurfaceSplit::divide_face(const Surface& whole, const Surface::Face& face) {
+  int runs = 0, first = 0;
+  bool any_below = false, any_above = false;
+  int before = side(whole, face.end - 1);
+  for (int h = face.begin; h < face.end; ++h) {
+    const int here = side(whole, h);
+    any_below = any_below || here < 0;
+    any_above = any_above || here > 0;
+    if (here > 0 && before <= 0) {
+      ++runs;
+      first = h;
+    }
+    before = here;
+  }
+  if (!any_above || !any_below) {
+    Surface& part = any_above ? above : below;
+    Map& map = any_above ? above_ : below_;
+    for (int h = face.begin; h < face.end; ++h) append(whole, part, map, whole.loops[at(h)], h);
+    finish_face(part, face.plane, face.cut);
+    return runs <= 1;
+  }
+  if (runs != 1) return false;
+  // The piece above: from where the loop comes up through the plane to where it goes down again,
+  // and straight back.
+  const auto after = [&](int h) { return h + 1 == face.end ? face.begin : h + 1; };
+  const int up = first == face.begin ? face.end - 1 : first - 1;
+  const bool up_inside = side(whole, up) < 0;  // within an edge, not at a vertex
+  const int entry = up_inside ? crossing_[at(up)] : whole.loops[at(up)];
+  append(whole, above, above_, entry, up);
+  int h = first;
+  for (; side(whole, h) > 0; h = after(h)) append(whole, above, above_, whole.loops[at(h)], h);
+  const int down = h == face.begin ? face.end - 1 : h - 1;
+  const bool down_inside = side(whole, h) < 0;
+  const int exit = down_inside ? crossing_[at(down)] : whole.loops[at(h)];
+  const int chord_above = append(whole, above, above_, exit, -1);
+  finish_face(above, face.plane, face.cut);
+  // The rest.
+  if (down_inside) append(whole, below, below_, exit, down);
+  for (; h != up; h = after(h)) append(whole, below, below_, whole.loops[at(h)], h);
+  if (up_inside) append(whole, below, below_, whole.loops[at(up)], up);
+  const int chord_below = append(whole, below, below_, entry, -1);
+  finish_face(below, face.plane, face.cut);
+  rims_.push_back({chord_above, chord_below, exit, entry});
+  return true;
+}
+
+VOUSSOIR_INLINE bool SurfaceSplit::close(const HalfSpace<3>& plane, int label) {
+  ending_.assign(above_.number.size(), -1);
+  for (std::size_t r = 0; r < rims_.size(); ++r) {
+    int& ending = ending_[at(rims_[r].to)];
+    if (ending >= 0) return false;
+    ending = static_cast<int>(r);
+  }
+  order_.clear();
+  int r = 0;
+  do {
+    order_.push_back(r);
+    r = ending_[at(rims_[at(r)].from)];
+  } while (r > 0);
+  if (r < 0 || order_.size() != rims_.size()) return false;
+  // Both caps start at the same vertex: a fan over either is then the same surface.
+  for (const int k : order_) join(above, above_, rims_[at(k)].to, rims_[at(k)].above_half);
+  finish_face(above, {-plane.normal, -plane.offset}, label);
+  for (std::size_t k = order_.size(); k-- > 0;)
+    join(below, below_, rims_[at(order_[k])].from, rims_[at(order_[k])].below_half);
+  finish_face(below, plane, label);
+  return true;
+}
+
+#endif
 
 }  // namespace voussoir::detail
