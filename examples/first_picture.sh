@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.." || exit 1
 source cmake/packages.sh
 
 say "builds the program in build/program and writes the design case and its diagram to results;"
-say "about three minutes on two cores, packages included; some seconds when it has run before"
+say "two to three minutes on two cores, packages included; some seconds when it has run before"
 take_packages g++ cmake make libeigen3-dev libboost-dev libcli11-dev libtomlplusplus-dev \
   nlohmann-json3-dev
 need_tools cmake
