@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analyses.hpp"
+
 #include "section.hpp"
 #include "study.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where a bolt grips: near the joint, midway in the block, on the joint. Fig. 10.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -3,9 +3,9 @@
 #include <voussoir/theory/lining_in_ground.hpp>
 
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

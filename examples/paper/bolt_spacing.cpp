@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Length and spacing of bolts: Figs 9, 12 and 13.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -8,10 +8,10 @@
 #include <voussoir/core/parallel.hpp>
 
 #include "analyses.hpp"
-#include "section.hpp"
-#include "study.hpp"
 #include "analysis_parts.hpp"
 #include "patterns.hpp"
+#include "section.hpp"
+#include "study.hpp"
 
 namespace voussoir::paper {
 

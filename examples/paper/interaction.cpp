@@ -6,9 +6,9 @@
 #include <voussoir/io/interaction_picture.hpp>
 
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

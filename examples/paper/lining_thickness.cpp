@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Lining thickness with 4 m bolts at 15 degrees: Figs 22 and 23.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Thrust of a lining without bolts against theory, and the stiffness of its interface: Figs 19, 20.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Bolt forces over p0 D theta_b on three joint patterns: Fig. 14.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

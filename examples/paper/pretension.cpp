@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pretension of bolts: Figs 15 to 17.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -10,9 +10,9 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -7,9 +7,9 @@
 #include <voussoir/solver/two_level.hpp>
 
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

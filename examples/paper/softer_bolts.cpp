@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Stiffness of the bolts in composite support: Figs 25 and 26.
 #include "analyses.hpp"
+#include "analysis_parts.hpp"
 #include "section.hpp"
 #include "study.hpp"
-#include "analysis_parts.hpp"
 
 namespace voussoir::paper {
 

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "analyses.hpp"
-#include "section.hpp"
-#include "study.hpp"
 #include "pages.hpp"
 #include "plotting.hpp"
 #include "report.hpp"
 #include "scoreboard.hpp"
+#include "section.hpp"
+#include "study.hpp"
 #include "verification.hpp"
 
 namespace voussoir::program {
