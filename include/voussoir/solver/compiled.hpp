@@ -25,11 +25,6 @@
       const;                                                                                   \
   WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
 
-/// The contacts of one system: between blocks, at the edge of the domain.
-#define VOUSSOIR_GROUPS(WORD, GEOMETRY)            \
-  WORD class ContactGroup<GEOMETRY, CoulombJoint>; \
-  WORD class ContactGroup<GEOMETRY, SmoothWall>;
-
 /// Rock: its blocks, the opening in it, its contacts.
 #define VOUSSOIR_ROCK(WORD, GEOMETRY)                                                           \
   WORD RockMass<GEOMETRY> slice<GEOMETRY>(const Domain<GEOMETRY::dim>&,                         \
@@ -43,8 +38,11 @@ namespace voussoir {
 VOUSSOIR_ROCK(VOUSSOIR_PLANAR_TEMPLATE, Planar)
 VOUSSOIR_ROCK(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
 
-VOUSSOIR_GROUPS(VOUSSOIR_PLANAR_TEMPLATE, Planar)
-VOUSSOIR_GROUPS(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
+// The contacts of one system: between blocks, at the edge of the domain.
+VOUSSOIR_PLANAR_TEMPLATE class ContactGroup<Planar, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class ContactGroup<Planar, SmoothWall>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, SmoothWall>;
 
 VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialBolt)
 VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
@@ -59,6 +57,5 @@ VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoin
 
 }  // namespace voussoir
 
-#undef VOUSSOIR_GROUPS
 #undef VOUSSOIR_ROCK
 #undef VOUSSOIR_SEARCHES
