@@ -80,10 +80,19 @@ struct Pair {
   const Pair p = exact_product(a.high, b.high);
   return exact_sum(p.high, p.low + (product(a.high, b.low) + product(a.low, b.high)));
 }
+[[nodiscard]] inline Pair operator+(double a, const Pair& b) {
+  const Pair high = exact_sum(a, b.high);
+  return exact_sum(high.high, high.low + b.low);
+}
 [[nodiscard]] inline Pair operator/(const Pair& a, const Pair& b) {
   const double q = a.high / b.high;
   const Pair rest = a + -(b * Pair{q, 0});
   return exact_sum(q, rest.high / b.high);
+}
+
+[[nodiscard]] inline Pair operator/(const Pair& a, double b) {
+  const double q = a.high / b;
+  return exact_sum(q, (std::fma(-q, b, a.high) + a.low) / b);
 }
 
 /// pi / 2 and ln 2 in three doubles.
@@ -101,37 +110,29 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
   return rest + Pair{product(-count, constant[2]), 0};
 }
 
-/// The sine and the cosine of r, |r| <= pi / 4, by Taylor's series.
-[[nodiscard]] inline Pair sine_series(const Pair& r) {
-  const Pair minus_square = -(r * r);
-  Pair sum{1, 0};
-  for (int n = 26; n >= 2; n -= 2)
-    sum = Pair{1, 0} + minus_square * sum / Pair{static_cast<double>(n * (n + 1)), 0};
-  return r * sum;
-}
-[[nodiscard]] inline Pair cosine_series(const Pair& r) {
-  const Pair minus_square = -(r * r);
-  Pair sum{1, 0};
-  for (int n = 25; n >= 1; n -= 2)
-    sum = Pair{1, 0} + minus_square * sum / Pair{static_cast<double>(n * (n + 1)), 0};
+/// 1 - r^2 / (m (m + 1)) (1 - r^2 / ((m + 2) (m + 3)) (1 - ...)), |r| <= pi / 4: Taylor's series of
+/// cos r for m = 1, of sin(r) / r for m = 2. The last terms are plain doubles, which loses less
+/// than 1e-21 of the sum.
+[[nodiscard]] inline Pair alternating_series(const Pair& minus_square, int m) {
+  double end = 1;
+  for (int n = m + 20; n >= m + 8; n -= 2)
+    end = std::fma(minus_square.high, end / (n * (n + 1)), 1);
+  Pair sum{end, 0};
+  for (int n = m + 6; n >= m; n -= 2) sum = 1 + minus_square * sum / (n * (n + 1));
   return sum;
-}
-
-/// sin(x + quarters * pi / 2)
-[[nodiscard]] inline double shifted_sine(double x, int quarters) {
-  const double count = std::floor(product(x, 2 / std::numbers::pi) + 0.5);
-  const Pair rest = reduced(x, count, quarter_turn);
-  const auto turns = static_cast<long long>(count) + quarters;
-  const Pair value = (turns & 1) != 0 ? cosine_series(rest) : sine_series(rest);
-  return (turns & 2) != 0 ? -value.high : value.high;
 }
 
 }  // namespace detail
 
+struct SineCosine {
+  double sine, cosine;
+};
 /// @pre |x| < 1e5
-[[nodiscard]] inline double sine(double x) { return detail::shifted_sine(x, 0); }
+[[nodiscard]] VOUSSOIR_INLINE SineCosine sine_cosine(double x);
 /// @pre |x| < 1e5
-[[nodiscard]] inline double cosine(double x) { return detail::shifted_sine(x, 1); }
+[[nodiscard]] inline double sine(double x) { return sine_cosine(x).sine; }
+/// @pre |x| < 1e5
+[[nodiscard]] inline double cosine(double x) { return sine_cosine(x).cosine; }
 
 /// e^x - 1 for x <= 0, exact where x is small.
 [[nodiscard]] VOUSSOIR_INLINE double expm1(double x);
@@ -141,13 +142,31 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
 
 #if VOUSSOIR_BODIES
 
+VOUSSOIR_INLINE SineCosine sine_cosine(double x) {
+  using detail::Pair;
+  const double count = std::floor(product(x, 2 / std::numbers::pi) + 0.5);
+  const Pair rest = detail::reduced(x, count, detail::quarter_turn), minus_square = -(rest * rest);
+  const double sine = (rest * detail::alternating_series(minus_square, 2)).high;
+  const double cosine = detail::alternating_series(minus_square, 1).high;
+  switch (static_cast<long long>(count) & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
+}
+
 VOUSSOIR_INLINE double expm1(double x) {
   using detail::Pair;
   if (x < -100) return -1;  // to rounding
   const double count = std::floor(product(x, 1 / detail::log_of_2[0]) + 0.5);
   const Pair rest = detail::reduced(x, count, detail::log_of_2);
   Pair sum{1, 0};
-  for (int n = 22; n >= 2; --n) sum = Pair{1, 0} + rest * sum / Pair{static_cast<double>(n), 0};
+  for (int n = 22; n >= 2; --n) sum = 1 + rest * sum / n;
   sum = rest * sum;
   const double scale = std::ldexp(1.0, static_cast<int>(count));
   return (detail::exact_sum(scale, -1) + Pair{product(scale, sum.high), product(scale, sum.low)})
@@ -165,10 +184,9 @@ VOUSSOIR_INLINE double log1p(double x) {
              Pair{product(scale, argument.low), 0};
   }
   // log(1 + y) = 2 artanh z, z = y / (2 + y), |z| < 0.18
-  const Pair z = beyond / (Pair{2, 0} + beyond), square = z * z;
+  const Pair z = beyond / (2 + beyond), square = z * z;
   Pair sum{0, 0};
-  for (int n = 45; n >= 1; n -= 2)
-    sum = Pair{1, 0} / Pair{static_cast<double>(n), 0} + square * sum;
+  for (int n = 45; n >= 1; n -= 2) sum = Pair{1, 0} / n + square * sum;
   const Pair log = Pair{2, 0} * z * sum;
   const double k = count;
   return (log + detail::exact_product(k, detail::log_of_2[0]) +

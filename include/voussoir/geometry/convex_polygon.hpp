@@ -100,6 +100,10 @@ class ConvexPolygon {
   }
 
  private:
+  void reserve(std::size_t count) {
+    vertices_.reserve(count);
+    cuts_.reserve(count);
+  }
   void append(const Vec2& vertex, int cut) {
     vertices_.push_back(vertex);
     cuts_.push_back(cut);
@@ -116,15 +120,19 @@ class ConvexPolygon {
 VOUSSOIR_INLINE auto ConvexPolygon::split(const HalfSpace<2>& line, int cut, double tolerance) const
     -> std::optional<std::pair<ConvexPolygon, ConvexPolygon>> {
   std::vector<double> distances(size());
-  bool below = false, above = false;
+  std::size_t below = 0, above = 0;
   for (std::size_t k = 0; k < size(); ++k) {
     const double d = line.distance(vertices_[k]);
     distances[k] = std::abs(d) <= tolerance ? 0.0 : d;
-    below = below || distances[k] < 0;
-    above = above || distances[k] > 0;
+    below += distances[k] < 0;
+    above += distances[k] > 0;
   }
-  if (!below || !above) return std::nullopt;
+  if (below == 0 || above == 0) return std::nullopt;
   std::pair<ConvexPolygon, ConvexPolygon> parts;
+  // The line meets the outline twice, in vertices or between them: what is reserved is exact.
+  const std::size_t on_line = std::max<std::size_t>(2, size() - below - above);
+  parts.first.reserve(below + on_line);
+  parts.second.reserve(above + on_line);
   for (std::size_t k = 0; k < size(); ++k) {
     const std::size_t next = k + 1 == size() ? 0 : k + 1;
     const double here = distances[k], there = distances[next];

@@ -135,8 +135,8 @@ VOUSSOIR_INLINE JointPlane joint_disc(const Vec3& centre, const Vec3& normal, do
   static const std::array<Vec2, disc_corners> circle = [] {
     std::array<Vec2, disc_corners> points;
     for (int k = 0; k < disc_corners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / disc_corners;
-      points[static_cast<std::size_t>(k)] = Vec2(cosine(angle), sine(angle));
+      const auto [y, x] = sine_cosine(2 * std::numbers::pi * k / disc_corners);
+      points[static_cast<std::size_t>(k)] = Vec2(x, y);
     }
     return points;
   }();

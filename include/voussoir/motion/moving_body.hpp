@@ -64,7 +64,7 @@ struct MovingBody {
     if constexpr (Dim == 2)
       return v;
     else
-      return transposed(pose.rotation) * v;
+      return transposed_product(pose.rotation, v);
   }
   [[nodiscard]] Spin<Dim> to_world(const Spin<Dim>& v) const {
     if constexpr (Dim == 2)
@@ -103,14 +103,14 @@ struct MovingBody {
   /// Brings the rotation back from the roundings of many products: one Newton step to orthogonal.
   void straighten() {
     const Rotation<Dim>& r = pose.rotation;
-    pose.rotation = 0.5 * r * (diagonal_of<Dim>(3) - transposed(r) * r);
+    pose.rotation = 0.5 * r * (diagonal_of<Dim>(3) - transposed_product(r, r));
   }
 
  private:
   void turn_about(int axis, double step) {
     const Rotation<3> turn = small_rotation<3>(step * momentum[axis] / inertia[axis], axis);
     pose.rotation = pose.rotation * turn;
-    momentum = transposed(turn) * momentum;
+    momentum = transposed_product(turn, momentum);
   }
 };
 

@@ -77,10 +77,11 @@ class MovingContacts {
   };
   [[nodiscard]] static Place place_of(const Contact& c, const Pose<Dim>& a, const Pose<Dim>& b) {
     const Rotation<Dim> frame = a.rotation * c.frame;
-    return {transposed(b.rotation) * frame, transposed(frame) * (b.position - a.position)};
+    return {transposed_product(b.rotation, frame),
+            transposed_product(frame, Vec<Dim>(b.position - a.position))};
   }
   [[nodiscard]] static PointMotion<Dim> motion_of(const Point& p, const Place& at) {
-    const Vec<Dim> m = at.base + transposed(at.frame_b) * p.place - p.zero;
+    const Vec<Dim> m = at.base + transposed_product(at.frame_b, p.place) - p.zero;
     return {m[0], part<Dim - 1>(m, 1)};
   }
   [[nodiscard]] PointLoad<Dim> load_of(const Point& p, const Place& at) const {
@@ -96,7 +97,7 @@ class MovingContacts {
     if constexpr (Dim == 2) return react_in_plane(c, a, b, lost);
     const Rotation<Dim> frame = a.pose.rotation * c.frame;
     const Vec<Dim> arm = b.pose.position - a.pose.position;
-    const Place at{transposed(b.pose.rotation) * frame, transposed(frame) * arm};
+    const Place at{transposed_product(b.pose.rotation, frame), transposed_product(frame, arm)};
     Vec<Dim> force = zeros<Vec<Dim>>();     // frame of b
     Spin<Dim> moment = zeros<Spin<Dim>>();  // about the centre of b, frame of b
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {

@@ -53,8 +53,8 @@ namespace detail {
 
 /// Unit vector down the dip.
 [[nodiscard]] inline Vec2 dip_vector(double dip, DipDirection direction) {
-  const double x = repeatable::cosine(dip), y = -repeatable::sine(dip);
-  return {direction == DipDirection::east ? x : -x, y};
+  const auto [fall, level] = repeatable::sine_cosine(dip);
+  return {direction == DipDirection::east ? level : -level, -fall};
 }
 
 /// The joints of all sets in one random order.

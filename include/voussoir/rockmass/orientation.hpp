@@ -19,23 +19,24 @@ struct Orientation {
 /// Unit vector down the dip.
 [[nodiscard]] inline Vec3 dip_vector(const Orientation& plane) {
   using namespace repeatable;
-  const double level = cosine(plane.dip);
-  return {product(level, sine(plane.dip_direction)), product(level, cosine(plane.dip_direction)),
-          -sine(plane.dip)};
+  const auto [fall, level] = sine_cosine(plane.dip);
+  const auto [east, north] = sine_cosine(plane.dip_direction);
+  return {product(level, east), product(level, north), -fall};
 }
 
 /// Unit vector along the strike, the plane falling to its right (right-hand rule): it is a quarter
 /// turn to the left of the dip direction, and cross(dip, strike) points upward.
 [[nodiscard]] inline Vec3 strike_vector(const Orientation& plane) {
-  return {-repeatable::cosine(plane.dip_direction), repeatable::sine(plane.dip_direction), 0};
+  const auto [east, north] = repeatable::sine_cosine(plane.dip_direction);
+  return {-north, east, 0};
 }
 
 /// Unit normal that points upward: 30 deg towards 090 gives (sin 30, 0, cos 30).
 [[nodiscard]] inline Vec3 upward_normal(const Orientation& plane) {
   using namespace repeatable;
-  const double level = sine(plane.dip);
-  return {product(level, sine(plane.dip_direction)), product(level, cosine(plane.dip_direction)),
-          cosine(plane.dip)};
+  const auto [level, up] = sine_cosine(plane.dip);
+  const auto [east, north] = sine_cosine(plane.dip_direction);
+  return {product(level, east), product(level, north), up};
 }
 
 /// Dip and dip direction of the plane with this normal, of either sense and any length > 0. A

@@ -148,8 +148,8 @@ VOUSSOIR_INLINE PlaneFrame random_frame(const SpatialJointSet& set, Random& rand
   const double versine =
       -repeatable::log1p(product(random.uniform(), repeatable::expm1(-2 * kappa))) / kappa;
   const double radius = std::sqrt(std::max(0.0, product(versine, 2 - versine)));
-  const double azimuth = 2 * std::numbers::pi * random.uniform();
-  const Vec3 level = along<3>(scaled<3>(cosine(azimuth), mean.down), sine(azimuth), mean.strike);
+  const auto [aside, down] = sine_cosine(2 * std::numbers::pi * random.uniform());
+  const Vec3 level = along<3>(scaled<3>(down, mean.down), aside, mean.strike);
   Vec3 normal = along<3>(scaled<3>(1 - versine, mean.normal), radius, level);
   if (normal.z() < 0) normal = -normal;
   normal /= norm<3>(normal);

@@ -207,7 +207,7 @@ class ContactGroup {
   /// Opening and slips of a point that displacement `u` makes, besides those at the start.
   [[nodiscard]] static Vec<dim> linear_motion(const Contact& c, const Point& p, const double* u) {
     const Vec<dim> jump = jump_at(c, offset_of(c, p), u);
-    return stacked(c.normal.dot(jump), transposed(c.tangents) * jump);
+    return stacked(c.normal.dot(jump), transposed_product(c.tangents, jump));
   }
 
   /// Forgets the contacts of bodies for which `gone(body)` holds.
@@ -244,7 +244,7 @@ class ContactGroup {
       const PointLoad<dim> load{p.weight,
                                 p.initial,
                                 {p.start[0] + c.normal.dot(motion),
-                                 part<dim - 1>(p.start, 1) + transposed(tangents) * motion}};
+                                 part<dim - 1>(p.start, 1) + transposed_product(tangents, motion)}};
       const PointForce<dim> at = law_of(c).force(load, p.state);
       if constexpr (std::is_same_v<History, Committing>) law_of(c).commit(load, p.state);
       const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
@@ -298,7 +298,7 @@ class ContactGroup {
                                                   const Vec<dim>& offset, const double* u) {
     const Vec<dim> motion = jump_at(c, offset, u);
     return {p.start[0] + c.normal.dot(motion),
-            part<dim - 1>(p.start, 1) + transposed(c.tangents) * motion};
+            part<dim - 1>(p.start, 1) + transposed_product(c.tangents, motion)};
   }
 
   template <class Visit>

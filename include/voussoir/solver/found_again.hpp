@@ -112,7 +112,7 @@ class FoundAgain {
       for (int k = c.first; k < c.last; ++k) {
         const auto& p = group.points()[index(k)];
         typename MovingContacts<dim, Law>::Point point{};
-        point.place = transposed(b.rotation) * (c.arm_b + group.offset_of(c, p));
+        point.place = transposed_product(b.rotation, Vec<dim>(c.arm_b + group.offset_of(c, p)));
         point.weight = p.weight;
         point.initial = p.initial;
         point.state = p.state;
