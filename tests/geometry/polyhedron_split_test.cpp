@@ -341,9 +341,9 @@ TEST_SUITE("geometry/polyhedron_split") {
       CAPTURE(trial);
       ConvexPolyhedron shape = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
       for (int k = 0; k < 12; ++k) {
-        const Vec3 normal(3e-3 * random.normal(), 3e-3 * random.normal(), 1);
+        const double y = 3e-3 * random.normal(), x = 3e-3 * random.normal();
         const double height = 0.497 + 1e-3 * random.uniform();
-        if (auto parts = shape.split({normal.normalized(), height}, k, 1e-9))
+        if (auto parts = shape.split({Vec3(x, y, 1).normalized(), height}, k, 1e-9))
           shape = std::move(parts->first);
       }
       shape.move_vertices([&](const Vec3& v) {

@@ -169,15 +169,16 @@ TEST_SUITE("motion/lining") {
       const double spring = 1 / (1 / of_beam + 1 / (5e9 * width));
       const double still = weight / spring;
       const double deepest = still * (1 + std::sqrt(1 + 2 * height / still));
-      double lowest = 0;
-      for (int k = 0; k < 400; ++k) {
+      double lowest = 0.5 + height, next = lowest;
+      do {
+        lowest = next;
         beam.run.advance(0.0005);
-        lowest = std::max(lowest, 0.5 + height - beam.run.position(block).y() - height);
-      }
-      CHECK(lowest == doctest::Approx(deepest).epsilon(0.01));
+        next = beam.run.position(block).y();
+      } while (next < lowest);  // it rebounds
+      CHECK(0.5 - lowest == doctest::Approx(deepest).epsilon(0.01));
       // It comes to rest: moments at the clamps and in the middle F L / 8.
       beam.run.set_local_damping(0.8);
-      beam.run.advance(1);
+      beam.run.advance(0.3);  // at rest within 1e-4 by then
       CHECK(beam.deflection() == doctest::Approx(weight / of_beam).epsilon(0.01));
       const auto& member = beam.lining->members().front();
       const auto f = member.end_forces(beam.run.pose(member.i), beam.run.pose(member.j));

@@ -87,10 +87,11 @@ TEST_SUITE("motion/sliding") {
                      std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
     // What is left of the first bounce after 0.2 s at zeta = 0.5 is below 1e-6; the friction of a
     // point lags by the step, 1e-4 s of 0.3 s.
-    for (const auto& [id, slope, phi] : {std::tuple{"th30.phi20", 30, 20},
-                                         {"th36.phi35", 36, 35},
-                                         {"th40.phi35", 40, 35},
-                                         {"th60.phi30", 60, 30}}) {
+    for (const auto& [key, slope, phi] : {std::tuple{"th30.phi20", 30, 20},
+                                          {"th36.phi35", 36, 35},
+                                          {"th40.phi35", 40, 35},
+                                          {"th60.phi30", 60, 30}}) {
+      const std::string id = key;
       CAPTURE(id);
       CHECK(acceleration<Dim::value>(slope * degree, phi * degree) ==
             doctest::Approx(reference(std::string("F.incline.") + id)).epsilon(1e-3));
@@ -99,9 +100,10 @@ TEST_SUITE("motion/sliding") {
   }
 
   TEST_CASE("in a symmetric trough it slides along the line of intersection") {
-    for (const auto& [id, psi, eta, phi] : {std::tuple{"psi40.eta45.phi20", 40, 45, 20},
-                                            {"psi50.eta60.phi30", 50, 60, 30},
-                                            {"psi35.eta30.phi15", 35, 30, 15}}) {
+    for (const auto& [key, psi, eta, phi] : {std::tuple{"psi40.eta45.phi20", 40, 45, 20},
+                                             {"psi50.eta60.phi30", 50, 60, 30},
+                                             {"psi35.eta30.phi15", 35, 30, 15}}) {
+      const std::string id = key;
       CAPTURE(id);
       // In the frame of the trough: x down the line of intersection, planes at the angle eta to
       // the vertical plane of symmetry; then all is turned by psi about y.
@@ -163,9 +165,10 @@ TEST_SUITE("motion/sliding") {
   }
 
   TEST_CASE("a block let go at an angle rocks with Housner's period") {
-    for (const auto& [id, b, h, f] : {std::tuple{"b0.5.h2.0.f0.5", 0.5, 2.0, 0.5},
-                                      {"b0.25.h1.5.f0.2", 0.25, 1.5, 0.2},
-                                      {"b0.5.h2.0.f0.9", 0.5, 2.0, 0.9}}) {
+    for (const auto& [key, b, h, f] : {std::tuple{"b0.5.h2.0.f0.5", 0.5, 2.0, 0.5},
+                                       {"b0.25.h1.5.f0.2", 0.25, 1.5, 0.2},
+                                       {"b0.5.h2.0.f0.9", 0.5, 2.0, 0.9}}) {
+      const std::string id = key;
       CAPTURE(id);
       const double alpha = std::atan(b / h), tilt = f * alpha, radius = std::hypot(b, h);
       Dynamics<2, CoulombJoint> run(CoulombJoint({2e11, 2e11, 60 * degree}), {.safety = 0.5});

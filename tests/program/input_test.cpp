@@ -541,8 +541,9 @@ TEST_SUITE("program/input") {
   }
 
   TEST_CASE("a fraction is a percentage or a bare number") {
-    for (const auto& [written, value] : std::vector<std::pair<std::string, double>>{
+    for (const auto& [text, value] : std::vector<std::pair<std::string, double>>{
              {"0", 0}, {"0.0", 0}, {"0.3", 0.3}, {"1", 1}, {"1e-1", 0.1}, {"\"30 %\"", 0.3}}) {
+      const std::string written = text;
       CAPTURE(written);
       CHECK(read(with("wall_traction = \"40 %\"", "wall_traction = " + written))
                 .stages.at(0)

@@ -52,7 +52,8 @@ TEST_SUITE("theory/ground_reaction") {
         {"caseA", {5, 5e6, ground(5e5, 30, 0, 1e9, 0.3)}},
         {"caseB", {5, 5e6, ground(5e5, 30, 10, 1e9, 0.3)}},
         {"caseP", {5, 662175, ground(2e4, 35, 0, 1.44398e9, 0.37)}}};
-    for (const auto& [name, curve] : curves) {
+    for (const auto& [key, curve] : curves) {
+      const std::string name = key;
       CAPTURE(name);
       const double p0 = name == "caseP" ? 662175 : 5e6;
       CHECK(relative(curve.critical_pressure(), reference("C.grc." + name + ".pcr")) <= printed);

@@ -113,8 +113,11 @@ class ContactGroup {
   /// @return  points whose force changed by that: joints that failed, and are weaker now
   int commit(const double* u);
 
-  /// Lets joints creep for a time [s] at displacement `u`.
-  void creep(const double* u, double time) requires CreepingLaw<Law, dim> {
+  /// Lets joints creep for a time [s] at displacement `u`. (A template, since clang++ 14 makes a
+  /// plain member with an explicit instance of the class even where the law does not creep.)
+  template <class CreepLaw = Law>
+  requires CreepingLaw<CreepLaw, dim>
+  void creep(const double* u, double time) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
       law_of(c).creep({p.weight, p.initial, motion_at(c, p, offset, u)}, p.state, time);
     });

@@ -203,8 +203,9 @@ template <class... Policies>
 class Solver : public detail::Composed<Composition<Policies...>> {
  public:
   using Parts = Composition<Policies...>;
-  using detail::Composed<Parts>::ComposedSolver;
-  using SystemType = typename detail::Composed<Parts>::SystemType;
+  using Base = detail::Composed<Parts>;
+  using Base::Base;
+  using SystemType = typename Base::SystemType;
   static_assert(explain_equilibrium_method<typename Parts::Method, SystemType>());
   static_assert(
       ((!HasEquilibriumSearch<Policies, SystemType> || Fills<Policies, roles::Equilibrium>)&&...),
