@@ -113,6 +113,7 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
 /// 1 - r^2 / (m (m + 1)) (1 - r^2 / ((m + 2) (m + 3)) (1 - ...)), |r| <= pi / 4: Taylor's series of
 /// cos r for m = 1, of sin(r) / r for m = 2. The last terms are plain doubles, which loses less
 /// than 1e-21 of the sum.
+/// @param minus_square  -r^2
 [[nodiscard]] inline Pair alternating_series(const Pair& minus_square, int m) {
   double end = 1;
   for (int n = m + 20; n >= m + 8; n -= 2)
@@ -127,7 +128,7 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
 struct SineCosine {
   double sine, cosine;
 };
-/// @pre |x| < 1e5
+/// Both of one angle [rad], the doubles nearest to them. @pre |x| < 1e5
 [[nodiscard]] VOUSSOIR_INLINE SineCosine sine_cosine(double x);
 /// @pre |x| < 1e5
 [[nodiscard]] inline double sine(double x) { return sine_cosine(x).sine; }
