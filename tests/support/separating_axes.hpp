@@ -36,6 +36,7 @@ struct LongShape {
   std::vector<LongVec<Dim>> vertices;             ///< [m]; in 2-D anticlockwise
   std::vector<std::vector<int>> faces;            ///< vertices; in 2-D (k, k + 1)
   std::vector<LongVec<Dim>> normals;              ///< of the faces, unit, outward
+  std::vector<long double> widths;                ///< of faces: area / longest side; 2-D: length
   std::vector<std::array<std::size_t, 2>> edges;  ///< 3-D: ends of each edge, once
 
   LongShape(std::vector<LongVec<Dim>> points, std::vector<std::vector<int>> loops)
@@ -43,15 +44,19 @@ struct LongShape {
     for (const auto& face : faces) {
       if constexpr (Dim == 2) {
         const LongVec<2> along = at(face[1]) - at(face[0]);
-        normals.push_back(LongVec<2>(along[1], -along[0]) / along.norm());
+        widths.push_back(along.norm());
+        normals.push_back(LongVec<2>(along[1], -along[0]) / widths.back());
       } else {
         const LongVec<3> area = area_vector_of(corners(face));
         normals.push_back(area / area.norm());
+        long double longest = 0;
         for (std::size_t k = 0; k < face.size(); ++k) {
           const auto from = static_cast<std::size_t>(face[k]);
           const auto to = static_cast<std::size_t>(face[(k + 1) % face.size()]);
+          longest = std::max(longest, (vertices[to] - vertices[from]).norm());
           if (from < to) edges.push_back({from, to});
         }
+        widths.push_back(area.norm() / longest);
       }
     }
   }
@@ -127,12 +132,14 @@ struct LongSeparation {
 /// best). An axis is always measured over all vertices, so that one spoiled by rounding can only be
 /// useless, never wrong.
 ///
-/// @param parallel  edges with a sine below this are parallel and have no product
+/// @param across  what a direction is taken from must be wider [m]: a face, and of two edges what
+///                the shorter reaches across the longer. Vertices known to 1e-16 m tell it no
+///                better than 1e-16 m / `across`, and a gap of metres multiplies that.
 ///
 /// @cost  about 0.3 us for two quadrilaterals, 20 us for two hexahedra
 template <int Dim>
 [[nodiscard]] LongSeparation<Dim> separating_axes(const LongShape<Dim>& a, const LongShape<Dim>& b,
-                                                  long double parallel = 1e-15L) {
+                                                  long double across = 1e-16L) {
   LongSeparation<Dim> best;
   constexpr long double infinite = std::numeric_limits<long double>::infinity();
   const auto consider = [&](const LongVec<Dim>& direction, long double between) {
@@ -141,8 +148,10 @@ template <int Dim>
     const bool supported = between == infinite || room >= between - 1e-15L;
     if (room > best.value && supported) best = {room, direction};
   };
-  for (const LongVec<Dim>& normal : a.normals) consider(normal, infinite);
-  for (const LongVec<Dim>& normal : b.normals) consider(-normal, infinite);
+  for (std::size_t f = 0; f < a.faces.size(); ++f)
+    if (a.widths[f] > across) consider(a.normals[f], infinite);
+  for (std::size_t f = 0; f < b.faces.size(); ++f)
+    if (b.widths[f] > across) consider(-b.normals[f], infinite);
   if constexpr (Dim == 3) {
     for (const auto& edge_a : a.edges) {
       const LongVec<3>& p = a.vertices[edge_a[0]];
@@ -154,11 +163,12 @@ template <int Dim>
         LongVec<3> axis = long_cross(u, v);
         const long double squared = axis.squaredNorm();
         const long double v_squared = v.squaredNorm();
-        if (squared <= parallel * parallel * u_squared * v_squared) continue;
+        const long double longer_squared = std::max(u_squared, v_squared);
+        if (squared <= across * across * longer_squared) continue;
         axis /= std::sqrt(squared);
         // The product of nearly parallel edges is known well across them but not along them.
         const LongVec<3>& longer = u_squared > v_squared ? u : v;
-        axis -= axis.dot(longer) / std::max(u_squared, v_squared) * longer;
+        axis -= axis.dot(longer) / longer_squared * longer;
         axis /= axis.norm();
         const long double between = axis.dot(q - p);
         consider(axis, between);
