@@ -11,6 +11,7 @@
 #include <vector>
 #include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
+#include <voussoir/rockmass/domain.hpp>
 
 #include "support/pairs.hpp"
 #include "support/separating_axes.hpp"
@@ -604,6 +605,91 @@ TEST_SUITE("detection/face_contacts: known contacts") {
       CHECK(std::abs(found.separation - d) < 1e-15);
       CHECK(std::abs(found.measure - 0.75) < 1e-14);
     }
+  }
+
+  TEST_CASE("edges of both blocks that are nearly parallel, elsewhere, do not place a contact") {
+    // A cube with a corner cut off; where the cut meets its lower side an upright edge of another
+    // cube crosses. Both have more upright edges: turned by 1e-11 they have a product, which may be
+    // the same normal.
+    Random random(31);
+    const ConvexPolyhedron cube = as_block(Domain<3>{Vec3(-1, -1, -1), Vec3(1, 1, 1)});
+    int edges = 0;
+    for (int k = 0; k < 4000; ++k) {
+      CAPTURE(k);
+      const double sum = random.uniform() - 0.5, at = random.uniform(), height = random.uniform(),
+                   entered = 0.05 * random.uniform(),
+                   angle = std::pow(10, -8 - 6 * random.uniform());
+      const auto parts =
+          cube.split(HalfSpace<3>::through(Vec3(sum, 0, 0), Vec3(1, 1, 1).normalized()), 6, 1e-12);
+      REQUIRE(parts);
+      // The cut's lower edge runs from (1, sum) to (sum, 1), at z = -1.
+      const Vec3 crossing(sum + at * (1 - sum) - entered, 1 - at * (1 - sum) - entered, -1);
+      Vec3 spin;
+      for (int axis = 0; axis < 3; ++axis)
+        spin[axis] = angle * (std::floor(3 * random.uniform()) - 1);
+      const Pose<3> upright{Vec3(crossing + Vec3(1, 1, 1.9 * height - 0.95)),
+                            Rotation<3>::Identity()},
+          turned{upright.position, rotation_by(Spin<3>(spin))};
+      PlacedShapes<3> shapes;
+      shapes.add(parts->first, zeros<Vec3>());
+      shapes.add(cube, zeros<Vec3>());
+      FaceContacts::Pair<3> pair(shapes);
+      const auto ask_at = [&](const Pose<3>& there) {
+        shapes.place(0, {});
+        shapes.place(1, there);
+        return ask<FaceContacts::Pair<3>, 3>(pair, 0, 1, {});
+      };
+      const Answer<3> exact = ask_at(upright), found = ask_at(turned);
+      if (exact.touch != Touch::edge_edge) continue;
+      ++edges;
+      REQUIRE(found.touch == Touch::edge_edge);
+      // The section moves with the turn, by no more than its own size.
+      CHECK(std::abs(found.measure - exact.measure) < 1e-7);
+      const LongShape<3> a = reference_of<3>(parts->first, {}), b = reference_of<3>(cube, turned);
+      for (const Vec3& point : found.polygon) {
+        const LongVec<3> x = point.cast<long double>();
+        CHECK(static_cast<double>(std::max(outside(a, x), outside(b, x))) < 1e-12);
+      }
+    }
+    CHECK(edges > 1000);
+  }
+
+  TEST_CASE("a contact is in the plane of its face, however short the sides of that") {
+    Random random(32);
+    int faces = 0;
+    for (int k = 0; k < 4000; ++k) {
+      CAPTURE(k);
+      // A corner is cut off, all but a nanometre: the face of the cut may start with a side so
+      // long.
+      Vec3 corner, normal;
+      for (int axis = 0; axis < 3; ++axis) {
+        corner[axis] = random.uniform() < 0.5 ? -1 : 1;
+        normal[axis] = (2 * random.uniform() - 1);
+      }
+      normal.normalize();
+      const ConvexPolyhedron cube = as_block(Domain<3>{Vec3(-1, -1, -1), Vec3(1, 1, 1)});
+      const auto parts = cube.split(
+          HalfSpace<3>::through(Vec3(corner + 1e-9 * (2 * random.uniform() - 1) * normal), normal),
+          6, 1e-12);
+      if (!parts) continue;
+      PlacedShapes<3> shapes;
+      shapes.add(parts->first, zeros<Vec3>());
+      shapes.add(cube, zeros<Vec3>());
+      const Vec3 lift = 0.98 * normal * normal.cwiseAbs().sum();
+      const Pose<3> there{Vec3(corner.dot(normal) * normal + lift), Rotation<3>::Identity()};
+      shapes.place(0, {});
+      shapes.place(1, there);
+      FaceContacts::Pair<3> pair(shapes);
+      const Answer<3> found = ask<FaceContacts::Pair<3>, 3>(pair, 0, 1, {});
+      if (found.touch != Touch::face_a && found.touch != Touch::face_b) continue;
+      ++faces;
+      const LongShape<3> a = reference_of<3>(parts->first, {}), b = reference_of<3>(cube, there);
+      // Points lie in the face that is clipped, the other block's.
+      const LongShape<3>& own = found.touch == Touch::face_a ? b : a;
+      for (const Vec3& point : found.polygon)
+        CHECK(static_cast<double>(outside(own, LongVec<3>(point.cast<long double>()))) < 1e-13);
+    }
+    CHECK(faces > 1000);
   }
 }
 

@@ -18,6 +18,7 @@
 #include <voussoir/rockmass/domain.hpp>
 
 #include "fuzz/bytes.hpp"
+#include "support/pairs.hpp"
 #include "support/separating_axes.hpp"
 
 using namespace voussoir;
@@ -77,17 +78,6 @@ Pose<Dim> read_pose(Bytes& bytes) {
     }
   pose.rotation = rotation_by(spin);
   return pose;
-}
-
-template <int Dim, class Shape>
-LongShape<Dim> reference_of(const Shape& shape, const Pose<Dim>& pose) {
-  std::vector<std::vector<int>> faces = ring_of_faces(shape.size());
-  if constexpr (Dim == 3)
-    for (std::size_t f = 0; f < shape.size(); ++f) {
-      const auto loop = shape.loop(f);
-      faces[f].assign(loop.begin(), loop.end());
-    }
-  return placed<Dim>(shape.vertices(), faces, pose.rotation, pose.position);
 }
 
 template <int Dim>

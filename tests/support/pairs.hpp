@@ -39,6 +39,18 @@ template <int Dim>
 }
 
 /// The shape as the toolkit has it; face k has the label k.
+/// The same of a shape of the toolkit.
+template <int Dim, class Shape>
+[[nodiscard]] LongShape<Dim> reference_of(const Shape& shape, const Pose<Dim>& pose) {
+  std::vector<std::vector<int>> faces = ring_of_faces(shape.size());
+  if constexpr (Dim == 3)
+    for (std::size_t f = 0; f < shape.size(); ++f) {
+      const auto loop = shape.loop(f);
+      faces[f].assign(loop.begin(), loop.end());
+    }
+  return placed<Dim>(shape.vertices(), faces, pose.rotation, pose.position);
+}
+
 [[nodiscard]] inline ConvexPolygon convex(const PlainShape<2>& shape) {
   return polygon(shape.vertices);
 }

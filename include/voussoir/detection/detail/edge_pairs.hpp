@@ -49,7 +49,9 @@ class EdgeList {
 /// Nearly parallel edges are where roundings bite: two of 1e-4 m that cross at 1e-9 rad have a
 /// normal that is off by 0.1 rad at 100 m from the origin. Tests that leave out a pair therefore
 /// have a margin for the rounding, and what is left is measured over all vertices, which can never
-/// give more than the truth.
+/// give more than the truth. A pair that slips through the margin may so have the normal of the
+/// pair that touches, to a rounding, and not be near the contact: of the two, the pair that touches
+/// counts.
 ///
 /// Source: the crossing of Gauss maps after Gregorius (2013), The separating axis test between
 /// convex polyhedra, Game Developers Conference.
@@ -64,6 +66,7 @@ class EdgePairs {
     double separation = -std::numeric_limits<double>::infinity();
     std::uint16_t edge_a = 0, edge_b = 0;
     Vec3 normal = zeros<Vec3>();  ///< from a to b
+    bool is_of_edges = true;      ///< see `Axis`
   };
 
   /// @param list_a, list_b  the edges to try
@@ -213,11 +216,16 @@ class EdgePairs {
            Lanes::all(v[2]) * Lanes::load(column + 2 * stride_);
   }
 
-  /// Takes the pair of edges if it keeps the shapes further apart than the best so far.
+  /// Takes the pair of edges if it keeps the shapes further apart than the best so far; where that
+  /// is a matter of rounding, the pair that touches.
   static void consider(const LinkedShape& a, std::uint16_t i, const LinkedShape& b, std::uint16_t j,
                        Best& best) {
-    const Axis found = axis(a, i, b, j, best.separation);
-    if (found.separation > best.separation) best = {found.separation, i, j, found.normal};
+    const Axis found = axis(a, i, b, j, best.separation - (best.is_of_edges ? 0 : rounding));
+    const bool is_of_edges = found.is_of_edges();
+    const double lead =
+        is_of_edges == best.is_of_edges ? 0.0 : (is_of_edges ? -rounding : rounding);
+    if (found.separation > best.separation + lead)
+      best = {found.separation, i, j, found.normal, is_of_edges};
   }
 
   std::size_t stride_ = 0;

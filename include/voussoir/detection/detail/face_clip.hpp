@@ -29,6 +29,9 @@ class FaceClip {
     normal_ = normal;
     origin_ = p.vertex(face[0]);
     along_ = p.vertex(face[1]) - origin_;
+    // A side of 1e-9 m is known to 1e-7: made upright to the normal, or points would leave the
+    // face.
+    along_ -= dot_product(along_, normal) * normal;
     across_ = cross(normal, along_);
     scale_ = 1 / squared_length_of(along_);
     grow(face.size(), face.size() + other.size() + 3);
