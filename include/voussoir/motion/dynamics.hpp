@@ -16,16 +16,15 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/core/thread_team.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/motion/contact_network.hpp>
 #include <voussoir/motion/contact_tracker.hpp>
 #include <voussoir/motion/dynamics_settings.hpp>
 #include <voussoir/motion/energy_audit.hpp>
-#include <voussoir/motion/half_step.hpp>
 #include <voussoir/motion/health.hpp>
 #include <voussoir/motion/moving_bodies.hpp>
 #include <voussoir/motion/run_sizes.hpp>
+#include <voussoir/motion/stepping.hpp>
 #include <voussoir/motion/support.hpp>
 
 namespace voussoir {
@@ -58,7 +57,7 @@ class Dynamics : public MovingBodies<Dim> {
       : settings_(settings),
         law_of_cut_(std::move(law_of_cut)),
         network_(laws, settings.points, settings.viscous_damping),
-        team_(std::make_unique<ThreadTeam>(settings.threads)) {
+        stepping_(settings.threads) {
     settings.check();
   }
 
@@ -184,7 +183,6 @@ class Dynamics : public MovingBodies<Dim> {
   }
 
  private:
-  using Sums = detail::MemberSums;
   /// All that a run goes back to when it goes bad.
   struct Sound {
     std::vector<Body> bodies;
@@ -200,7 +198,7 @@ class Dynamics : public MovingBodies<Dim> {
   void begin() {
     take_in();
     if (fresh_) return;
-    team_->run([this](unsigned member) { freshen(member); });
+    stepping_.freshen(forces());
     fresh_ = true;
   }
 
@@ -236,6 +234,10 @@ class Dynamics : public MovingBodies<Dim> {
            (std::sqrt(1 + zeta * zeta) - zeta);
   }
   [[nodiscard]] double choose_step();
+  [[nodiscard]] detail::ForcesOnBodies<Dim, JointLaw> forces() {
+    return {bodies_, network_,       supports_,         loads_,
+            held_,   held_fraction_, settings_.gravity, settings_.local_damping};
+  }
 
   /// Makes `count` steps, or fewer: contacts are looked for again before a body can have moved
   /// further than they are listed for. The way is summed up step by step, with the speeds there
@@ -243,56 +245,10 @@ class Dynamics : public MovingBodies<Dim> {
   /// @return  the number of steps made
   int run_batch(int count, double step);
 
-  /// A member's share of what contacts and supports do to the bodies where they are; all of it is
-  /// done when it returns.
-  void respond(unsigned member, Dissipation& lost) {
-    const auto contacts = team_->share(network_.size(), member);
-    network_.react(contacts.first, contacts.last, bodies_, lost);
-    if (member == 0) supports_.act(bodies_);
-    team_->meet();
-  }
-  /// A member's share of bringing what acts on the bodies up to date, with nothing moving.
-  void freshen(unsigned member) {
-    Dissipation none;  // nothing slips that has not already
-    respond(member, none);
-    const auto bodies = team_->share(bodies_.size(), member);
-    for (std::size_t b = bodies.first; b < bodies.last; ++b) settle(b);
-  }
-  /// All that acts on a body but local damping, world axes.
-  [[nodiscard]] Load<Dim> total_load(std::size_t b) const {
-    auto [force, moment] = network_.gather(b);
-    force += loads_[b].force + held_fraction_ * held_[b].force;
-    force[Dim - 1] -= bodies_[b].mass * settings_.gravity;
-    moment += loads_[b].moment + held_fraction_ * held_[b].moment;
-    supports_.add_load_on(b, force, moment);
-    return {force, moment};
-  }
-
-  [[nodiscard]] Load<Dim> applied(std::size_t b) const {
-    return {loads_[b].force + held_fraction_ * held_[b].force,
-            loads_[b].moment + held_fraction_ * held_[b].moment};
-  }
-  /// First half kick, and the drift.
-  void start(std::size_t b, double step, Sums& sums) {
-    acting_[b].kick(bodies_[b], step);
-    acting_[b].add_work(bodies_[b], step, settings_.gravity, applied(b), sums.work);
-    bodies_[b].drift(step);
-    sums.fastest = std::max(sums.fastest, bodies_[b].fastest_point());
-  }
-  /// Forces at the new place.
-  void settle(std::size_t b) {
-    if (bodies_[b].movable()) acting_[b].set(bodies_[b], total_load(b), settings_.local_damping);
-  }
-  /// Second half kick.
-  void finish(std::size_t b, double step, Sums& sums) {
-    acting_[b].add_work(bodies_[b], step, settings_.gravity, applied(b), sums.work);
-    acting_[b].kick(bodies_[b], step);
-  }
-
   DynamicsSettings settings_;
   std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
-  std::unique_ptr<ThreadTeam> team_;
+  detail::Stepping<Dim, JointLaw> stepping_;
   static constexpr int lining_family = -1;
 
   using Base::bodies_;
@@ -307,9 +263,7 @@ class Dynamics : public MovingBodies<Dim> {
   std::vector<Load<Dim>> held_;
   double held_fraction_ = 0;
   SupportSet<Dim> supports_;
-  std::vector<detail::HalfStep<Dim>> acting_;
   std::optional<ContactTracker<Dim>> tracker_;
-  std::vector<Sums> sums_;
   EnergyAudit audit_;
   double contacts_at_start_ = 0;
   detail::RunSizes sizes_{};
@@ -333,11 +287,12 @@ void Dynamics<Dim, JointLaw>::hold() {
 template <int Dim, class JointLaw>
 double Dynamics<Dim, JointLaw>::unbalance_over_weight() {
   begin();
+  const auto all = forces();
   double worst = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = bodies_[b];
     if (!body.movable() || body.radius == 0) continue;
-    const Load<Dim> total = total_load(b);
+    const Load<Dim> total = all.total(b);
     worst = std::max(worst, (total.force.norm() + total.moment.norm() / body.radius) /
                                 (body.mass * settings_.gravity));
   }
@@ -375,7 +330,7 @@ void Dynamics<Dim, JointLaw>::take_in() {
   }
   known_bodies_ = bodies_.size();
   held_.resize(known_bodies_);
-  acting_.resize(known_bodies_);
+  stepping_.resize(known_bodies_);
   find_contacts();
   forget();
   if (is_first) start_audit();
@@ -440,7 +395,7 @@ double Dynamics<Dim, JointLaw>::choose_step() {
   if (!settings_.find_contacts || shapes_.size() < 2) return step_;
   // Within one step nothing is looked for: what is apart must not come to overlap in it.
   begin();
-  const double longest = sizes_.longest_step(bodies_, acting_);
+  const double longest = sizes_.longest_step(bodies_, stepping_.acting());
   if (settings_.time_step > longest)
     throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": in the time step of " +
                          message_number(settings_.time_step, 3) +
@@ -454,43 +409,14 @@ double Dynamics<Dim, JointLaw>::choose_step() {
 
 template <int Dim, class JointLaw>
 int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
+  begin();
   step_ = step;
-  sums_.assign(team_->size(), {});
   constexpr double never = std::numeric_limits<double>::infinity();
-  const double limit = settings_.find_contacts ? sizes_.travel_limit() : never,
-               farthest = settings_.find_contacts ? 0.25 * sizes_.reach : never;
-  int made = 0;
-  team_->run([&](unsigned member) {
-    if (!fresh_) freshen(member);
-    Sums& sums = sums_[member];
-    const auto bodies = team_->share(bodies_.size(), member);
-    double way = 0;  // of the fastest body of each step: the same for all members
-    for (int k = 0; k < count; ++k) {
-      sums.fastest = 0;
-      for (std::size_t b = bodies.first; b < bodies.last; ++b)
-        if (bodies_[b].movable()) start(b, step, sums);
-      team_->meet();
-      double fastest = 0;
-      for (const Sums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
-      way += step * fastest;
-      respond(member, sums.lost);
-      sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
-      for (std::size_t b = bodies.first; b < bodies.last; ++b)
-        if (bodies_[b].movable()) {
-          settle(b);
-          finish(b, step, sums);
-        }
-      if (member == 0) made = k + 1;
-      // In the next step bodies may be faster; a pair that was apart must not come to touch.
-      if (way + step * fastest > limit || way + 1.5 * step * fastest > farthest) break;
-    }
-  });
-  fresh_ = true;
-  for (const Sums& sums : sums_) sums.add_to(audit_);
+  typename detail::Stepping<Dim, JointLaw>::Ways ways{never, never};
+  if (settings_.find_contacts) ways = {sizes_.travel_limit(), 0.25 * sizes_.reach};
+  const int made = stepping_.run(forces(), count, step, ways, audit_);
   steps_ += made;
   time_ += made * step;
-  for (Body& body : bodies_)
-    if (body.movable()) body.straighten();
   if (steps_ - checked_ >= settings_.check_every) check();
   if (settings_.find_contacts) find_contacts();
   return made;
@@ -498,8 +424,10 @@ int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
 
 #ifdef VOUSSOIR_COMPILED
 VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, CoulombJoint>;
 VOUSSOIR_PLANAR_TEMPLATE class Dynamics<2, CoulombJoint>;
 VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, CoulombJoint>;
 VOUSSOIR_SPATIAL_TEMPLATE class Dynamics<3, CoulombJoint>;
 #endif
 
