@@ -35,11 +35,12 @@ LiningSection shotcrete(double mass) {
 }
 
 /// Takes the load off the wall in steps and lets the rock come to rest after each.
+/// @param rest  time steps in which it does: with fewer, thrusts still change
 template <class Run>
-void unload(Run& run, double from, double to, int steps) {
+void unload(Run& run, double from, double to, int steps, int rest = 2500) {
   for (int k = 1; k <= steps; ++k) {
     run.set_held(from + (to - from) * k / steps);
-    run.advance_steps(2500);
+    run.advance_steps(rest);
   }
 }
 
@@ -145,11 +146,12 @@ TEST_SUITE("solver/lined_rock") {
     auto run = moving_rock(still.mass(), joint, deep,
                            {.local_damping = 0.8, .points = ContactPoints::gauss});
     const auto lining = add_lining<EulerBernoulliBeam>(run, frame, sections, interface_law, 0.15);
-    unload(run, 1, 0, 4);
+    unload(run, 1, 0, 4, 1250);
     const double moved = mean_thrust(lining->members(), 40, [&](const auto& member) {
       return member.end_forces(run.pose(member.i), run.pose(member.j));
     });
-    CHECK(moved == doctest::Approx(at_rest).epsilon(0.01));  // 0.5 % is seen
+    // 0.2 % is seen, with twice the steps 0.5 %.
+    CHECK(moved == doctest::Approx(at_rest).epsilon(0.01));
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
   }
 }
