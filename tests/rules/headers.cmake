@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Two targets for CI and on demand; they are no part of the tests' build.
 # voussoir_headers_alone  every header compiles as the only one, and twice in one file
-# voussoir_headers_twice  all of them in two files of one program: the linker finds a function
+# voussoir_headers_twice  all of them linked twice into one program: the linker finds a function
 #                         without `inline`
 # The former write no object, only a stamp: the compiler's word is what counts. With NDEBUG, because
 # the tests themselves compile the headers with assertions.
@@ -79,13 +79,15 @@ foreach(path IN LISTS paths)
 endforeach()
 add_custom_target(voussoir_headers_alone DEPENDS ${stamps})
 
-file(CONFIGURE OUTPUT "${generated}/everything.hpp" CONTENT "${everything}" @ONLY)
-file(CONFIGURE OUTPUT "${generated}/first.cpp" @ONLY
-     CONTENT "#include \"everything.hpp\"\nint second();\nint main() { return second(); }\n")
-file(CONFIGURE OUTPUT "${generated}/second.cpp" @ONLY
-     CONTENT "#include \"everything.hpp\"\nint second();\nint second() { return 0; }\n")
-add_executable(voussoir_headers_twice EXCLUDE_FROM_ALL "${generated}/first.cpp"
-                                                       "${generated}/second.cpp")
-target_link_libraries(voussoir_headers_twice PRIVATE voussoir::voussoir voussoir_own Boost::headers)
-target_compile_definitions(voussoir_headers_twice PRIVATE NDEBUG)
-target_compile_options(voussoir_headers_twice PRIVATE "$<${gnu_like}:-O0;-g0;-fno-sanitize=all>")
+# One object does for two files: linked with itself, it has twice what no `inline` allows.
+file(CONFIGURE OUTPUT "${generated}/everything.cpp" CONTENT "${everything}" @ONLY)
+add_library(voussoir_everything OBJECT EXCLUDE_FROM_ALL "${generated}/everything.cpp")
+target_link_libraries(voussoir_everything PRIVATE voussoir::voussoir voussoir_own Boost::headers)
+target_compile_definitions(voussoir_everything PRIVATE NDEBUG)
+target_compile_options(voussoir_everything PRIVATE "$<${gnu_like}:-O0;-g0;-fno-sanitize=all>")
+set(object "$<TARGET_OBJECTS:voussoir_everything>")
+add_custom_target(
+  voussoir_headers_twice
+  COMMAND "${CMAKE_CXX_COMPILER}" -r "${object}" "${object}" -o "${generated}/twice.o"
+  DEPENDS voussoir_everything
+  VERBATIM)

@@ -30,8 +30,7 @@ namespace voussoir {
 /// @return       the row that is eliminated k-th, k from 0 to size - 1, in postorder: what a column
 ///               of the factor depends on stands close before it
 /// @cost         2 ms for the 5 600 blocks of the paper's tunnel, 0.15 us per row and pair and
-/// order
-///               made; memory 8 ints per pair and 16 per row
+///               order made; memory 8 ints per pair and 16 per row
 [[nodiscard]] VOUSSOIR_INLINE std::vector<int> minimum_degree_order(
     int size, const std::vector<std::pair<int, int>>& pairs);
 
