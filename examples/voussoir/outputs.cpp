@@ -368,10 +368,10 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
       (estimated
            ? "Largest estimated error of the displacements " + text("%.2g", 100 * worst) + " %. "
            : "Error of the displacements not estimated. ") +
-      "Red circles: rockfall."};
+      "Red circles: rockfall or collapse."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
-      {"tunnels that fail",
+      {"tunnels where blocks detach",
        std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
   if (undecided > 0) {
     const std::string count =
