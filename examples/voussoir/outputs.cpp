@@ -371,7 +371,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
       "Red circles: rockfall or collapse."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
-      {"tunnels where blocks detach",
+      {"tunnels with detached blocks",
        std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
   if (undecided > 0) {
     const std::string count =
