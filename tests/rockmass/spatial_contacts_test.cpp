@@ -11,15 +11,19 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 
 #include "support/jointed_mass.hpp"
+#include "support/solids.hpp"
 
 namespace spatial_contacts_test {
 
 using namespace voussoir;
 using voussoir_test::jointed_mass;
 using voussoir_test::moved;
+using voussoir_test::random_direction;
+using voussoir_test::random_point;
 
 namespace {
 
@@ -289,6 +293,41 @@ TEST_SUITE("rockmass/spatial_contacts") {
     // Coordinates are rounded to 4e-12 m.
     CHECK(worst.open < 1e-10);
     CHECK(worst.uncovered < 1e-10);
+  }
+
+  TEST_CASE("six joints through one point, but for a few tolerances: no contact is lost") {
+    Random random(11);
+    for (const double shift : {0.0, 1e4, 1e6})
+      for (const double near : {1.0, 3.0, 10.0})
+        for (int k = 0; k < 40; ++k) {
+          CAPTURE(shift);
+          CAPTURE(near);
+          CAPTURE(k);
+          const Vec3 centre = Vec3::Constant(shift), half = Vec3::Constant(5);
+          const Domain<3> ground{centre - half, centre + half};
+          const double tolerance = ground.tolerance();
+          const Vec3 point = random_point(random, centre - half / 5, centre + half / 5);
+          std::vector<SpatialJoint> joints;
+          for (int j = 0; j < 6; ++j) {
+            const Vec3 normal = random_direction(random);
+            const Vec3 off = near * tolerance * random_direction(random);
+            joints.push_back(plane_through(point + off, normal));
+          }
+          const auto mass = slice<Spatial>(ground, joints, {});
+          for (const auto& body : mass.bodies) CHECK(body.properties.centroid.allFinite());
+          // Vertices lie up to a few tolerances off the planes, along outlines of some 30 m, and
+          // what is narrower than a tolerance is no contact. A face lost is 1e9 tolerances.
+          const auto contacts = CutContacts::find(mass);
+          CHECK(gaps(mass, contacts).open < 100 * tolerance);
+          // Nearer together, blocks that share an edge are told from those that touch by less.
+          if (near < 10) continue;
+          const PairAreas known = areas(contacts);
+          PairAreas found = areas(FaceContacts::find(mass));
+          for (const auto& [pair, area] : known)
+            CHECK(std::abs(found[pair] - area) < 1000 * tolerance);
+          for (const auto& [pair, area] : found)
+            if (!known.contains(pair)) CHECK(area < 1000 * tolerance);
+        }
   }
 
   TEST_CASE("boundary facets: every side of the domain in full, the area vector outwards") {

@@ -368,6 +368,25 @@ TEST_SUITE("rockmass/spatial_slicing") {
     CHECK(at(0.2, {0, 7.142}) == 2);
   }
 
+  TEST_CASE("without limits no block is smaller than the tolerance") {
+    const double tolerance = cube.tolerance();
+    for (const double size : {0.9, 1.1}) {  // inscribed radius of the tetrahedron, in tolerances
+      // Three joints and one across their corner; a tetrahedron with legs s has r = s / (3 +
+      // 3^0.5).
+      const double leg = size * tolerance * (3 + std::sqrt(3.0));
+      std::vector<SpatialJoint> joints{upright(0, 0), upright(1, 0), upright(2, 0)};
+      joints.push_back(plane_through(leg * Vec3::UnitX(), Vec3(1, 1, 1)));
+      const auto mass = slice<Spatial>(cube, joints, {});
+      double smallest = inf;
+      for (const auto& body : mass.bodies)
+        smallest = std::min(smallest, inscribed_ball(body.parts[0]).radius);
+      // Of the eight octants the last joint cuts seven: all but that of negative coordinates.
+      CHECK(mass.bodies.size() == (size < 1 ? 14 : 15));
+      CHECK(mass.slicing.refused_too_small == (size < 1 ? 1 : 0));
+      CHECK(smallest > tolerance);
+    }
+  }
+
   TEST_CASE("a domain longer than the limit allows is cut like any other") {
     const auto set = [](const char* name, double dip, double direction) {
       return SpatialJointSet{.name = name,

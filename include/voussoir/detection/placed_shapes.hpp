@@ -16,6 +16,7 @@
 #include <voussoir/detection/detail/lanes.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
+#include <voussoir/geometry/detail/remove_dents.hpp>
 
 namespace voussoir {
 
@@ -68,18 +69,21 @@ struct Topology {
   };
   std::span<const Edge> edges;
   std::span<const std::uint32_t> loop_begin;  ///< one more than faces
-  std::span<const std::uint16_t> loops;       ///< vertices of each face, anticlockwise from outside
-  std::span<const std::uint16_t> sides;       ///< the edges that start there, loop after loop
+  /// Vertices of each face, anticlockwise from outside, but for those in dents (see
+  /// `remove_dents`) and on the straight line between others.
+  std::span<const std::uint16_t> loops;
+  std::span<const std::uint16_t> sides;  ///< the edges that start there, loop after loop
 
   std::span<const std::uint32_t> fan_begin;  ///< one more than vertices
   std::span<const std::uint16_t> fans;       ///< faces at each vertex
   double diameter = 0;                       ///< longest distance between two vertices [m]
-  double unevenness = 0;  ///< longest distance of a vertex from the plane of a face it is of [m]
+  /// Longest distance of a vertex from the plane of a face it is of, and above that of any [m].
+  double unevenness = 0;
 
   [[nodiscard]] std::span<const std::uint16_t> loop(std::size_t face) const {
     return loops.subspan(loop_begin[face], loop_begin[face + 1] - loop_begin[face]);
   }
-  /// The edge of a face from vertex k of its loop to the next.
+  /// The edge of a face from vertex k of its loop to the next; the longest of several.
   [[nodiscard]] std::uint16_t side(std::size_t face, std::size_t k) const {
     return sides[loop_begin[face] - loop_begin[0] + k];
   }
@@ -126,7 +130,7 @@ class PlacedShapes {
     return {{edges_.data() + l.first_edge, l.edge_count},
             {begins_.data() + l.first_loop, r.face_count + std::size_t{1}},
             indices_,
-            {sides_.data() + l.first_side, 2 * l.edge_count},
+            {sides_.data() + l.first_side, l.side_count},
             {begins_.data() + l.first_fan, r.vertex_count + std::size_t{1}},
             indices_,
             l.diameter,
@@ -144,7 +148,7 @@ class PlacedShapes {
     [[nodiscard]] std::size_t face_stride() const { return PlacedShape<Dim>::padded(face_count); }
   };
   struct Links {
-    std::size_t first_edge, edge_count, first_loop, first_side, first_fan;
+    std::size_t first_edge, edge_count, first_loop, first_side, side_count, first_fan;
     double diameter, unevenness;
   };
 
@@ -238,34 +242,64 @@ void PlacedShapes<Dim>::add_topology(const ConvexPolyhedron& shape) {
                        std::to_string(shape.vertices().size()) +
                        " vertices: at most 65535 of each");
   const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
-  Links links{
-      edges_.size(), shape.edges().size(), begins_.size(), sides_.size(), 0, shape.diameter(), 0};
-  for (const auto& edge : shape.edges())
-    edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
-  std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
+  const auto at = [](int index) { return static_cast<std::size_t>(index); };
   const auto mark = [this] { begins_.push_back(static_cast<std::uint32_t>(indices_.size())); };
+  Links links{
+      edges_.size(), shape.edge_count(), begins_.size(), sides_.size(), 0, 0, shape.diameter(), 0};
+  // By face and place in its loop: the edge that starts there.
+  std::vector<std::vector<std::uint16_t>> starting(shape.size());
+  for (std::size_t face = 0; face < shape.size(); ++face)
+    starting[face].resize(shape.loop(face).size());
+  const auto link = [&](int face, int vertex, std::size_t edge) {
+    const auto loop = shape.loop(at(face));
+    starting[at(face)]
+            [static_cast<std::size_t>(std::find(loop.begin(), loop.end(), vertex) - loop.begin())] =
+                small(edge);
+  };
+  for (const auto& edge : shape.edges()) {
+    link(edge.left, edge.from, edges_.size() - links.first_edge);
+    link(edge.right, edge.to, edges_.size() - links.first_edge);
+    edges_.push_back({small(edge.from), small(edge.to), small(edge.left), small(edge.right)});
+  }
+  // A rounding turns a side of 1e-9 m by 1e-6 whenever the shape moves: what stands out by so
+  // little goes as well, or it might become a dent.
+  const double straight = 1e-13 * links.diameter;
+  std::vector<std::vector<std::uint16_t>> fans(shape.vertices().size());
+  std::vector<std::size_t> outline;
   for (std::size_t face = 0; face < shape.size(); ++face) {
     mark();
-    for (const int vertex : shape.loop(face)) {
-      indices_.push_back(small(vertex));
-      const double off = shape.distance(face, shape.vertex(static_cast<std::size_t>(vertex)));
-      links.unevenness = std::max(links.unevenness, std::abs(off));
-      fans[static_cast<std::size_t>(vertex)].push_back(small(face));
+    const auto loop = shape.loop(face);
+    const auto corner = [&](std::size_t k) -> const Vec3& { return shape.vertex(at(loop[k])); };
+    outline.clear();
+    for (const Vec3& vertex : shape.vertices())
+      links.unevenness = std::max(links.unevenness, shape.distance(face, vertex));
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      outline.push_back(k);
+      links.unevenness = std::max(links.unevenness, -shape.distance(face, corner(k)));
+      fans[at(loop[k])].push_back(small(face));
+    }
+    detail::remove_dents(outline, 0, [&](std::size_t a, std::size_t b, std::size_t c) {
+      const Vec3 before = corner(b) - corner(a), after = corner(c) - corner(b);
+      return dot_product(shape.half_space(face).normal, cross(before, after)) <=
+             straight * length_of(before + after);
+    });
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      indices_.push_back(small(loop[outline[k]]));
+      const std::size_t next = outline[k + 1 == outline.size() ? 0 : k + 1];
+      std::size_t longest = outline[k];
+      double length = 0;
+      for (std::size_t from = outline[k]; from != next;) {
+        const std::size_t to = from + 1 == loop.size() ? 0 : from + 1;
+        const double squared = squared_length_of(corner(to) - corner(from));
+        longest = squared > length ? from : longest;
+        length = std::max(length, squared);
+        from = to;
+      }
+      sides_.push_back(starting[face][longest]);
     }
   }
   mark();
-  sides_.resize(sides_.size() + 2 * links.edge_count);
-  const auto link = [&](int face, int vertex, std::size_t edge) {
-    const auto loop = shape.loop(static_cast<std::size_t>(face));
-    const auto k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
-    const std::size_t before =
-        begins_[links.first_loop + static_cast<std::size_t>(face)] - begins_[links.first_loop];
-    sides_[links.first_side + before + static_cast<std::size_t>(k)] = small(edge);
-  };
-  for (std::size_t k = 0; k < links.edge_count; ++k) {
-    link(shape.edges()[k].left, shape.edges()[k].from, k);
-    link(shape.edges()[k].right, shape.edges()[k].to, k);
-  }
+  links.side_count = sides_.size() - links.first_side;
   links.first_fan = begins_.size();
   for (const auto& fan : fans) {
     mark();

@@ -28,7 +28,9 @@ namespace voussoir {
 /// the domain. Cuts that make it less long are so never refused for length. What remains too long
 /// in the end is counted.
 struct BlockLimits {
-  double min_inscribed_radius = 0;  ///< [m], >= 0
+  /// [m], >= 0. No block is smaller than the tolerance of the domain: its vertices would be too few
+  /// places apart to give it a volume.
+  double min_inscribed_radius = 0;
   /// Longest diagonal / inscribed diameter [-], >= 2.
   double max_elongation = std::numeric_limits<double>::infinity();
 
@@ -128,6 +130,7 @@ class Slicer {
       : stop_(stop), domain_(domain), limits_(limits), tolerance_(domain.tolerance()) {
     domain.check();
     limits.check();
+    limits_.min_inscribed_radius = std::max(limits_.min_inscribed_radius, tolerance_);
     for (int side = 0; side < 2 * Geometry::dim; ++side)
       cuts_.push_back({Cut::Kind::boundary, side});
     nodes_.push_back({});

@@ -265,11 +265,19 @@ class FacePair3 {
       high = std::max(high, heights_[k]);
     }
     double facing = std::numeric_limits<double>::infinity();
-    for (const std::uint16_t candidate : incident.topology.faces_at(deepest)) {
-      const double cosine = dot_product(normal, q.normal(candidate));
-      other_ = cosine < facing ? candidate : other_;
-      facing = std::min(facing, cosine);
-    }
+    const auto look_at = [&](std::size_t vertex) {
+      for (const std::uint16_t candidate : incident.topology.faces_at(vertex)) {
+        const double cosine = dot_product(normal, q.normal(candidate));
+        other_ = cosine < facing ? candidate : other_;
+        facing = std::min(facing, cosine);
+      }
+    };
+    look_at(deepest);
+    // Where vertices stand out of faces, the deepest may not be of the face that touches.
+    const double uneven = reference.topology.unevenness + incident.topology.unevenness;
+    if (uneven > preference)
+      for (std::size_t k = 0; k < q.vertex_count; ++k)
+        if (heights_[k] <= low + 2 * uneven) look_at(k);
     deepest_ = q.vertex(deepest);
     highest_ = q.vertex(highest);
     other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other_)) : q.normal(other_);

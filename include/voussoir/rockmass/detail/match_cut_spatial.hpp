@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
+#include <voussoir/geometry/detail/remove_dents.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -88,9 +89,12 @@ class CutOverlay {
         face.high = is_first ? flat : larger_of(face.high, flat);
         corners_.push_back({flat, point});
       }
-      face.end = corners_.size();
       if (!is_below)
         std::reverse(corners_.begin() + static_cast<std::ptrdiff_t>(face.begin), corners_.end());
+      remove_dents(corners_, face.begin, [](const Corner& a, const Corner& b, const Corner& c) {
+        return cross(b.flat - a.flat, c.flat - b.flat) < 0;
+      });
+      face.end = corners_.size();
       (is_below ? below_ : above_).push_back(face);
     }
   }
