@@ -64,6 +64,20 @@ TEST_SUITE("detection/separating_axes") {
     }
   }
 
+  TEST_CASE("a face too short to tell a direction is left out") {
+    // A square with a corner cut off by 1e-10 m, another 3 m to the right and 3 m up. The distance
+    // is that of the corners, 3 sqrt(2); the face at 45 degrees finds it as exactly as corners
+    // known to 1e-16 m tell its direction, the long faces find 3.
+    const double cut = 1e-10;
+    const PlainShape<2> a{{{0, 0}, {1, 0}, {1, 1 - cut}, {1 - cut, 1}, {0, 1}},
+                          {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}};
+    const PlainShape<2> b{{{4, 4}, {5, 4}, {5, 5}, {4, 5}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+    const auto from = long_shape(a, {}), to = long_shape(b, {});
+    CHECK(std::abs(static_cast<double>(separating_axes(from, to, 0).value) - std::sqrt(18.0)) <
+          1e-5);
+    CHECK(static_cast<double>(separating_axes(from, to, 1e-8).value) == 3);
+  }
+
   TEST_CASE_TEMPLATE("no direction separates better, and moving by the depth comes free", D,
                      Dimensions<2>, Dimensions<3>) {
     constexpr int dim = D::dim;

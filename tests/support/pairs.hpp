@@ -38,7 +38,6 @@ template <int Dim>
   return placed<Dim>(shape.vertices, shape.faces, pose.rotation, pose.position);
 }
 
-/// The shape as the toolkit has it; face k has the label k.
 /// The same of a shape of the toolkit.
 template <int Dim, class Shape>
 [[nodiscard]] LongShape<Dim> reference_of(const Shape& shape, const Pose<Dim>& pose) {
@@ -51,6 +50,7 @@ template <int Dim, class Shape>
   return placed<Dim>(shape.vertices(), faces, pose.rotation, pose.position);
 }
 
+/// The shape as the toolkit has it; face k has the label k.
 [[nodiscard]] inline ConvexPolygon convex(const PlainShape<2>& shape) {
   return polygon(shape.vertices);
 }
