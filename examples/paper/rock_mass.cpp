@@ -165,11 +165,13 @@ Section rock_mass(Study& study) {
   const Measured short_of = over([](const Sampled& s) { return s.half_short.drift; });
   section.findings.push_back(
       {"PF-009", needed_friction_agrees(enough.mean(), short_of.mean()),
-       "K0 = 0.5 needs " + printed_text(needed / degree, 4) + "°: with it blocks move " +
-           power_text(enough.mean() / short_of.mean(), 0) +
-           " times as far as with four fifths of it, " + printed_text(1e9 * short_of.mean(), 2) +
-           " nm. The stress is "
-           "prescribed, so no angle is needed on the way.",
+       "K0 = 0.5 needs " + printed_text(needed / degree, 4) + "°: " +
+           (short_of.mean() > no_motion
+                ? "with it blocks move " + power_text(enough.mean() / short_of.mean(), 0) +
+                      " times as far as with four fifths of it, " +
+                      printed_text(1e9 * short_of.mean(), 2) + " nm"
+                : std::string("blocks stay where they are, with it and with four fifths of it")) +
+           ". The stress is prescribed, so no angle is needed on the way.",
        short_of.mean() > no_motion
            ? ""
            : "No joint of these realisations is inclined so that four fifths of the angle let it slip."});
