@@ -37,9 +37,10 @@ struct ForcesOnBodies {
   /// date
   [[nodiscard]] Load<Dim> total(std::size_t b) const {
     auto [force, moment] = network.gather(b);
-    force += loads[b].force + held_fraction * held[b].force;
+    const Load<Dim> given = applied(b);
+    force += given.force;
     force[Dim - 1] -= bodies[b].mass * gravity;
-    moment += loads[b].moment + held_fraction * held[b].moment;
+    moment += given.moment;
     supports.add_load_on(b, force, moment);
     return {force, moment};
   }
@@ -75,7 +76,8 @@ class Stepping {
   /// must be looked for again [m].
   struct Ways {
     double travel;  ///< with one more step like the last
-    double reach;   ///< with one and a half: in the next step bodies may be faster
+    double reach;   ///< with one and a half: in the next step bodies may be faster, and a pair that
+                    ///< was apart must not come to touch
   };
   /// Makes `count` steps, or fewer where a body comes as far as `ways`; at least one.
   /// @param step  [s]
@@ -143,7 +145,6 @@ int Stepping<Dim, JointLaw>::run(const Forces& forces, int count, double step, c
           finish(forces, b, step, sums);
         }
       if (member == 0) made = k + 1;
-      // In the next step bodies may be faster; a pair that was apart must not come to touch.
       if (way + step * fastest > ways.travel || way + 1.5 * step * fastest > ways.reach) break;
     }
   });
