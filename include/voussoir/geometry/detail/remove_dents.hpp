@@ -12,12 +12,22 @@ namespace voussoir::detail {
 /// the line through two of them may run anywhere, and clipping along it would cut off what is
 /// metres away. Without dents no line of a side cuts the outline itself.
 ///
-/// @param outline   corners in their order round; those from `begin` on are of this outline
+/// @param outline   corners in their order round; those from `begin` on are of this outline, at
+///                  least three
 /// @param is_dent   whether the second of three corners that follow each other is one
 /// @cost  O(corners) for an outline without dents
 template <class Corner, class IsDent>
 void remove_dents(std::vector<Corner>& outline, std::size_t begin, IsDent&& is_dent) {
   std::size_t n = outline.size() - begin;
+  // Nearly all outlines have none: told without the divisions below.
+  bool any = false;
+  const Corner *before = &outline[outline.size() - 2], *corner = &outline[outline.size() - 1];
+  for (std::size_t k = begin; k < outline.size(); ++k) {
+    any = any || is_dent(*before, *corner, outline[k]);
+    before = corner;
+    corner = &outline[k];
+  }
+  if (!any) return;
   for (std::size_t k = 0, good = 0; good < n && n > 3;) {
     const auto at = [&](std::size_t i) -> const Corner& { return outline[begin + i % n]; };
     const std::size_t middle = (k + 1) % n;
