@@ -95,12 +95,11 @@ InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle, 
   // The stress in a block is the sum of (place of a contact force) x (force) over its area.
   std::vector<Stress<2>> stress(mass.bodies.size(), Stress<2>::Zero());
   const auto collect = [&](const auto& group) {
-    using Group = std::decay_t<decltype(group)>;
     group.visit(system.displacement.data(), [&](const auto& c, const auto& point, const auto&,
                                                 const auto& force) {
       // On b: along the normal from a to b, and along the tangent.
       const Vec2 on_b = force.normal * c.normal + c.tangents * force.tangential;
-      const Vec2 offset = Group::offset_of(c, point);
+      const Vec2 offset = c.offset_of(point);
       for (const auto& [body, arm, f] : {std::tuple(c.a, Vec2(c.arm_a + offset), Vec2(-on_b)),
                                          {c.b, Vec2(c.arm_b + offset), on_b}})
         if (body < static_cast<int>(stress.size()))

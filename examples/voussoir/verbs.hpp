@@ -48,7 +48,9 @@ class ProgressLine {
   explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
   ~ProgressLine() { clear(); }
   bool show(const std::string& what, double fraction) {
-    if (shown_) {
+    // Asked every few milliseconds: what it said already is not drawn again.
+    if (shown_ && (fraction >= 0 || what != doing_)) {
+      doing_ = what;
       if (fraction >= 0) {
         const int filled = static_cast<int>(30 * fraction);
         std::fprintf(stderr, "\r\033[K%s [%-30s] %3.0f %%", what.c_str(),
@@ -66,6 +68,7 @@ class ProgressLine {
 
  private:
   bool shown_;
+  std::string doing_;
 };
 
 /// The line says what was written only once it is there.

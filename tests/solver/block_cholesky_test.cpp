@@ -117,6 +117,35 @@ TEST_SUITE("solver/block_cholesky") {
     CHECK(message.find(" 3 can move") != std::string::npos);
   }
 
+  TEST_CASE("ordering and factorisation ask whether to go on") {
+    // Large enough for each part to take longer than the 10 ms in which nothing is asked.
+    constexpr int side = 250;
+    BlockMatrix<3> grid(side * side);
+    const auto springs = [&](int i, int j) {
+      grid.add(i, diagonal_of<3>(1));
+      grid.add(j, diagonal_of<3>(1));
+      grid.add(i, j, diagonal_of<3>(-1));
+    };
+    for (int i = 0; i < side * side; ++i) {
+      if (i % side > 0) springs(i, i - 1);
+      if (i >= side) springs(i, i - side);
+    }
+    grid.add(0, diagonal_of<3>(1));
+    grid.compress();
+    const Progress never = [](double) { return false; };
+    CHECK_THROWS_AS((void)minimum_degree_order(grid.size(), grid.pairs(), never), Stopped);
+    CHECK_THROWS_AS((void)BlockCholesky<3>(grid, never), Stopped);
+    // By questions: where ordering has no more of them, the factor has.
+    int of_order = 0, of_factor = 0;
+    (void)minimum_degree_order(grid.size(), grid.pairs(), [&](double) { return ++of_order > 0; });
+    const BlockCholesky<3> asked(grid, [&](double) { return ++of_factor > 0; });
+    CHECK(of_factor > of_order);
+    Eigen::VectorXd x = constants(3 * grid.size(), 1), y = x;
+    asked.solve_in_place(x);
+    BlockCholesky<3>(grid).solve_in_place(y);
+    CHECK(x == y);
+  }
+
   TEST_CASE_TEMPLATE("what is not positive definite is refused", D, Dofs<3>, Dofs<6>) {
     constexpr int dof = D::value;
     using Block = Eigen::Matrix<double, dof, dof>;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <vector>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/solver/found_again.hpp>
 
@@ -52,6 +53,32 @@ TEST_SUITE("solver/found_again") {
       CHECK(find(tunnel, TwoLevel{}).verdict == Verdict::stable);
       CHECK(error_of(tunnel) <= 1e-3);  // the error estimate of a search; measured 1.3e-4
     }
+  }
+
+  TEST_CASE("an update that is stopped leaves everything as it was") {
+    // 6 400 blocks: more than the 10 ms in which nothing is asked.
+    std::vector<Joint> joints;
+    for (int k = 1; k < 80; ++k) {
+      joints.push_back({{{-1, k}, {81, k}}, 0});
+      joints.push_back({{{k, -1}, {k, 81}}, 1});
+    }
+    const Solver<> before(slice({{0, 0}, {80, 80}}, joints, {}),
+                          CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});
+    Solver<> after = before;
+    CHECK_THROWS_AS(find_contacts_again(after.system(), 0.04, [](double) { return false; }),
+                    Stopped);
+    const auto &old = before.system(), &now = after.system();
+    CHECK(!now.has_found_again());
+    CHECK(now.displacement == old.displacement);
+    REQUIRE(now.joints.points().size() == old.joints.points().size());
+    REQUIRE(now.joints.contacts().size() == old.joints.contacts().size());
+    for (std::size_t k = 0; k < old.joints.contacts().size(); ++k) {
+      const auto &x = old.joints.contacts()[k], &y = now.joints.contacts()[k];
+      CHECK((x.a == y.a && x.b == y.b && x.first == y.first && x.last == y.last));
+      CHECK(x.arm_a == y.arm_a);
+    }
+    find_contacts_again(after.system(), 0.04, [](double) { return true; });
+    CHECK(now.has_found_again());
   }
 
   TEST_CASE("limits out of range are refused") {

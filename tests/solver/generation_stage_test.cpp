@@ -48,10 +48,10 @@ Stress<2> mean_stress(const Run& run, double radius) {
   for (const auto& c : run.joints().contacts()) {
     const auto &a = run.body(c.a), &b = run.body(c.b);
     const Rotation<2> frame = a.pose.rotation * c.frame;
-    const auto at = run.joints().place_of(c, a.pose, b.pose);
+    const auto at = c.place(a.pose, b.pose);
     for (int k = c.first; k < c.last; ++k) {
       const auto& p = run.joints().points()[static_cast<std::size_t>(k)];
-      const auto f = run.joints().law_of(c).force(run.joints().load_of(p, at), p.state);
+      const auto f = run.joints().law_of(c).force(p.load(at), p.state);
       const Vec2 force = frame.col(0) * f.normal + frame.col(1) * f.tangential[0];
       const Vec2 place = b.pose(p.place);
       // Each block its own share: from its centre to the point.

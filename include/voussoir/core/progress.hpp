@@ -24,12 +24,14 @@ class Stopped : public std::runtime_error {
 /// whatever a turn costs (up to some tenths of a millisecond), and never if there is none to ask.
 class StopCheck {
  public:
-  /// @param progress  must outlive this; none: nothing is ever asked
-  explicit StopCheck(const Progress& progress) : progress_(progress ? &progress : nullptr) {}
+  /// @param progress        must outlive this; none: nothing is ever asked
+  /// @param turns_per_look  1: turns are long, the clock is looked at in each
+  explicit StopCheck(const Progress& progress, unsigned turns_per_look = 32)
+      : progress_(progress ? &progress : nullptr), turns_per_look_(turns_per_look) {}
 
   /// One turn of the loop. @throws Stopped
   void operator()(double fraction = -1) {
-    if (progress_ == nullptr || ++turns_ % turns_per_look != 0) return;
+    if (progress_ == nullptr || ++turns_ % turns_per_look_ != 0) return;
     const double now = milliseconds();
     if (std::abs(now - last_) < pause) return;  // a clock that is put back costs one early look
     last_ = now;
@@ -45,9 +47,9 @@ class StopCheck {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
   }
 
-  static constexpr unsigned turns_per_look = 32;
   static constexpr double pause = 10;  ///< [ms]
   const Progress* progress_;
+  unsigned turns_per_look_;
   unsigned turns_ = 0;
   double last_ = milliseconds();  ///< of the last look
 };

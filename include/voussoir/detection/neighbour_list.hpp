@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -155,9 +157,15 @@ void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j)
       add(shapes, entries[i].shape, entries[j].shape, entries[i].cell);
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
-    return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
-  });
+  std::vector<std::pair<int, int>> shapes_of;
+  shapes_of.reserve(pairs_.size());
+  for (const Pair& pair : pairs_)
+    shapes_of.push_back(std::minmax(static_cast<int>(pair.a), static_cast<int>(pair.b)));
+  const std::vector<Pair> found = std::move(pairs_);
+  pairs_.clear();
+  pairs_.reserve(found.size());
+  for (const int k : order_of_pairs(shapes_of, static_cast<int>(boxes_.size())))
+    pairs_.push_back(found[static_cast<std::size_t>(k)]);
 }
 
 template <int Dim>

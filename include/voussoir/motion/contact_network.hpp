@@ -76,16 +76,16 @@ class ContactNetwork {
   void prescribe(const Bodies& bodies, StressAt&& stress_at, double closed) {
     each([&](auto& group, const auto& c) {
       const Pose<Dim>&a = bodies[index(c.a)].pose, &b = bodies[index(c.b)].pose;
-      const auto at = group.place_of(c, a, b);
+      const auto at = c.place(a, b);
       for (auto i = index(c.first); i < index(c.last); ++i)
-        if (std::abs(group.motion_of(group.points()[i], at).opening) > closed) return;
+        if (std::abs(group.points()[i].motion(at).opening) > closed) return;
       const Rotation<Dim> frame = a.rotation * c.frame;
       for (auto i = index(c.first); i < index(c.last); ++i) {
         auto& p = group.points()[i];
         const Vec<Dim> traction = stress_at(b(p.place)) * column(frame, 0);
         const Vec<Dim> force = p.weight * (transposed(frame) * traction);
         p.initial = {force[0], part<Dim - 1>(force, 1)};
-        p.zero[0] += group.motion_of(p, at).opening;
+        p.zero[0] += p.motion(at).opening;
       }
     });
   }
@@ -210,7 +210,7 @@ class ContactNetwork {
     const typename Group::Contact* const old =
         known ? &group.contacts()[index(pair.contact)] : nullptr;
     typename Group::Contact contact =
-        detail::ContactRenewal<Dim, Group>(bodies, group)
+        detail::ContactRenewal<Dim, typename Group::State>(bodies, group.points())
             .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
     if (known)
       contact.law = old->law;

@@ -23,14 +23,16 @@ namespace voussoir::detail {
 /// Carried over, point by point from the nearest old one: the in-situ stress, the slip and the
 /// memory of the law. Where the normal has turned by more than 60 degrees since, it is another
 /// contact and begins without history.
-template <int Dim, class Group>
+template <int Dim, class State>
 class ContactRenewal {
  public:
-  using Contact = typename Group::Contact;
-  using Point = typename Group::Point;
+  using Contact = MovingContact<Dim>;
+  using Point = MovingContactPoint<Dim, State>;
   using Bodies = std::vector<MovingBody<Dim>>;
 
-  ContactRenewal(const Bodies& bodies, const Group& group) : bodies_(bodies), group_(group) {}
+  /// @param old_points  of the contacts before
+  ContactRenewal(const Bodies& bodies, const std::vector<Point>& old_points)
+      : bodies_(bodies), old_points_(old_points) {}
 
   /// @param found   how the shapes touch; `owner`, whose face it is, belongs to body a
   /// @param old     the contact as it was, or null
@@ -54,7 +56,7 @@ class ContactRenewal {
     }
     if (!keeps) frame << normal, tangent_basis(normal);
     contact.frame = transposed(pose_a.rotation) * frame;
-    const auto at = Group::place_of(contact, pose_a, pose_b);
+    const auto at = contact.place(pose_a, pose_b);
     const double face = normal_reach(owner, normal);
     if (found.touch == Touch::edge_edge)
       place_at_edges(found, a, b);
@@ -67,7 +69,7 @@ class ContactRenewal {
       point.place = transposed(pose_b.rotation) * (it.place - pose_b.position);
       point.weight = it.weight;
       point.zero = zeros<Vec<Dim>>();
-      const PointMotion<Dim> now = Group::motion_of(point, at);
+      const PointMotion<Dim> now = point.motion(at);
       // Crossing edges touch at one depth, a face is touched at the height of each point over it.
       const double opening =
           found.touch == Touch::edge_edge ? found.separation : normal.dot(it.place) - face;
@@ -118,17 +120,17 @@ class ContactRenewal {
     double least = std::numeric_limits<double>::infinity();
     for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
          ++i) {
-      const double distance = (pose(old.b)(group_.points()[i].place) - place).squaredNorm();
+      const double distance = (pose(old.b)(old_points_[i].place) - place).squaredNorm();
       if (distance < least) {
         least = distance;
-        nearest = &group_.points()[i];
+        nearest = &old_points_[i];
       }
     }
     if (nearest == nullptr) return;
-    const auto at = Group::place_of(old, pose(old.a), pose(old.b));
+    const auto at = old.place(pose(old.a), pose(old.b));
     // Bodies a and b may have changed places, and with them all axes their sign: slip, opening and
     // the force on b along the axes of the contact are the same either way.
-    add_at<Dim - 1>(point.zero.data() + 1, -Group::motion_of(*nearest, at).slip);
+    add_at<Dim - 1>(point.zero.data() + 1, -nearest->motion(at).slip);
     const double share = point.weight / nearest->weight;
     point.initial.normal = share * nearest->initial.normal;
     point.initial.tangential = share * nearest->initial.tangential;
@@ -136,7 +138,7 @@ class ContactRenewal {
   }
 
   const Bodies& bodies_;
-  const Group& group_;
+  const std::vector<Point>& old_points_;
   std::vector<WeightedPoint<Dim>> places_;
 };
 

@@ -52,10 +52,9 @@ class Health {
       const double size = a.movable() && b.movable() ? std::min(a.radius, b.radius)
                           : a.movable()              ? a.radius
                                                      : b.radius;
-      const auto at = group.place_of(c, a.pose, b.pose);
+      const auto at = c.place(a.pose, b.pose);
       for (int i = c.first; i < c.last; ++i) {
-        const double overlap =
-            -group.motion_of(group.points()[static_cast<std::size_t>(i)], at).opening;
+        const double overlap = -group.points()[static_cast<std::size_t>(i)].motion(at).opening;
         if (!(overlap > overlap_limit_ * size)) continue;
         text =
             name_of(ib) + " overlaps " + name_of(ia) + " by " + message_number(1e3 * overlap, 3) +

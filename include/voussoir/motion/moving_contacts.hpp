@@ -26,6 +26,46 @@ struct Dissipation {
   double viscosity = 0;  ///< dashpots, per time [W]
 };
 
+/// A contact between bodies that move and turn by any amount.
+template <int Dim>
+struct MovingContact {
+  Rotation<Dim> frame;       ///< columns: normal from a to b, tangents; in the frame of body a
+  std::int32_t a, b;         ///< bodies; a owns the face
+  std::int32_t first, last;  ///< points
+  std::int32_t law = 0;      ///< index into the laws of the group
+  double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
+
+  /// Where its frame is with its bodies at these poses, and what follows from that.
+  struct Place {
+    Rotation<Dim> frame_b;  ///< columns: normal and tangents in the frame of b
+    Vec<Dim> base;          ///< centre of b less centre of a, in the contact's frame
+  };
+  [[nodiscard]] Place place(const Pose<Dim>& at_a, const Pose<Dim>& at_b) const {
+    const Rotation<Dim> now = at_a.rotation * frame;
+    return {transposed_product(at_b.rotation, now),
+            transposed_product(now, Vec<Dim>(at_b.position - at_a.position))};
+  }
+};
+
+/// A point of a contact, fixed in body b.
+/// @tparam State  what the contact law remembers of it
+template <int Dim, class State>
+struct MovingContactPoint {
+  Vec<Dim> place;  ///< in the frame of body b [m]
+  Vec<Dim> zero;   ///< coordinates in the contact's frame at which opening and slip are zero [m]
+  double weight;   ///< length or area [m], [m^2]
+  PointForce<Dim> initial;
+  [[no_unique_address]] State state;
+
+  [[nodiscard]] PointMotion<Dim> motion(const typename MovingContact<Dim>::Place& at) const {
+    const Vec<Dim> m = at.base + transposed_product(at.frame_b, place) - zero;
+    return {m[0], part<Dim - 1>(m, 1)};
+  }
+  [[nodiscard]] PointLoad<Dim> load(const typename MovingContact<Dim>::Place& at) const {
+    return {weight, initial, motion(at)};
+  }
+};
+
 /// Contacts that follow laws of one kind, between bodies that move and turn by any amount.
 ///
 /// A contact point is fixed in body b, and touches the face of body a: its opening and slip are its
@@ -37,20 +77,8 @@ class MovingContacts {
  public:
   using State = typename Law::template State<Dim>;
 
-  struct Point {
-    Vec<Dim> place;  ///< in the frame of body b [m]
-    Vec<Dim> zero;   ///< coordinates in the contact's frame at which opening and slip are zero [m]
-    double weight;   ///< length or area [m], [m^2]
-    PointForce<Dim> initial;
-    [[no_unique_address]] State state;
-  };
-  struct Contact {
-    Rotation<Dim> frame;       ///< columns: normal from a to b, tangents; in the frame of body a
-    std::int32_t a, b;         ///< bodies; a owns the face
-    std::int32_t first, last;  ///< points
-    std::int32_t law = 0;      ///< index into the laws of the group
-    double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
-  };
+  using Point = MovingContactPoint<Dim, State>;
+  using Contact = MovingContact<Dim>;
 
   explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
@@ -70,24 +98,6 @@ class MovingContacts {
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
 
-  /// The frame of a contact at these poses of its bodies, and what follows from it.
-  struct Place {
-    Rotation<Dim> frame_b;  ///< columns: normal and tangents in the frame of b
-    Vec<Dim> base;          ///< centre of b less centre of a, in the contact's frame
-  };
-  [[nodiscard]] static Place place_of(const Contact& c, const Pose<Dim>& a, const Pose<Dim>& b) {
-    const Rotation<Dim> frame = a.rotation * c.frame;
-    return {transposed_product(b.rotation, frame),
-            transposed_product(frame, Vec<Dim>(b.position - a.position))};
-  }
-  [[nodiscard]] static PointMotion<Dim> motion_of(const Point& p, const Place& at) {
-    const Vec<Dim> m = at.base + transposed_product(at.frame_b, p.place) - p.zero;
-    return {m[0], part<Dim - 1>(m, 1)};
-  }
-  [[nodiscard]] PointLoad<Dim> load_of(const Point& p, const Place& at) const {
-    return {p.weight, p.initial, motion_of(p, at)};
-  }
-
   /// Forces of contact `k` with the bodies at these poses, history brought up to date.
   template <class Bodies>
   [[nodiscard]] Reaction<Dim> react(std::size_t k, const Bodies& bodies, Dissipation& lost) {
@@ -97,12 +107,13 @@ class MovingContacts {
     if constexpr (Dim == 2) return react_in_plane(c, a, b, lost);
     const Rotation<Dim> frame = a.pose.rotation * c.frame;
     const Vec<Dim> arm = b.pose.position - a.pose.position;
-    const Place at{transposed_product(b.pose.rotation, frame), transposed_product(frame, arm)};
+    const typename Contact::Place at{transposed_product(b.pose.rotation, frame),
+                                     transposed_product(frame, arm)};
     Vec<Dim> force = zeros<Vec<Dim>>();     // frame of b
     Spin<Dim> moment = zeros<Spin<Dim>>();  // about the centre of b, frame of b
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
       Point& p = points_[i];
-      const PointLoad<Dim> load = load_of(p, at);
+      const PointLoad<Dim> load = p.load(at);
       const PointForce<Dim> f = law_of(c).force(load, p.state);
       lost.friction += law_of(c).commit(load, p.state);
       Vec<Dim> components;
@@ -124,11 +135,11 @@ class MovingContacts {
   template <class Bodies>
   [[nodiscard]] double stored_energy(std::size_t k, const Bodies& bodies) const {
     const Contact& c = contacts_[k];
-    const Place at = place_of(c, bodies[static_cast<std::size_t>(c.a)].pose,
-                              bodies[static_cast<std::size_t>(c.b)].pose);
+    const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
+                            bodies[static_cast<std::size_t>(c.b)].pose);
     double sum = 0;
     for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
-      sum += law_of(c).stored_energy(load_of(points_[i], at), points_[i].state);
+      sum += law_of(c).stored_energy(points_[i].load(at), points_[i].state);
     return sum;
   }
 

@@ -11,6 +11,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
@@ -313,9 +314,11 @@ VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar
                             start[e] + to});
         }
     }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const auto& a, const auto& b) { return a.from < b.from; });
-  return pieces;
+  std::vector<double> starts;
+  for (const auto& piece : pieces) starts.push_back(piece.from);
+  std::vector<WallPiece<Planar>> along;
+  for (const std::size_t k : order_of_values(starts)) along.push_back(pieces[k]);
+  return along;
 }
 
 VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass) {

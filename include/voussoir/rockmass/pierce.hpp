@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/line_clip.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
@@ -46,10 +46,11 @@ template <class Geometry>
         passages.push_back({static_cast<int>(b), from, to});
     }
   }
-  std::sort(passages.begin(), passages.end(),
-            [](const Passage& a, const Passage& b) { return a.from < b.from; });
+  std::vector<double> starts;
+  for (const Passage& passage : passages) starts.push_back(passage.from);
   std::vector<Passage> joined;
-  for (const Passage& next : passages) {
+  for (const std::size_t k : order_of_values(starts)) {
+    const Passage& next = passages[k];
     if (!joined.empty() && joined.back().body == next.body &&
         next.from - joined.back().to < same_point * tolerance) {
       joined.back().to = next.to;

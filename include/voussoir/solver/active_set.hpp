@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/solver/block_lu.hpp>
 #include <voussoir/solver/system.hpp>
 
@@ -99,14 +100,13 @@ class ActiveSet {
   /// @param reach  every body is anchored by a spring that yields its weight at this displacement
   ///               of its own [m]: nothing beside a joint's stiffness, but it keeps a block that
   ///               nothing else holds from going to infinity in one step
+  /// @param progress  asked now and then whether to go on
   /// @return  the step, in the order of `bodies`; may be not finite where the tangent is singular
+  /// @throws Stopped
   [[nodiscard]] Eigen::VectorXd newton_step(const Eigen::VectorXd& u, const Eigen::VectorXd& f,
-                                            const Eigen::VectorXd& reach) const {
+                                            const Eigen::VectorXd& reach,
+                                            const Progress& progress = {}) const {
     using Block = typename TangentMatrix<dof>::Block;
-    struct Coupling {
-      int i, j;
-      Block forward, backward;
-    };
     TangentMatrix<dof> matrix;
     for (const int b : bodies_) {
       const auto& body = system_->body(b);
@@ -115,19 +115,21 @@ class ActiveSet {
       for (int k = dim; k < dof; ++k) anchor(k, k) *= body.gyration * body.gyration;
       matrix.diagonal.push_back(anchor);
     }
-    std::vector<Coupling> couplings;
-    couplings.reserve(joints_.size() + interface_.size());
+    std::vector<std::pair<int, int>> places;  // (j, i) of couplings, i > j
+    std::vector<Block> forward, backward;     // (i, j) and (j, i)
+    const std::size_t couplings = joints_.size() + interface_.size();
+    places.reserve(couplings);
+    forward.reserve(couplings);
+    backward.reserve(couplings);
     const auto sink = [&](int a, int b, const Block& aa, const Block& ab, const Block& ba,
                           const Block& bb) {
       const int i = number_[static_cast<std::size_t>(a)], j = number_[static_cast<std::size_t>(b)];
       if (i >= 0) matrix.diagonal[static_cast<std::size_t>(i)] += aa;
       if (j >= 0) matrix.diagonal[static_cast<std::size_t>(j)] += bb;
       if (i < 0 || j < 0) return;
-      if (i > j) {
-        couplings.push_back({i, j, ab, ba});
-      } else {
-        couplings.push_back({j, i, ba, ab});
-      }
+      places.push_back(std::minmax(i, j));
+      forward.push_back(i > j ? ab : ba);
+      backward.push_back(i > j ? ba : ab);
     };
     system_->joints.add_tangent(joints_, u.data(), sink);
     system_->boundary.add_tangent(boundary_, u.data(), sink);
@@ -141,23 +143,22 @@ class ActiveSet {
           [&](int a, int b, const Block& aa, const Block& ab, const Block& bb) {
             sink(a, b, aa, ab, transposed(ab), bb);
           });
-    std::sort(couplings.begin(), couplings.end(), [](const Coupling& x, const Coupling& y) {
-      return x.j != y.j ? x.j < y.j : x.i < y.i;
-    });
-    for (const Coupling& c : couplings) {
-      if (matrix.pairs.empty() || matrix.pairs.back() != std::pair(c.i, c.j)) {
-        matrix.pairs.emplace_back(c.i, c.j);
-        matrix.forward.push_back(c.forward);
-        matrix.backward.push_back(c.backward);
+    for (const int number : order_of_pairs(places, static_cast<int>(bodies_.size()))) {
+      const auto k = static_cast<std::size_t>(number);
+      const std::pair<int, int> pair(places[k].second, places[k].first);
+      if (matrix.pairs.empty() || matrix.pairs.back() != pair) {
+        matrix.pairs.push_back(pair);
+        matrix.forward.push_back(forward[k]);
+        matrix.backward.push_back(backward[k]);
       } else {
-        matrix.forward.back() += c.forward;
-        matrix.backward.back() += c.backward;
+        matrix.forward.back() += forward[k];
+        matrix.backward.back() += backward[k];
       }
     }
     Eigen::VectorXd step(dof * static_cast<Eigen::Index>(bodies_.size()));
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       set_part<dof>(step, dof * static_cast<Eigen::Index>(k), part<dof>(f, dof * bodies_[k]));
-    BlockLU<dof>(matrix).solve_in_place(step);
+    BlockLU<dof>(matrix, progress).solve_in_place(step);
     return step;
   }
 

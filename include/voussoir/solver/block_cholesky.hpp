@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/solver/block_elimination.hpp>
 #include <voussoir/solver/block_matrix.hpp>
 #include <voussoir/solver/small_inverse.hpp>
@@ -22,10 +23,12 @@ class BlockCholesky {
  public:
   using Block = Fixed<Dof, Dof>;
 
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped
   /// @throws NumericalFault  not positive definite: some body can move without resistance; the
   ///                         message names its index
   /// @cost   about 0.02 s for 5 000 bodies in 2-D; grows as n^1.5
-  explicit BlockCholesky(const BlockMatrix<Dof>& matrix);
+  explicit BlockCholesky(const BlockMatrix<Dof>& matrix, const Progress& progress = {});
 
   /// Blocks in the factor, the diagonal included.
   [[nodiscard]] std::size_t block_count() const { return blocks_.size() + inverse_.size(); }
@@ -43,8 +46,9 @@ class BlockCholesky {
 };
 
 template <int Dof>
-BlockCholesky<Dof>::BlockCholesky(const BlockMatrix<Dof>& matrix)
-    : pattern_(matrix.size(), matrix.pairs()) {
+BlockCholesky<Dof>::BlockCholesky(const BlockMatrix<Dof>& matrix, const Progress& progress)
+    : pattern_(matrix.size(), matrix.pairs(), progress) {
+  StopCheck stop(progress);
   const std::size_t n = pattern_.size();
   rows_.resize(pattern_.block_count());
   blocks_.resize(pattern_.block_count());
@@ -54,6 +58,7 @@ BlockCholesky<Dof>::BlockCholesky(const BlockMatrix<Dof>& matrix)
   std::vector<Block> work(n, zeros<Block>());
   BlockElimination::RowWalk walk(pattern_);
   for (std::size_t i = 0; i < n; ++i) {
+    stop();
     const Block& diagonal = matrix.diagonal(pattern_.original(i));
     Block pivot = diagonal;
     walk(

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/solver/minimum_degree.hpp>
 
 namespace voussoir {
@@ -27,10 +28,14 @@ class BlockElimination {
 
   /// @param size   block rows
   /// @param pairs  every coupled pair (row, column) once, row != column
-  BlockElimination(int size, const std::vector<std::pair<int, int>>& pairs)
-      : from_new_(minimum_degree_order(size, pairs)) {
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped
+  BlockElimination(int size, const std::vector<std::pair<int, int>>& pairs,
+                   const Progress& progress = {})
+      : from_new_(minimum_degree_order(size, pairs, progress)) {
+    StopCheck stop(progress);
     gather_rows(pairs);
-    find_columns();
+    find_columns(stop);
   }
 
   [[nodiscard]] std::size_t size() const { return from_new_.size(); }
@@ -92,7 +97,7 @@ class BlockElimination {
     }
   }
 
-  void find_columns() {
+  void find_columns(StopCheck& stop) {
     const std::size_t n = size();
     parent_.assign(n, -1);
     std::vector<int> ancestor(n, -1);
@@ -107,9 +112,11 @@ class BlockElimination {
         }
     begin_.assign(n + 1, 0);
     RowWalk walk(*this);
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
+      stop();
       walk(
           i, [](const Place&) {}, [this](std::size_t j) { ++begin_[j + 1]; });
+    }
     for (std::size_t k = 0; k < n; ++k) begin_[k + 1] += begin_[k];
   }
 

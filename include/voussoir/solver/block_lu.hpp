@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/solver/block_elimination.hpp>
 #include <voussoir/solver/small_inverse.hpp>
 
@@ -26,7 +27,9 @@ class BlockLU {
  public:
   using Block = Fixed<Dof, Dof>;
 
-  explicit BlockLU(const TangentMatrix<Dof>& matrix);
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped
+  explicit BlockLU(const TangentMatrix<Dof>& matrix, const Progress& progress = {});
 
   /// Solves A x = b in place.
   void solve_in_place(Eigen::VectorXd& x) const;
@@ -41,8 +44,9 @@ class BlockLU {
 };
 
 template <int Dof>
-BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix)
-    : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs) {
+BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix, const Progress& progress)
+    : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs, progress) {
+  StopCheck stop(progress);
   const std::size_t n = pattern_.size();
   rows_.resize(pattern_.block_count());
   lower_.resize(pattern_.block_count());
@@ -53,6 +57,7 @@ BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix)
   std::vector<Block> left(n, zeros<Block>()), top(n, zeros<Block>());
   BlockElimination::RowWalk walk(pattern_);
   for (std::size_t i = 0; i < n; ++i) {
+    stop();
     Block pivot = matrix.diagonal[static_cast<std::size_t>(pattern_.original(i))];
     walk(
         i,

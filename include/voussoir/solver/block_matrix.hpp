@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/long_vectors.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
@@ -64,19 +64,20 @@ class BlockMatrix {
 
 template <int Dof>
 void BlockMatrix<Dof>::compress() {
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& x, const Entry& y) {
-    return x.column != y.column ? x.column < y.column : x.row < y.row;
-  });
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < entries_.size(); ++k) {
-    if (kept > 0 && entries_[kept - 1].row == entries_[k].row &&
-        entries_[kept - 1].column == entries_[k].column) {
-      entries_[kept - 1].block += entries_[k].block;
+  std::vector<std::pair<int, int>> places;
+  places.reserve(entries_.size());
+  for (const Entry& e : entries_) places.emplace_back(e.column, e.row);
+  std::vector<Entry> kept;
+  kept.reserve(entries_.size());
+  for (const int k : order_of_pairs(places, size())) {
+    const Entry& e = entries_[static_cast<std::size_t>(k)];
+    if (!kept.empty() && kept.back().row == e.row && kept.back().column == e.column) {
+      kept.back().block += e.block;
     } else {
-      entries_[kept++] = entries_[k];
+      kept.push_back(e);
     }
   }
-  entries_.resize(kept);
+  entries_ = std::move(kept);
 }
 
 template <int Dof>

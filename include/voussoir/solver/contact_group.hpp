@@ -25,6 +25,52 @@ void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
   add_at<spin_count<Dim>>(body + Dim, moment_of(arm, force));
 }
 
+/// A point of a contact in the reference configuration, but for what the contact law remembers.
+template <int Dim>
+struct ReferencePoint {
+  Vec<Dim> offset;          ///< from the centre of the facet, along normal and tangents [m]
+  double weight;            ///< [m] or [m^2]
+  PointForce<Dim> initial;  ///< in the in-situ state, or minus what the installation must not feel
+  /// Opening and slips at displacement zero: not zero once contacts have been updated [m].
+  Vec<Dim> start = zeros<Vec<Dim>>();
+};
+
+/// One facet in which body a touches body b, in the reference configuration: where the bodies were
+/// when contacts were found.
+template <int Dim>
+struct ReferenceContact {
+  static constexpr int dof = Dim + spin_count<Dim>;
+
+  Vec<Dim> normal;             ///< from a to b
+  TangentBasis<Dim> tangents;  ///< with the normal a right-handed frame
+  Vec<Dim> arm_a, arm_b;       ///< from the centres of the bodies to the centre of the facet [m]
+  int a, b;
+  int first, last;  ///< points first, ..., last - 1
+  int law = 0;      ///< index into the laws of the group
+
+  /// From the centre of the facet to a point, world axes [m].
+  [[nodiscard]] Vec<Dim> offset_of(const ReferencePoint<Dim>& p) const {
+    return p.offset[0] * normal + tangents * part<Dim - 1>(p.offset, 1);
+  }
+  /// Displacement `u` of body b against body a at an offset from the centre, world axes [m].
+  [[nodiscard]] Vec<Dim> jump(const Vec<Dim>& offset, const double* u) const {
+    return displacement_at<Dim>(u + dof * b, arm_b + offset) -
+           displacement_at<Dim>(u + dof * a, arm_a + offset);
+  }
+  /// Opening and slips of a point at displacement `u`.
+  [[nodiscard]] PointMotion<Dim> motion(const ReferencePoint<Dim>& p, const Vec<Dim>& offset,
+                                        const double* u) const {
+    const Vec<Dim> jump = this->jump(offset, u);
+    return {p.start[0] + normal.dot(jump),
+            part<Dim - 1>(p.start, 1) + transposed_product(tangents, jump)};
+  }
+  /// Opening and slips of a point that displacement `u` makes, besides those at the start [m].
+  [[nodiscard]] Vec<Dim> linear_motion(const ReferencePoint<Dim>& p, const double* u) const {
+    const Vec<Dim> jump = this->jump(offset_of(p), u);
+    return stacked(normal.dot(jump), transposed_product(tangents, jump));
+  }
+};
+
 /// What evaluating forces does to the contact history.
 struct Frozen {};      ///< read it: the force depends on the displacement alone
 struct Committing {};  ///< and bring it up to date at every evaluation
@@ -37,22 +83,8 @@ class ContactGroup {
   static constexpr int dof = Geometry::dof;
   using State = typename Law::template State<dim>;
 
-  /// One facet in which body a touches body b, where the bodies were when contacts were found.
-  struct Contact {
-    Vec<dim> normal;             ///< from a to b
-    TangentBasis<dim> tangents;  ///< with the normal a right-handed frame
-    Vec<dim> arm_a, arm_b;       ///< from the centres of the bodies to the centre of the facet [m]
-    int a, b;
-    int first, last;  ///< points first, ..., last - 1
-    int law = 0;      ///< index into the laws of the group
-  };
-  struct Point {
-    Vec<dim> offset;  ///< from the centre of the facet, along normal and tangents [m]
-    double weight;    ///< [m] or [m^2]
-    PointForce<dim>
-        initial;  ///< in the in-situ state, or minus what the installation must not feel
-    /// Opening and slips at displacement zero: not zero once contacts have been updated [m].
-    Vec<dim> start = zeros<Vec<dim>>();
+  using Contact = ReferenceContact<dim>;
+  struct Point : ReferencePoint<dim> {
     [[no_unique_address]] State state{};
   };
 
@@ -92,7 +124,7 @@ class ContactGroup {
   /// for contacts that are installed on ground which has already moved.
   void start_from(const double* u) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const PointMotion<dim> motion = motion_at(c, p, offset, u);
+      const PointMotion<dim> motion = c.motion(p, offset, u);
       p.initial = {law_of(c).joint_normal_stiffness() * p.weight * motion.opening,
                    law_of(c).joint_shear_stiffness() * p.weight * motion.slip};
     });
@@ -119,7 +151,7 @@ class ContactGroup {
   requires CreepingLaw<CreepLaw, dim>
   void creep(const double* u, double time) {
     for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      law_of(c).creep({p.weight, p.initial, motion_at(c, p, offset, u)}, p.state, time);
+      law_of(c).creep({p.weight, p.initial, c.motion(p, offset, u)}, p.state, time);
     });
   }
 
@@ -131,7 +163,7 @@ class ContactGroup {
       Block aa = zeros<Block>(), ab = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = offset_of(c, p);
+        const Vec<dim> offset = c.offset_of(p);
         for (int direction = 0; direction < dim; ++direction) {
           const Vec<dim> unit = direction == 0 ? c.normal : column(c.tangents, direction - 1);
           const double stiffness = p.weight * (direction == 0 ? law_of(c).joint_normal_stiffness()
@@ -162,8 +194,8 @@ class ContactGroup {
       Block aa = zeros<Block>(), ab = zeros<Block>(), ba = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = offset_of(c, p);
-        const PointMotion<dim> motion = motion_at(c, p, offset, u);
+        const Vec<dim> offset = c.offset_of(p);
+        const PointMotion<dim> motion = c.motion(p, offset, u);
         Stress<dim> stiffness;
         for (int l = 0; l < dim; ++l) {
           PointLoad<dim> more{p.weight, p.initial, motion}, less = more;
@@ -197,20 +229,10 @@ class ContactGroup {
     for (const Contact& c : contacts_)
       for (int k = c.first; k < c.last; ++k) {
         const Point& p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = offset_of(c, p);
-        const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
+        const Vec<dim> offset = c.offset_of(p);
+        const PointLoad<dim> load{p.weight, p.initial, c.motion(p, offset, u)};
         visit(c, p, load, law_of(c).force(load, p.state));
       }
-  }
-
-  /// From the centre of the facet to a point, world axes [m].
-  [[nodiscard]] static Vec<dim> offset_of(const Contact& c, const Point& p) {
-    return p.offset[0] * c.normal + c.tangents * part<dim - 1>(p.offset, 1);
-  }
-  /// Opening and slips of a point that displacement `u` makes, besides those at the start.
-  [[nodiscard]] static Vec<dim> linear_motion(const Contact& c, const Point& p, const double* u) {
-    const Vec<dim> jump = jump_at(c, offset_of(c, p), u);
-    return stacked(c.normal.dot(jump), transposed_product(c.tangents, jump));
   }
 
   /// Forgets the contacts of bodies for which `gone(body)` holds.
@@ -242,7 +264,7 @@ class ContactGroup {
     Spin<dim> moment = zeros<Spin<dim>>();
     for (int k = c.first; k < c.last; ++k) {
       Point& p = points_[static_cast<std::size_t>(k)];
-      const Vec<dim> offset = offset_of(c, p);
+      const Vec<dim> offset = c.offset_of(p);
       const Vec<dim> motion = jump + turned(turn, offset);
       const PointLoad<dim> load{p.weight,
                                 p.initial,
@@ -292,24 +314,12 @@ class ContactGroup {
     fa[2] -= moment + c.arm_a.x() * y - c.arm_a.y() * x;
   }
 
-  /// Of body b against body a, world axes.
-  [[nodiscard]] static Vec<dim> jump_at(const Contact& c, const Vec<dim>& offset, const double* u) {
-    return displacement_at<dim>(u + dof * c.b, c.arm_b + offset) -
-           displacement_at<dim>(u + dof * c.a, c.arm_a + offset);
-  }
-  [[nodiscard]] static PointMotion<dim> motion_at(const Contact& c, const Point& p,
-                                                  const Vec<dim>& offset, const double* u) {
-    const Vec<dim> motion = jump_at(c, offset, u);
-    return {p.start[0] + c.normal.dot(motion),
-            part<dim - 1>(p.start, 1) + transposed_product(c.tangents, motion)};
-  }
-
   template <class Visit>
   void for_each_point(Visit&& visit) {
     for (const Contact& c : contacts_)
       for (int k = c.first; k < c.last; ++k) {
         Point& p = points_[static_cast<std::size_t>(k)];
-        visit(c, p, offset_of(c, p));
+        visit(c, p, c.offset_of(p));
       }
   }
 
@@ -334,7 +344,7 @@ void ContactGroup<Geometry, Law>::add(int a, int b, const typename Geometry::Fac
   contact.tangents = tangent_basis(contact.normal);
   for (const FacetPoint<dim>& point : at) {
     points_.push_back(
-        {stacked(0.0, transposed(contact.tangents) * point.offset), point.weight, {}});
+        {{stacked(0.0, transposed(contact.tangents) * point.offset), point.weight, {}}, {}});
   }
   contacts_.push_back(contact);
 }
@@ -343,7 +353,7 @@ template <class Geometry, class Law>
 int ContactGroup<Geometry, Law>::commit(const double* u) {
   int weakened = 0;
   for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-    const PointLoad<dim> load{p.weight, p.initial, motion_at(c, p, offset, u)};
+    const PointLoad<dim> load{p.weight, p.initial, c.motion(p, offset, u)};
     const PointForce<dim> before = law_of(c).force(load, p.state);
     law_of(c).commit(load, p.state);
     const PointForce<dim> after = law_of(c).force(load, p.state);

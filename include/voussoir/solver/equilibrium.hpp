@@ -92,6 +92,27 @@ struct SearchContext {
   Progress progress;
 };
 
+namespace detail {
+
+/// Runs a search or a part of one; if the caller stops it, its report says so.
+template <class Search>
+void until_stopped(EquilibriumReport& report, Search&& search) {
+  try {
+    search();
+  } catch (const Stopped&) {
+    report.verdict = Verdict::undecided;
+    report.reason = "stopped by the user";
+    report.stopped = true;
+  }
+}
+
+/// What a search asks at each of its longer steps. @throws Stopped
+inline void ask_to_go_on(const SearchContext& context, double fraction = -1) {
+  if (context.progress && !context.progress(fraction)) throw Stopped();
+}
+
+}  // namespace detail
+
 template <class Method, class System>
 concept HasEquilibriumSearch = requires(const Method method, System& system,
                                         const SearchContext& context) {

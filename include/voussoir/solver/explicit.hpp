@@ -76,34 +76,51 @@ class Explicit {
 
   /// d = K^-1 f, in place.
   template <class System>
-  static void elastic_correction(const System& system, Eigen::VectorXd& f,
+  static void elastic_correction(const System& system, const Progress& progress, Eigen::VectorXd& f,
                                  EquilibriumReport& report) {
-    BlockCholesky<System::dof>(system.elastic_stiffness()).solve_in_place(f);
+    BlockCholesky<System::dof>(system.elastic_stiffness(progress), progress).solve_in_place(f);
     ++report.factorisations;
     ++report.elastic_solves;
   }
+
+  template <class System>
+  void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
   Params params_;
 };
 
 template <class System>
 EquilibriumReport Explicit::find(System& system, const SearchContext& context) const {
-  constexpr int dof = System::dof;
   EquilibriumReport report;
+  detail::until_stopped(report, [&] { step_on(system, context, report); });
+  if (report.verdict == Verdict::undecided && report.reason.empty())
+    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  return report;
+}
+
+template <class System>
+void Explicit::step_on(System& system, const SearchContext& context,
+                       EquilibriumReport& report) const {
+  constexpr int dof = System::dof;
   const Acceptance& accept = context.acceptance;
   detail::drop(system, {}, context, report);
-  const auto solve = [&](Eigen::VectorXd& f) { elastic_correction(system, f, report); };
-  if (detail::has_collapsed<System::dim>(report, accept)) return report;
-  if (detail::moves_too_far(system, context, solve, report)) return report;
+  const auto solve = [&](Eigen::VectorXd& f) {
+    elastic_correction(system, context.progress, f, report);
+  };
+  if (detail::has_collapsed<System::dim>(report, accept)) return;
+  if (detail::moves_too_far(system, context, solve, report)) return;
   const double from = system.wall_fraction, to = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
   Eigen::VectorXd velocity = zeros(u.size()), f;
   Eigen::VectorXd mass = masses(system), inverse_mass = inverses(mass);
   double step = stable_step(system, mass);
   double next_estimate = 1e300;  // look again only once the force ratio is well below
+  StopCheck stop(context.progress, 1);
   while (report.steps < params_.max_steps) {
     const bool ramping = report.steps < params_.ramp_steps;
     const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
+    stop();
     system.wall_fraction = from + (to - from) * done;
     system.template forces<Committing>(u, f);
     ++report.steps;
@@ -119,13 +136,9 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
     if (!is_finite(u))  // a maximum does not tell: it passes over what is not a number
       throw NumericalFault("explicit stepping: displacements are not finite at step " +
                            std::to_string(report.steps) + "; lower the safety factor of the step");
-    if (context.progress && !context.progress(ramping ? done : -1.0)) {
-      report.reason = "stopped by the user";
-      report.stopped = true;
-      break;
-    }
+    detail::ask_to_go_on(context, ramping ? done : -1.0);
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-    const bool found = detail::find_when_due(system, accept);
+    const bool found = detail::find_when_due(system, context);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       for (int b = 0; b < system.body_count(); ++b)
@@ -143,10 +156,10 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
         report.unbalance_over_weight > next_estimate)
       continue;
     Eigen::VectorXd d = f;
-    elastic_correction(system, d, report);
+    elastic_correction(system, context.progress, d, report);
     report.error_estimate = system.relative_correction(d, u);
     if (report.error_estimate < accept.error_estimate) {
-      if (detail::find_when_due(system, accept, true)) continue;
+      if (detail::find_when_due(system, context, true)) continue;
       report.verdict = Verdict::stable;
       report.reason =
           "error estimate, out-of-balance force ratio and displacements are within their limits";
@@ -154,10 +167,6 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
     }
     next_estimate = 0.5 * report.unbalance_over_weight;
   }
-  if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
-  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
-  return report;
 }
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/progress.hpp>
 #if VOUSSOIR_BODIES
 #include <limits>
 #include <voussoir/solver/detail/quotient_graph.hpp>
@@ -27,16 +28,20 @@ namespace voussoir {
 ///
 /// @param size   rows, numbered from 0
 /// @param pairs  coupled rows i != j, in either order; a repeated pair counts once
+/// @param progress  asked now and then whether to go on
 /// @return       the row that is eliminated k-th, k from 0 to size - 1, in postorder: what a column
 ///               of the factor depends on stands close before it
+/// @throws Stopped
 /// @cost         2 ms for the 5 600 blocks of the paper's tunnel, 0.15 us per row and pair and
 ///               order made; memory 8 ints per pair and 16 per row
 [[nodiscard]] VOUSSOIR_INLINE std::vector<int> minimum_degree_order(
-    int size, const std::vector<std::pair<int, int>>& pairs);
+    int size, const std::vector<std::pair<int, int>>& pairs, const Progress& progress = {});
 
 #if VOUSSOIR_BODIES
-VOUSSOIR_INLINE std::vector<int> minimum_degree_order(
-    int size, const std::vector<std::pair<int, int>>& pairs) {
+VOUSSOIR_INLINE std::vector<int> minimum_degree_order(int size,
+                                                      const std::vector<std::pair<int, int>>& pairs,
+                                                      const Progress& progress) {
+  StopCheck stop(progress);
   // Another order costs as much as some 30 operations on blocks per row and pair, and saves 3 %.
   const double few_operations =
       500 * (static_cast<double>(size) + static_cast<double>(pairs.size()));
@@ -44,7 +49,7 @@ VOUSSOIR_INLINE std::vector<int> minimum_degree_order(
   double least = std::numeric_limits<double>::infinity();
   for (int quarter = 0; quarter < 4 && least > few_operations; ++quarter) {
     detail::QuotientGraph graph(size, pairs, size / 4 * quarter);
-    std::vector<int> order = graph.order();
+    std::vector<int> order = graph.order(stop);
     if (graph.operations() < least) {
       least = graph.operations();
       best.swap(order);

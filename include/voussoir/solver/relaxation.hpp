@@ -55,6 +55,9 @@ class Relaxation {
   void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
  private:
+  template <class System>
+  void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
+
   Params params_;
 };
 
@@ -63,54 +66,65 @@ EquilibriumReport Relaxation::find(System& system, const SearchContext& context)
   EquilibriumReport report;
   detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f) {
-    BlockCholesky<System::dof>(system.elastic_stiffness()).solve_in_place(f);
+    BlockCholesky<System::dof>(system.elastic_stiffness(context.progress), context.progress)
+        .solve_in_place(f);
     ++report.factorisations;
     ++report.elastic_solves;
   };
-  if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
-      !detail::moves_too_far(system, context, solve, report))
-    follow(system, context, report);
+  detail::until_stopped(report, [&] {
+    if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
+        !detail::moves_too_far(system, context, solve, report))
+      follow(system, context, report);
+  });
   return report;
 }
 
 template <class System>
 void Relaxation::follow(System& system, const SearchContext& context,
                         EquilibriumReport& report) const {
+  detail::until_stopped(report, [&] { step_on(system, context, report); });
+  if (report.verdict == Verdict::undecided && report.reason.empty())
+    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  report.largest_displacement = system.largest_translation(system.displacement);
+}
+
+template <class System>
+void Relaxation::step_on(System& system, const SearchContext& context,
+                         EquilibriumReport& report) const {
   constexpr int dof = System::dof;
   const Acceptance& accept = context.acceptance;
   system.wall_fraction = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
   Eigen::VectorXd velocity = zeros(u.size()), f;
   // Masses of a quarter of the row sums make the critical step 1 for every unknown.
-  Eigen::VectorXd mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
+  Eigen::VectorXd mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
   const double step = params_.safety / std::sqrt(1 + params_.damping);
+  StopCheck stop(context.progress, 1);
   while (report.steps < params_.max_steps) {
     system.template forces<Committing>(u, f);
     if (!is_finite(f))
       throw NumericalFault("relaxation: forces are not finite at step " +
                            std::to_string(report.steps));
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-    const bool found = detail::find_when_due(system, accept);
+    const bool found = detail::find_when_due(system, context);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       if (detail::has_collapsed<System::dim>(report, accept)) break;
-      mass = 0.25 * system.elastic_stiffness().absolute_row_sums();
+      mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
       continue;
     }
     report.unbalance_over_weight = system.unbalance_over_weight(f);
     if (report.unbalance_over_weight < accept.unbalance_over_weight) {
-      if (detail::find_when_due(system, accept, true)) continue;
+      if (detail::find_when_due(system, context, true)) continue;
       report.verdict = Verdict::stable;
       report.reason = "every block is in equilibrium within the out-of-balance force ratio limit";
       break;
     }
-    if (context.progress && !context.progress(-1.0)) {
-      report.reason = "stopped by the user";
-      report.stopped = true;
-      break;
-    }
+    detail::ask_to_go_on(context);
     ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);
     for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
+      stop();
       if (k > 0) active.template forces<Committing>(u, f);
       ++report.steps;
       for (const int b : active.bodies())
@@ -121,10 +135,6 @@ void Relaxation::follow(System& system, const SearchContext& context,
         }
     }
   }
-  if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
-  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
-  report.largest_displacement = system.largest_translation(u);
 }
 
 }  // namespace voussoir

@@ -15,6 +15,7 @@
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/pose.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/lining/frame_element.hpp>
@@ -150,7 +151,9 @@ class System {
 
   /// Stiffness with every contact closed and sticking, supports included but for broken bolts.
   /// Bodies that cannot move get a unit diagonal.
-  [[nodiscard]] Matrix elastic_stiffness() const;
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped
+  [[nodiscard]] Matrix elastic_stiffness(const Progress& progress = {}) const;
 
   /// Takes bodies out for good: their contacts, bolts and frames go, and they stop moving.
   void remove(const std::vector<int>& gone);
@@ -264,9 +267,12 @@ double System<Geometry, JointLaw, BoltLaw>::moved_since_found() const {
 }
 
 template <class Geometry, class JointLaw, class BoltLaw>
-auto System<Geometry, JointLaw, BoltLaw>::elastic_stiffness() const -> Matrix {
+auto System<Geometry, JointLaw, BoltLaw>::elastic_stiffness(const Progress& progress) const
+    -> Matrix {
+  StopCheck stop(progress);
   Matrix k(body_count());
   const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
+    stop();
     const bool a_moves = body(a).movable, b_moves = body(b).movable;
     if (a_moves) k.add(a, aa);
     if (b_moves) k.add(b, bb);

@@ -81,15 +81,19 @@ class TwoLevel {
   template <class System>
   class Elastic {
    public:
-    void prepare(const System& system, const Fire::Params& fire, EquilibriumReport& report) {
+    /// @throws Stopped  it is as it was
+    void prepare(const System& system, const Fire::Params& fire, const Progress& progress,
+                 EquilibriumReport& report) {
       std::vector<int> bodies = system.movable_bodies();
       std::vector<bool> broken;
       for (const auto& bolt : system.bolts) broken.push_back(bolt.broken);
       const Eigen::VectorXd& found_at = system.found_at();
       const bool same_place = found_at.size() == found_at_.size() && found_at == found_at_;
       if (factor_ && bodies == bodies_ && broken == broken_ && same_place) return;
-      const auto stiffness = system.elastic_stiffness();
-      factor_.emplace(stiffness);
+      const auto stiffness = system.elastic_stiffness(progress);
+      // Not two of them at a time; without a factor it is made anew, whatever stops this.
+      factor_.reset();
+      factor_.emplace(stiffness, progress);
       fire_.emplace(stiffness.absolute_row_sums(), fire);
       bodies_ = std::move(bodies);
       broken_ = std::move(broken);
@@ -112,10 +116,23 @@ class TwoLevel {
   };
 
   template <class System>
+  void find_by_stages(System& system, const SearchContext& context, EquilibriumReport& whole) const;
+
+  template <class System>
   [[nodiscard]] EquilibriumReport find_in_one_step(System& system, const SearchContext& context,
                                                    bool give_up_at_a_fall,
                                                    Elastic<System>& elastic) const {
     EquilibriumReport report;
+    detail::until_stopped(
+        report, [&] { search_anew(system, context, give_up_at_a_fall, elastic, report); });
+    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+    return report;
+  }
+
+  /// Searches until one is decided, without what detaches meanwhile.
+  template <class System>
+  void search_anew(System& system, const SearchContext& context, bool give_up_at_a_fall,
+                   Elastic<System>& elastic, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     const System start = system;  // where a search without the detached blocks begins
     // The fallback mostly has to tell what detaches: blocks at a tenth of their weight do not. One
@@ -123,7 +140,7 @@ class TwoLevel {
     double follow_to = std::max(0.1, accept.unbalance_over_weight);
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
       if (search(system, context, give_up_at_a_fall, elastic, report) != Outcome::open) break;
-      if (give_up_at_a_fall) return report;  // without a reason: not decided
+      if (give_up_at_a_fall) return;  // without a reason: not decided
       SearchContext follow = context;
       follow.acceptance.unbalance_over_weight = follow_to;
       follow.acceptance.collapse_measure = accept.collapse_measure - report.fallen_measure;
@@ -144,7 +161,7 @@ class TwoLevel {
       }
       if (attempt == params_.max_restarts) break;
       if (!fall.fallen.empty()) {
-        system = start;
+        system = System(start);  // moved: less code than an assignment of every part
         detail::remove_with_loose(system, report.fallen);
         continue;
       }
@@ -158,8 +175,6 @@ class TwoLevel {
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason = "no equilibrium in " + std::to_string(params_.max_restarts + 1) +
                       " searches, detached blocks taken out in between";
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
-    return report;
   }
 
   /// Adds what an increment did; its state replaces that of the one before.
@@ -179,7 +194,7 @@ class TwoLevel {
                  Elastic<System>& elastic, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     system.wall_fraction = context.wall_fraction;
-    elastic.prepare(system, params_.fire, report);
+    elastic.prepare(system, params_.fire, context.progress, report);
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd f, d, trial;
     const auto correction = [&] {
@@ -195,7 +210,7 @@ class TwoLevel {
     // More often than a block can need on its way to the displacement limit is no progress.
     int may_find = 4 + static_cast<int>(8 * accept.displacement_limit / accept.refind_limit);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      settle_locally(system, elastic.fire(), accept, estimate, reach, f, report);
+      settle_locally(system, elastic.fire(), context, estimate, reach, f, report);
       // A maximum would not tell: it passes over what is not a number.
       if (!is_finite(u))
         throw NumericalFault("two-level search: displacements are not finite in search " +
@@ -205,7 +220,7 @@ class TwoLevel {
       if (falls)
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
-      const bool found = detail::find_when_due(system, accept);
+      const bool found = detail::find_when_due(system, context);
       if (found) detail::drop(system, {}, context, report);
       if (found && --may_find < 0) return Outcome::open;
       if (falls || found) {
@@ -215,7 +230,7 @@ class TwoLevel {
               std::numeric_limits<double>::quiet_NaN();  // it is on its way down
           return Outcome::decided;
         }
-        elastic.prepare(system, params_.fire, report);
+        elastic.prepare(system, params_.fire, context.progress, report);
         burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
       correction();
@@ -228,8 +243,8 @@ class TwoLevel {
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
         // A bolt broke, a joint failed, or contacts are elsewhere: look again.
-        if (system.commit() > 0 || detail::find_when_due(system, accept, true)) {
-          elastic.prepare(system, params_.fire, report);
+        if (system.commit() > 0 || detail::find_when_due(system, context, true)) {
+          elastic.prepare(system, params_.fire, context.progress, report);
           continue;
         }
         report.verdict = Verdict::stable;
@@ -237,11 +252,7 @@ class TwoLevel {
             "error estimate, out-of-balance force ratio and displacements are within their limits";
         return Outcome::decided;
       }
-      if (context.progress && !context.progress(progress_of(report, accept, burst))) {
-        report.reason = "stopped by the user";
-        report.stopped = true;
-        return Outcome::decided;
-      }
+      detail::ask_to_go_on(context, progress_of(report, accept, burst));
       correct(system, u, d, f, trial, report);
     }
     return Outcome::open;
@@ -258,9 +269,11 @@ class TwoLevel {
   /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
   /// shrinks for the bodies that ran into something, and the others fall on.
   template <class System>
-  void settle_locally(System& system, Fire& fire, const Acceptance& accept, double estimate,
+  void settle_locally(System& system, Fire& fire, const SearchContext& context, double estimate,
                       Eigen::VectorXd& reach, Eigen::VectorXd& f, EquilibriumReport& report) const {
     constexpr int dim = System::dim, dof = System::dof;
+    const Acceptance& accept = context.acceptance;
+    StopCheck stop(context.progress, 1);
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
     ++report.steps;
@@ -268,6 +281,7 @@ class TwoLevel {
     const std::vector<int>& bodies = active.bodies();
     fire.rest();
     for (int step = 0; step < params_.burst_steps; ++step) {
+      stop();
       fire.template advance<dof>(bodies, f, u);
       active.forces(u, f);
       ++report.steps;
@@ -277,10 +291,11 @@ class TwoLevel {
     Eigen::VectorXd before, worse;
     for (int k = 0; k < params_.newton_steps; ++k) {
       if (active.worst_unbalance(f) < 0.1 * accept.unbalance_over_weight) break;
-      const Eigen::VectorXd step = active.newton_step(u, f, reach);
+      const Eigen::VectorXd step = active.newton_step(u, f, reach, context.progress);
       before = u;
       double share = is_finite(step) ? 1.0 : 0.0, next = now;
       for (; share > 0.2; share *= 0.5) {
+        stop();
         for (std::size_t b = 0; b < bodies.size(); ++b) {
           Fixed<dof, 1> move = share * part<dof>(step, dof * static_cast<Eigen::Index>(b));
           const double length = part<dim>(move, 0).norm();
@@ -362,12 +377,19 @@ class TwoLevel {
 template <class System>
 EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) const {
   EquilibriumReport whole;
+  detail::until_stopped(whole, [&] { find_by_stages(system, context, whole); });
+  return whole;
+}
+
+template <class System>
+void TwoLevel::find_by_stages(System& system, const SearchContext& context,
+                              EquilibriumReport& whole) const {
   detail::drop(system, {}, context, whole);
   Elastic<System> elastic;
-  elastic.prepare(system, params_.fire, whole);
+  elastic.prepare(system, params_.fire, context.progress, whole);
   const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
-  if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return whole;
-  if (detail::moves_too_far(system, context, solve, whole)) return whole;
+  if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return;
+  if (detail::moves_too_far(system, context, solve, whole)) return;
   const auto part_of_stage = [&](double wall_fraction) {
     SearchContext part = context;
     part.wall_fraction = wall_fraction;
@@ -382,7 +404,7 @@ EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) c
     // Something detached, or no end was found. The elastic start of one large step opens joints
     // that a gradual unloading keeps closed, so only what detaches then counts. Most detaches when
     // little traction is left: the increments shrink with it.
-    system = start;
+    system = System(start);
     for (int k = 1; k <= params_.increments; ++k) {
       const bool last = k == params_.increments;
       const double left = last ? to : to + (from - to) * std::pow(0.4, k);
@@ -395,7 +417,6 @@ EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) c
     (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
   if (whole.verdict == Verdict::stable && !whole.fallen.empty())
     whole.reason = "within all limits after blocks had detached";
-  return whole;
 }
 
 }  // namespace voussoir

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/motion/moving_lining.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -182,20 +183,19 @@ requires(Geometry::dim == 2)
 
 VOUSSOIR_INLINE double convergence_at(const std::vector<WallMotion>& wall, double angle,
                                       double half_window) {
-  std::vector<WallMotion> near;
+  std::vector<double> lengths, convergences;
   double total = 0;
   for (const WallMotion& piece : wall) {
     const double away = std::remainder(piece.angle - angle, 2 * std::numbers::pi);
     if (std::abs(away) > half_window) continue;
-    near.push_back(piece);
+    lengths.push_back(piece.length);
+    convergences.push_back(piece.convergence);
     total += piece.length;
   }
-  std::sort(near.begin(), near.end(),
-            [](const WallMotion& a, const WallMotion& b) { return a.convergence < b.convergence; });
   double below = 0;
-  for (const WallMotion& piece : near) {
-    below += piece.length;
-    if (below >= 0.5 * total) return piece.convergence;
+  for (const std::size_t k : order_of_values(convergences)) {
+    below += lengths[k];
+    if (below >= 0.5 * total) return convergences[k];
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 #include <vector>
+#include <voussoir/core/progress.hpp>
 
 namespace voussoir::detail {
 
@@ -30,9 +31,11 @@ class QuotientGraph {
   }
 
   /// The row that is eliminated k-th. Call once.
-  std::vector<int> order() {
+  /// @throws Stopped
+  std::vector<int> order(StopCheck& stop) {
     for (int degree = 0; remaining_ > 0; degree = std::min(degree, lowest_linked_)) {
       while (first_[degree] == none) ++degree;
+      stop();
       eliminate(first_[degree]);
     }
     return postorder();
