@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include <type_traits>
 #include <voussoir/bolt/axial_bolt.hpp>
 
+#include "support/dense_algebra.hpp"
 #include "support/reference.hpp"
 
 namespace axial_bolt_test {
@@ -218,9 +218,9 @@ TEST_SUITE("bolt/axial_bolt") {
         {.axial_stiffness = stiffness, .pretension = 150e3, .carries_compression = true});
     const BoltSpan<2> span = across_joint(0.0672, 30 * degree, 0, 0);
     const Stress<2> excess = tangent<2>(bolt, span, 1e-6) - bolt.stiffness(span);
-    const Eigen::SelfAdjointEigenSolver<Stress<2>> modes(0.5 * (excess + excess.transpose()));
+    const Eigen::VectorXd modes = voussoir_test::eigenvalues(0.5 * (excess + excess.transpose()));
     // Differences of 1e-6 m leave 1e-9 of K_a (rounding of 150 kN over 1e-6 m, curvature).
-    CHECK(modes.eigenvalues().maxCoeff() <= 1e-8 * stiffness);
+    CHECK(modes.maxCoeff() <= 1e-8 * stiffness);
   }
 
   TEST_CASE(

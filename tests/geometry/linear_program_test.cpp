@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +9,8 @@
 #include <vector>
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/linear_program.hpp>
+
+#include "support/dense_algebra.hpp"
 
 namespace linear_program_test {
 
@@ -35,15 +36,15 @@ std::optional<double> best_corner(const Point<N>& objective,
   std::vector<std::size_t> pick(N);
   const auto search = [&](const auto& self, std::size_t depth, std::size_t from) -> void {
     if (depth == N) {
-      Eigen::Matrix<double, N, N> a;
-      Point<N> b;
+      Eigen::MatrixXd a(N, N);
+      Eigen::VectorXd b(N);
       for (std::size_t k = 0; k < N; ++k) {
         a.row(static_cast<Eigen::Index>(k)) = constraints[pick[k]].normal.transpose();
         b[static_cast<Eigen::Index>(k)] = constraints[pick[k]].offset;
       }
-      const Eigen::FullPivLU<Eigen::Matrix<double, N, N>> lu(a);
-      if (!lu.isInvertible()) return;
-      const Point<N> x = lu.solve(b);
+      const auto corner = voussoir_test::solve_if_regular(a, b);
+      if (!corner) return;
+      const Point<N> x = *corner;
       if (excess<N>(x, constraints) <= 1e-9)
         best = std::max(best.value_or(-1e300), objective.dot(x));
       return;

@@ -2,12 +2,14 @@
 // Elements in 3-D, pinned bars and bonded chains.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/lining/frame_element.hpp>
+
+#include "support/dense_algebra.hpp"
 
 namespace space_frame_test {
 
@@ -31,7 +33,7 @@ Eigen::Matrix<double, 6, 1> cantilever(int elements, const Vec3& along, const Ve
   for (int n = 0; n < elements; ++n) k.block<12, 12>(6 * n, 6 * n) += e;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(size);
   f.tail<6>() = tip_load;
-  const Eigen::VectorXd u = k.bottomRightCorner(size, size).ldlt().solve(f);
+  const Eigen::VectorXd u = voussoir_test::solve(k.bottomRightCorner(size, size), f);
   return u.tail<6>();
 }
 

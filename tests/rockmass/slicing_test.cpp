@@ -2,9 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +15,7 @@
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 
+#include "support/boost_polygon.hpp"
 #include "support/jointed_rock.hpp"
 
 namespace slicing_test {
@@ -201,25 +199,22 @@ TEST_SUITE("rockmass/slicing") {
   }
 
   TEST_CASE("Boost.Geometry finds the blocks valid, convex and apart from each other") {
-    namespace bg = boost::geometry;
-    using Polygon = bg::model::polygon<bg::model::d2::point_xy<double>, false, false>;
+    namespace boost_polygon = voussoir_test::boost_polygon;
     const auto mass = jointed_rock({{-6, -5}, {6, 5}}, 4);
-    std::vector<Polygon> blocks;
+    std::vector<boost_polygon::Outline> blocks;
     for (const auto& body : mass.bodies) {
-      Polygon block;
-      for (const Vec2& v : body.parts[0].vertices()) block.outer().emplace_back(v.x(), v.y());
-      Polygon hull;
-      bg::convex_hull(block, hull);
-      CHECK(bg::is_valid(block));
-      CHECK(std::abs(bg::area(block) - bg::area(hull)) < 1e-13);  // rounded at 6 m
-      blocks.push_back(block);
+      const auto corners = body.parts[0].vertices();
+      const boost_polygon::Outline& block = blocks.emplace_back(corners.begin(), corners.end());
+      CHECK(boost_polygon::is_valid(block));
+      CHECK(std::abs(boost_polygon::area(block) - boost_polygon::area_of_convex_hull(block)) <
+            1e-13);  // rounded at 6 m
     }
     CHECK(blocks.size() > 100);
     // No centroid lies in another block: together with the sum of areas, they do not overlap.
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const Vec2 c = mass.bodies[i].properties.centroid;
       for (std::size_t j = 0; j < blocks.size(); ++j)
-        CHECK(bg::within(bg::model::d2::point_xy<double>(c.x(), c.y()), blocks[j]) == (i == j));
+        CHECK(boost_polygon::contains(blocks[j], c) == (i == j));
     }
   }
 

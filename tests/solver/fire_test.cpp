@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <numeric>
 #include <vector>
 #include <voussoir/solver/fire.hpp>
+
+#include "support/dense_algebra.hpp"
 
 namespace fire_test {
 
@@ -28,7 +30,7 @@ struct Bowl {
         }
         load[here] = 1e3 * ((7 * here) % 11 - 5);
       }
-    minimum = stiffness.ldlt().solve(load);
+    minimum = voussoir_test::solve(stiffness, load);
   }
   [[nodiscard]] Eigen::VectorXd force(const Eigen::VectorXd& u) const {
     return load - stiffness * u;

@@ -2,12 +2,12 @@
 // The inverses of small blocks beside Eigen's decompositions.
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <voussoir/core/random.hpp>
 #include <voussoir/solver/small_inverse.hpp>
+
+#include "support/dense_algebra.hpp"
 
 namespace small_inverse_test {
 
@@ -40,7 +40,7 @@ TEST_SUITE("solver/small_inverse") {
       const Matrix a = root * root.transpose() + 0.1 * Matrix::Identity();
       const auto ours = inverse_cholesky_factor<n>(a, Fixed<n, 1>::Zero());
       REQUIRE(ours.has_value());
-      const Matrix eigens = a.llt().matrixL().solve(Matrix::Identity());
+      const Matrix eigens = voussoir_test::inverse_of_lower_factor(a);
       // Eigenvalues between 0.1 and some 10: a condition of 100 roundings at most.
       CHECK((*ours - eigens).cwiseAbs().maxCoeff() < 1e-13 * eigens.cwiseAbs().maxCoeff() * 100);
     }
@@ -66,7 +66,7 @@ TEST_SUITE("solver/small_inverse") {
       Matrix a = random_block<n>(random);
       if (n > 1 && k % 2 == 0) a(0, 0) = 0;  // no elimination without a change of rows
       const Matrix ours = inverse_of<n>(a);
-      const Matrix eigens = Eigen::PartialPivLU<Matrix>(a).inverse();
+      const Matrix eigens = voussoir_test::inverse(a);
       const double condition = a.cwiseAbs().sum() * eigens.cwiseAbs().sum();
       CHECK((ours - eigens).cwiseAbs().maxCoeff() <
             1e-15 * condition * eigens.cwiseAbs().maxCoeff());

@@ -2,7 +2,7 @@
 // Signs and weights of what is measured, on systems made by hand.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -11,6 +11,7 @@
 #include <voussoir/solver/system.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 
+#include "support/dense_algebra.hpp"
 #include "support/reference.hpp"
 
 namespace measurements_test {
@@ -62,7 +63,8 @@ struct RingAlone {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * count);
     for (int n = 0; n < count; ++n) load.segment<2>(3 * n) = outward(n) * position(n).normalized();
     constexpr Eigen::Index free = 3 * (count - 1);
-    bodies.displacement.tail(free) = k.bottomRightCorner(free, free).ldlt().solve(load.tail(free));
+    bodies.displacement.tail(free) =
+        voussoir_test::solve(k.bottomRightCorner(free, free), load.tail(free));
   }
 
   LiningSection section;
