@@ -10,6 +10,13 @@ namespace errors_test {
 using namespace voussoir;
 
 TEST_SUITE("core/errors") {
+  TEST_CASE("a message is its pieces one after the other, numbers as message_number writes them") {
+    const std::string words = "of set";
+    CHECK(message({"joint ", std::size_t{7}, " ", words, " ", -3, ": ", 5e9, " Pa/m, ", -2e-8,
+                   " m"}) == "joint 7 of set -3: 5e9 Pa/m, -2e-8 m");
+    CHECK(message({}).empty());
+  }
+
   TEST_CASE("a number in a message keeps its first digits, however small or large it is") {
     CHECK(message_number(-2e-8) == "-2e-8");
     CHECK(message_number(5e9) == "5e9");

@@ -18,24 +18,11 @@ file(GENERATE OUTPUT "${options_file}"
      CONTENT "-std=c++20 -DNDEBUG ${warnings} -I\"${PROJECT_SOURCE_DIR}/include\"
 $<$<BOOL:${others}>:-isystem \"$<JOIN:${others},\"\n-isystem \">\">\n")
 
-# Most headers include vec.hpp, some way down, and half of their time is what that includes. For
-# these it may come precompiled, which hides nothing: it would be there anyway.
-set(common voussoir/core/vec.hpp)
-set(first_folder "")
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(first_folder "-I${generated}/first")  # where g++ finds vec.hpp.gch before vec.hpp
-  set(precompiled "${generated}/first/${common}.gch")
-  file(MAKE_DIRECTORY "${generated}/first/voussoir/core")
-  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/include/${common}" "${generated}/first/${common}"
-       COPY_ON_ERROR SYMBOLIC)
-  add_custom_command(
-    OUTPUT "${precompiled}"
-    COMMAND "${CMAKE_CXX_COMPILER}" "@${options_file}" -w -x c++-header
-            "${generated}/first/${common}" -o "${precompiled}"
-    DEPENDS ${voussoir_headers} "${options_file}"
-    COMMENT "${common} precompiled"
-    VERBATIM)
-endif()
+# Most headers include one of these, some way down, and half of their time is what that includes. It
+# may come precompiled, which hides nothing: it would be there anyway. A header takes the last that
+# it includes.
+set(commons voussoir/core/vec.hpp voussoir/geometry/convex_polyhedron.hpp
+            voussoir/motion/contact_tracker.hpp)
 set(paths "")
 foreach(header IN LISTS voussoir_headers)
   cmake_path(RELATIVE_PATH header BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/include" OUTPUT_VARIABLE path)
@@ -43,18 +30,38 @@ foreach(header IN LISTS voussoir_headers)
   file(STRINGS "${header}" lines REGEX "^#include <voussoir/")
   string(REGEX REPLACE "#include <([^>]*)>" "\\1" "includes_of_${path}" "${lines}")
 endforeach()
-set(with_common "${common}")
-set(before "")
-while(NOT with_common STREQUAL before)
-  set(before "${with_common}")
-  foreach(path IN LISTS paths)
-    foreach(included IN LISTS "includes_of_${path}")
-      if(included IN_LIST with_common AND NOT path IN_LIST with_common)
-        list(APPEND with_common "${path}")
-      endif()
+set(precompiled "")
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(commons "")
+endif()
+foreach(common IN LISTS commons)
+  set(first "${generated}/precompiled/${common}")  # where g++ finds <common>.gch before <common>
+  cmake_path(GET common PARENT_PATH folder)
+  file(MAKE_DIRECTORY "${first}/${folder}")
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/include/${common}" "${first}/${common}" COPY_ON_ERROR
+       SYMBOLIC)
+  add_custom_command(
+    OUTPUT "${first}/${common}.gch"
+    COMMAND "${CMAKE_CXX_COMPILER}" "@${options_file}" -w -x c++-header "${first}/${common}" -o
+            "${first}/${common}.gch"
+    DEPENDS ${voussoir_headers} "${options_file}"
+    COMMENT "${common} precompiled"
+    VERBATIM)
+  list(APPEND precompiled "${first}/${common}.gch")
+  set(with_common "${common}")
+  set(before "")
+  while(NOT with_common STREQUAL before)
+    set(before "${with_common}")
+    foreach(path IN LISTS paths)
+      foreach(included IN LISTS "includes_of_${path}")
+        if(included IN_LIST with_common AND NOT path IN_LIST with_common)
+          list(APPEND with_common "${path}")
+          set("common_of_${path}" "${common}")
+        endif()
+      endforeach()
     endforeach()
-  endforeach()
-endwhile()
+  endwhile()
+endforeach()
 
 set(stamps "")
 set(everything "// SPDX-License-Identifier: MIT\n")
@@ -62,9 +69,10 @@ foreach(path IN LISTS paths)
   string(REGEX REPLACE "\\.hpp$" ".cpp" file "${generated}/${path}")
   set(content "#include <${path}>\n#include <${path}>\n")
   set(use "")
-  if(first_folder AND path IN_LIST with_common AND NOT path STREQUAL common)
+  if(DEFINED "common_of_${path}")
+    set(common "${common_of_${path}}")
     string(PREPEND content "#include <${common}>\n")
-    set(use "${first_folder}")
+    set(use "-I${generated}/precompiled/${common}")
   endif()
   file(CONFIGURE OUTPUT "${file}" CONTENT "${content}" @ONLY)
   add_custom_command(

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <voussoir/core/bodies.hpp>
-#include <voussoir/core/message_number.hpp>
+#include <voussoir/core/message.hpp>
 
 /// On in tests and debug builds: a broken invariant of the toolkit itself, never a user's mistake.
 #if defined(VOUSSOIR_ASSERTIONS) || !defined(NDEBUG)
@@ -64,7 +64,7 @@ auto naming(const std::string& what, Make&& make) {
   try {
     return make();
   } catch (const InvalidInput& error) {
-    throw InvalidInput(what + ": " + error.what());
+    throw InvalidInput(message({what, ": ", error.what()}));
   }
 }
 
@@ -72,35 +72,32 @@ auto naming(const std::string& what, Make&& make) {
 
 VOUSSOIR_INLINE void require(bool holds, const char* name, double value, const char* range) {
   if (holds) return;
-  throw InvalidInput(std::string(name) + " = " + message_number(value) + ": must be " + range);
+  throw InvalidInput(message({name, " = ", value, ": must be ", range}));
 }
 
 VOUSSOIR_INLINE void require_plausible(double value, const char* name, const char* unit,
                                        double least, const char* meant, double factor) {
   if (value >= least) return;
-  throw InvalidInput(std::string(name) + " = " + message_number(value) + " " + unit +
-                     ": must be >= " + message_number(least) + " " + unit + "; did you mean " +
-                     message_number(value) + " " + meant + " = " + message_number(factor * value) +
-                     " " + unit + "?");
+  throw InvalidInput(
+      message({name, " = ", value, " ", unit, ": must be >= ", least, " ", unit, "; did you mean ",
+               value, " ", meant, " = ", factor * value, " ", unit, "?"}));
 }
 
 VOUSSOIR_INLINE void require_angle(bool holds, const char* name, double value, const char* range) {
   if (holds) return;
   constexpr double degree = 3.14159265358979323846 / 180;
-  std::string text = std::string(name) + " = " + message_number(value) + " rad (" +
-                     message_number(value / degree) + " deg): must be " + range;
+  std::string text =
+      message({name, " = ", value, " rad (", value / degree, " deg): must be ", range});
   if (value >= 2 && value <= 360)
-    text += "; did you mean " + message_number(value) + " deg = " + message_number(value * degree) +
-            " rad?";
+    text += message({"; did you mean ", value, " deg = ", value * degree, " rad?"});
   throw InvalidInput(text);
 }
 
 VOUSSOIR_INLINE void require_angle(const std::string& name, double angle, double low, double high) {
   if (angle >= low && angle <= high) return;
   constexpr double degree = 3.14159265358979323846 / 180;
-  const std::string range = message_number(low) + " to " + message_number(high) + " rad (" +
-                            message_number(low / degree) + " to " + message_number(high / degree) +
-                            " deg)";
+  const std::string range =
+      message({low, " to ", high, " rad (", low / degree, " to ", high / degree, " deg)"});
   require_angle(false, name.c_str(), angle, range.c_str());
 }
 

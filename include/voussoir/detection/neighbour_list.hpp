@@ -123,8 +123,8 @@ void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Box<Dim> box = bounding_box(shapes[k]);
     if (!(is_finite(box.low) && is_finite(box.high)))
-      throw InvalidInput("neighbour list: shape " + std::to_string(k) +
-                         " has a coordinate that is not finite");
+      throw InvalidInput(
+          message({"neighbour list: shape ", k, " has a coordinate that is not finite"}));
     extent += box.high - box.low;
     box.low = shifted_by(box.low, -0.5 * margin_);
     box.high = shifted_by(box.high, 0.5 * margin_);
@@ -160,7 +160,7 @@ void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
   std::vector<std::pair<int, int>> shapes_of;
   shapes_of.reserve(pairs_.size());
   for (const Pair& pair : pairs_)
-    shapes_of.push_back(std::minmax(static_cast<int>(pair.a), static_cast<int>(pair.b)));
+    shapes_of.emplace_back(std::minmax(static_cast<int>(pair.a), static_cast<int>(pair.b)));
   const std::vector<Pair> found = std::move(pairs_);
   pairs_.clear();
   pairs_.reserve(found.size());

@@ -170,7 +170,7 @@ template <int Dim>
 std::size_t PlacedShapes<Dim>::add(const Shape& shape, const Vec<Dim>& origin) {
   const std::size_t vertex_count = shape.vertices().size(), face_count = shape.size();
   const auto refuse = [this](const std::string& what) {
-    throw InvalidInput("placed shapes: shape " + std::to_string(size()) + what);
+    throw InvalidInput(message({"placed shapes: shape ", size(), what}));
   };
   if (!is_finite(origin)) refuse(": the origin of its frame must be finite");
   if (std::max(vertex_count, face_count) > UINT16_MAX)
@@ -203,8 +203,9 @@ std::size_t PlacedShapes<Dim>::add(const Shape& shape, const Vec<Dim>& origin) {
 template <int Dim>
 void PlacedShapes<Dim>::place(std::size_t shape, const Pose<Dim>& pose) {
   if (!std::isfinite(pose.position.sum() + pose.rotation.sum()))
-    throw InvalidInput("placed shapes: pose of shape " + std::to_string(shape) + " at " +
-                       text_of<Dim>(pose.position) + ": position and rotation must be finite");
+    throw InvalidInput(
+        message({"placed shapes: pose of shape ", shape, " at ", text_of<Dim>(pose.position),
+                 ": position and rotation must be finite"}));
   const Record& r = records_[shape];
   const double* from = own_.data() + r.begin;
   double* to = placed_.data() + r.begin;
@@ -237,10 +238,9 @@ void PlacedShapes<Dim>::place(std::size_t shape, const Pose<Dim>& pose) {
 template <int Dim>
 void PlacedShapes<Dim>::add_topology(const ConvexPolyhedron& shape) {
   if (shape.size() > 65535 || shape.vertices().size() > 65535)
-    throw InvalidInput("placed shapes: shape " + std::to_string(links_.size()) + " has " +
-                       std::to_string(shape.size()) + " faces and " +
-                       std::to_string(shape.vertices().size()) +
-                       " vertices: at most 65535 of each");
+    throw InvalidInput(
+        message({"placed shapes: shape ", links_.size(), " has ", shape.size(), " faces and ",
+                 shape.vertices().size(), " vertices: at most 65535 of each"}));
   const auto small = [](auto index) { return static_cast<std::uint16_t>(index); };
   const auto at = [](int index) { return static_cast<std::size_t>(index); };
   const auto mark = [this] { begins_.push_back(static_cast<std::uint32_t>(indices_.size())); };

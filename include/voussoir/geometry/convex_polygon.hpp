@@ -150,14 +150,14 @@ VOUSSOIR_INLINE auto ConvexPolygon::split(const HalfSpace<2>& line, int cut, dou
 
 VOUSSOIR_INLINE void ConvexPolygon::check() const {
   const auto fail = [this](std::size_t k, const std::string& rule) {
-    throw InvalidInput("convex polygon: vertex " + std::to_string(k) + " " + rule + ": it is at " +
-                       text_of<2>(vertices_[k]) + " m");
+    throw InvalidInput(message(
+        {"convex polygon: vertex ", k, " ", rule, ": it is at ", text_of<2>(vertices_[k]), " m"}));
   };
   if (size() < 3)
-    throw InvalidInput("convex polygon: needs at least 3 vertices, has " + std::to_string(size()));
+    throw InvalidInput(message({"convex polygon: needs at least 3 vertices, has ", size()}));
   if (cuts_.size() != size())
-    throw InvalidInput("convex polygon: needs one label per face, has " +
-                       std::to_string(cuts_.size()) + " for " + std::to_string(size()));
+    throw InvalidInput(
+        message({"convex polygon: needs one label per face, has ", cuts_.size(), " for ", size()}));
   for (std::size_t k = 0; k < size(); ++k)
     if (!is_finite(vertices_[k])) fail(k, "is not finite");
   double turning = 0, doubled_area = 0;
@@ -169,19 +169,19 @@ VOUSSOIR_INLINE void ConvexPolygon::check() const {
     const Vec2 u = in.end - in.start, v = out.end - out.start;
     const double turn = std::atan2(cross(u, v), dot_product(u, v));
     if (!(cross(u, v) >= 0))
-      fail(corner, "is a non-convex or clockwise corner, the outline turns by " +
-                       message_number(turn * 180 / 3.141592653589793) +
-                       " degrees where it must turn left, by 0 or more");
+      fail(corner, message({"is a non-convex or clockwise corner, the outline turns by ",
+                            turn * 180 / 3.141592653589793,
+                            " degrees where it must turn left, by 0 or more"}));
     turning += turn;
   }
   // Every corner turns left; a star polygon does so too, but turns more than once.
   if (!(doubled_area > 0))
-    throw InvalidInput("convex polygon: encloses an area of " + message_number(0.5 * doubled_area) +
-                       " m^2, must be > 0");
+    throw InvalidInput(
+        message({"convex polygon: encloses an area of ", 0.5 * doubled_area, " m^2, must be > 0"}));
   if (!(std::abs(turning - 6.283185307179586) <= 1e-6))
-    throw InvalidInput("convex polygon: the outline crosses itself: it turns by " +
-                       message_number(turning * 180 / 3.141592653589793) +
-                       " degrees in all, must be 360");
+    throw InvalidInput(
+        message({"convex polygon: the outline crosses itself: it turns by ",
+                 turning * 180 / 3.141592653589793, " degrees in all, must be 360"}));
 }
 
 #endif

@@ -68,16 +68,15 @@ VOUSSOIR_INLINE SimplePolygon::SimplePolygon(std::vector<Vec2> vertices)
   if (size() < 3) throw InvalidInput("outline: needs at least 3 vertices");
   for (std::size_t k = 0; k < size(); ++k)
     if (!is_finite(vertices_[k]))
-      throw InvalidInput("outline: vertex " + std::to_string(k) + " is not finite");
+      throw InvalidInput(message({"outline: vertex ", k, " is not finite"}));
   for (std::size_t k = 0; k < size(); ++k) {
     if (!(edge(k).length() > 0))
-      throw InvalidInput("outline: vertex " + std::to_string(k) + " is repeated");
+      throw InvalidInput(message({"outline: vertex ", k, " is repeated"}));
   }
   for (std::size_t i = 0; i < size(); ++i)
     for (std::size_t j = i + 1; j < size(); ++j)
       if (edges_meet(i, j))
-        throw InvalidInput("outline: edges " + std::to_string(i) + " and " + std::to_string(j) +
-                           " cross or touch");
+        throw InvalidInput(message({"outline: edges ", i, " and ", j, " cross or touch"}));
   if (area() < 0) std::reverse(vertices_.begin(), vertices_.end());
 }
 

@@ -29,9 +29,9 @@ struct LiningSection {
             "> 0 Pa");
     // Values without units: give the members of the section themselves.
     if (thickness > 10)
-      throw InvalidInput("lining thickness = " + message_number(thickness) +
-                         " m: must be <= 10 m; did you mean " + message_number(thickness) +
-                         " mm = " + message_number(1e-3 * thickness) + " m?");
+      throw InvalidInput(
+          message({"lining thickness = ", thickness, " m: must be <= 10 m; did you mean ",
+                   thickness, " mm = ", 1e-3 * thickness, " m?"}));
     require_plausible(young_modulus, "lining modulus", "Pa", 1e6, "GPa", 1e9);
     require(poisson_ratio > -1 && poisson_ratio < 0.5, "lining Poisson ratio", poisson_ratio,
             "> -1 and < 0.5");

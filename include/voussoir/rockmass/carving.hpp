@@ -84,8 +84,8 @@ template <class Shape, int Dim = Shape::dim>
 inline void check_inside(const SimplePolygon& opening, const Domain<2>& domain) {
   for (const Vec2& v : opening.vertices())
     if (!(all_less(domain.low, v) && all_less(v, domain.high)))
-      throw InvalidInput("opening: its outline touches or leaves the domain at " + text_of<2>(v) +
-                         " m");
+      throw InvalidInput(
+          message({"opening: its outline touches or leaves the domain at ", text_of<2>(v), " m"}));
 }
 VOUSSOIR_INLINE void check_inside(const PrismaticOpening& opening, const Domain<3>& domain);
 
@@ -315,8 +315,10 @@ VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar
         }
     }
   std::vector<double> starts;
+  starts.reserve(pieces.size());
   for (const auto& piece : pieces) starts.push_back(piece.from);
   std::vector<WallPiece<Planar>> along;
+  along.reserve(pieces.size());
   for (const std::size_t k : order_of_values(starts)) along.push_back(pieces[k]);
   return along;
 }

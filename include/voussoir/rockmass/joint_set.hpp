@@ -35,17 +35,15 @@ struct JointSet {
 
   /// @throws InvalidInput  a value out of range, or not exactly one of intensity and spacing
   void check() const {
-    const std::string of = "joint set " + name + ": ";
-    const auto rule = [&of](bool holds, const std::string& text) {
-      if (!holds) throw InvalidInput(of + text);
-    };
-    require_angle(of + "dip", dip, 0, 0.5 * std::numbers::pi);
-    require_angle(of + "dip_deviation", dip_deviation, 0, 0.25 * std::numbers::pi);
-    const std::string both = "intensity = " + message_number(intensity) +
-                             " /m^2 and spacing = " + message_number(spacing) + " m: ";
-    rule((intensity > 0) != (spacing > 0), both + "one of the two must be > 0, the other 0");
-    rule(std::isfinite(intensity) && std::isfinite(spacing), both + "must be finite");
-    rule(extent > 0, "extent = " + message_number(extent) + " m: must be > 0");
+    const std::string of = message({"joint set ", name, ": "});
+    require_angle(message({of, "dip"}), dip, 0, 0.5 * std::numbers::pi);
+    require_angle(message({of, "dip_deviation"}), dip_deviation, 0, 0.25 * std::numbers::pi);
+    const bool is_one = (intensity > 0) != (spacing > 0);
+    if (!is_one || !std::isfinite(intensity) || !std::isfinite(spacing))
+      throw InvalidInput(
+          message({of, "intensity = ", intensity, " /m^2 and spacing = ", spacing,
+                   " m: ", is_one ? "must be finite" : "one of the two must be > 0, the other 0"}));
+    if (!(extent > 0)) throw InvalidInput(message({of, "extent = ", extent, " m: must be > 0"}));
   }
 };
 

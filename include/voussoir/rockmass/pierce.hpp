@@ -47,6 +47,7 @@ template <class Geometry>
     }
   }
   std::vector<double> starts;
+  starts.reserve(passages.size());
   for (const Passage& passage : passages) starts.push_back(passage.from);
   std::vector<Passage> joined;
   for (const std::size_t k : order_of_values(starts)) {

@@ -277,8 +277,8 @@ template <class Geometry = Planar>
   detail::Slicer<Geometry> slicer(domain, limits, stop);
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (!detail::is_finite(joints[k].trace))
-      throw InvalidInput("joint " + std::to_string(k) + " of set " + std::to_string(joints[k].set) +
-                         ": every coordinate must be finite");
+      throw InvalidInput(
+          message({"joint ", k, " of set ", joints[k].set, ": every coordinate must be finite"}));
   for (std::size_t k = 0; k < joints.size(); ++k) {
     stop(static_cast<double>(k) / static_cast<double>(joints.size()));
     slicer.cut_by(joints[k], static_cast<int>(k));

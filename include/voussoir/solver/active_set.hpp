@@ -127,7 +127,7 @@ class ActiveSet {
       if (i >= 0) matrix.diagonal[static_cast<std::size_t>(i)] += aa;
       if (j >= 0) matrix.diagonal[static_cast<std::size_t>(j)] += bb;
       if (i < 0 || j < 0) return;
-      places.push_back(std::minmax(i, j));
+      places.emplace_back(std::minmax(i, j));
       forward.push_back(i > j ? ab : ba);
       backward.push_back(i > j ? ba : ab);
     };

@@ -82,8 +82,8 @@ BlockCholesky<Dof>::BlockCholesky(const BlockMatrix<Dof>& matrix, const Progress
     for (int k = 0; k < Dof; ++k) smallest[k] = 1e-13 * diagonal(k, k);
     const auto inverse = inverse_cholesky_factor<Dof>(pivot, smallest);
     if (!inverse)
-      throw NumericalFault("elastic stiffness: body " + std::to_string(pattern_.original(i)) +
-                           " can move without resistance");
+      throw NumericalFault(message(
+          {"elastic stiffness: body ", pattern_.original(i), " can move without resistance"}));
     inverse_[i] = *inverse;
   }
 }

@@ -94,7 +94,7 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
   EquilibriumReport report;
   detail::until_stopped(report, [&] { step_on(system, context, report); });
   if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+    report.reason = message({"step limit of ", params_.max_steps, " reached"});
   for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
   return report;
 }
@@ -134,8 +134,8 @@ void Explicit::step_on(System& system, const SearchContext& context,
     if (report.steps % params_.check_every != 0) continue;
     report.largest_displacement = system.largest_translation(u);
     if (!is_finite(u))  // a maximum does not tell: it passes over what is not a number
-      throw NumericalFault("explicit stepping: displacements are not finite at step " +
-                           std::to_string(report.steps) + "; lower the safety factor of the step");
+      throw NumericalFault(message({"explicit stepping: displacements are not finite at step ",
+                                    report.steps, "; lower the safety factor of the step"}));
     detail::ask_to_go_on(context, ramping ? done : -1.0);
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
     const bool found = detail::find_when_due(system, context);

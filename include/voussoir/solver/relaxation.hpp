@@ -84,7 +84,7 @@ void Relaxation::follow(System& system, const SearchContext& context,
                         EquilibriumReport& report) const {
   detail::until_stopped(report, [&] { step_on(system, context, report); });
   if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = "step limit of " + std::to_string(params_.max_steps) + " reached";
+    report.reason = message({"step limit of ", params_.max_steps, " reached"});
   for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
   report.largest_displacement = system.largest_translation(system.displacement);
 }
@@ -104,8 +104,7 @@ void Relaxation::step_on(System& system, const SearchContext& context,
   while (report.steps < params_.max_steps) {
     system.template forces<Committing>(u, f);
     if (!is_finite(f))
-      throw NumericalFault("relaxation: forces are not finite at step " +
-                           std::to_string(report.steps));
+      throw NumericalFault(message({"relaxation: forces are not finite at step ", report.steps}));
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
     const bool found = detail::find_when_due(system, context);
     if (found || !fallen.empty()) {

@@ -255,9 +255,10 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
   require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
   const auto& domain = mass_.domain;
   if (any_less(bar.end, domain.low) || any_less(domain.high, bar.end))
-    throw InvalidInput("bolt: its tip at " + text_of<dim>(bar.end) +
-                       " m is outside the domain, which reaches from " + text_of<dim>(domain.low) +
-                       " to " + text_of<dim>(domain.high) + " m");
+    throw InvalidInput(
+        message({"bolt: its tip at ", text_of<dim>(bar.end),
+                 " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
+                 text_of<dim>(domain.high), " m"}));
   const Vec<dim> axis = (bar.end - bar.start) / length;
   system_.bolt_laws.push_back(law);
   const auto crossings =

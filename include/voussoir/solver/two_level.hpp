@@ -173,8 +173,8 @@ class TwoLevel {
       follow_to = std::max(0.3 * follow_to, accept.unbalance_over_weight);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
-      report.reason = "no equilibrium in " + std::to_string(params_.max_restarts + 1) +
-                      " searches, detached blocks taken out in between";
+      report.reason = message({"no equilibrium in ", params_.max_restarts + 1,
+                               " searches, detached blocks taken out in between"});
   }
 
   /// Adds what an increment did; its state replaces that of the one before.
@@ -213,8 +213,8 @@ class TwoLevel {
       settle_locally(system, elastic.fire(), context, estimate, reach, f, report);
       // A maximum would not tell: it passes over what is not a number.
       if (!is_finite(u))
-        throw NumericalFault("two-level search: displacements are not finite in search " +
-                             std::to_string(burst));
+        throw NumericalFault(
+            message({"two-level search: displacements are not finite in search ", burst}));
       const bool falls = system.largest_translation(u) > accept.displacement_limit;
       if (falls && give_up_at_a_fall) return Outcome::open;
       if (falls)
@@ -238,8 +238,8 @@ class TwoLevel {
       report.error_estimate = estimate = system.relative_correction(d, u);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
       if (!is_finite(d))
-        throw NumericalFault("two-level search: the elastic correction is not finite in search " +
-                             std::to_string(burst));
+        throw NumericalFault(
+            message({"two-level search: the elastic correction is not finite in search ", burst}));
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
         // A bolt broke, a joint failed, or contacts are elsewhere: look again.

@@ -25,12 +25,10 @@ template <class Geometry>
       for (std::size_t k = 0; k < part.size(); ++k) {
         const auto cut = static_cast<std::size_t>(part.cut(k));  // no_cut is the largest of all
         if (cut >= mass.cuts.size())
-          throw InvalidInput("contacts from cuts: body " + std::to_string(b) + ", face " +
-                             std::to_string(k) + " has the cut label " +
-                             std::to_string(part.cut(k)) + ": must be 0 to " +
-                             std::to_string(mass.cuts.size()) +
-                             " - 1, as sliced rock has; search contacts of other shapes "
-                             "(FaceContacts)");
+          throw InvalidInput(message(
+              {"contacts from cuts: body ", b, ", face ", k, " has the cut label ", part.cut(k),
+               ": must be 0 to ", mass.cuts.size(),
+               " - 1, as sliced rock has; search contacts of other shapes ", "(FaceContacts)"}));
         ++next[cut + 1];
       }
   std::partial_sum(next.begin(), next.end(), next.begin());

@@ -184,7 +184,7 @@ auto ContactUpdate<Dim>::as_moving(const Contacts& group) const -> Springs {
       moving.points.push_back(point);
     }
     moving.contacts.push_back(contact);
-    moving.bodies.push_back(std::minmax(c.a, c.b));
+    moving.bodies.emplace_back(std::minmax(c.a, c.b));
   }
   moving.order = order_of_pairs(moving.bodies, static_cast<int>(bodies_.size()));
   return moving;
