@@ -119,14 +119,18 @@ struct InstalledBolts {
   std::vector<int> crossings;
 };
 
+/// @throws Stopped
 InstalledBolts install_bolts(Tunnel& tunnel, const Input& input, const BoltSpacing& spacing,
-                             const SimplePolygon& opening) {
+                             const SimplePolygon& opening, const Progress& progress) {
   const BoltsInput& bolts = *input.bolts;
   InstalledBolts installed{bars_of(bolts, spacing, opening), {}};
   const AxialShearBolt law = bolt_of(bolts);
   const ChosenAnchors anchors = anchors_of(bolts);
-  for (const Segment& bar : installed.bars)
+  StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
+  for (const Segment& bar : installed.bars) {
+    stop();
     installed.crossings.push_back(tunnel.install_bolt(bar, law, bolts.out_of_plane, anchors));
+  }
   return installed;
 }
 
@@ -149,9 +153,10 @@ std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimpleP
                                const Report& report, InstalledBolts& bolts) {
   std::vector<StageResult> results;
   for (const StageInput& stage : input.stages) {
-    if (stage.install_bolts && spacing) bolts = install_bolts(tunnel, input, *spacing, opening);
-    if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
     const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
+    if (stage.install_bolts && spacing)
+      bolts = install_bolts(tunnel, input, *spacing, opening, progress);
+    if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
     StageResult result{stage.name, stage.wall_traction, stage.wall_traction, {}, {}};
     result.report = tunnel.equilibrium(stage.wall_traction, method_of(input),
                                        acceptance_of(input, opening), progress);
@@ -379,6 +384,7 @@ RunResult computed_run(const Input& input, const Report& report) {
   InstalledBolts bolts;
   run.stages = build(run.tunnel, input, run.opening, spacing,
                      input.lining ? input.lining->thickness : 0.0, report, bolts);
+  if (run.stages.back().report.stopped) throw Stopped();  // nobody reads what could be told
   run.bars = std::move(bolts.bars);
   run.crossings = std::move(bolts.crossings);
   run.equilibrium_seconds = seconds_since(search);
