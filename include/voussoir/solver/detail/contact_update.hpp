@@ -78,7 +78,7 @@ class ContactUpdate {
   }
 
   /// Replaces the contacts of all bodies. Those with a lining are not looked for again: they turn
-  /// with the rock, and are free of what they have lost.
+  /// with the rock.
   /// @param progress  asked now and then whether to go on
   /// @throws Stopped  with contacts that are of no more use
   void run(Contacts& joints, Contacts& boundary, Contacts& interface, const Progress& progress);
