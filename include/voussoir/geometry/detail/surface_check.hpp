@@ -86,7 +86,7 @@ VOUSSOIR_INLINE void SurfaceCheck::check_vertices() {
     refuse("has " + std::to_string(surface_.faces.size()) + " faces, needs at least 4");
   Vec3 low = vertices.front(), high = low;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!is_finite(vertices[v])) refuse(vertex_name(v) + ": coordinates must be finite");
+    if (!voussoir::is_finite(vertices[v])) refuse(vertex_name(v) + ": coordinates must be finite");
     low = smaller_of(low, vertices[v]);
     high = larger_of(high, vertices[v]);
   }
