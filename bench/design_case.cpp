@@ -20,13 +20,22 @@ RockMass<Planar> generate(const paper::RockReading& rock, double scale) {
   return paper::sliced_rock(rock, 1, {Vec2(-35, -35) * scale, Vec2(35, 25) * scale});
 }
 
-Tunnel excavated(double scale) {
-  Tunnel tunnel(
-      paper::sliced_rock(paper::mass_a, 1, paper::domain({.width = paper::width * scale})),
-      CoulombJoint({paper::normal_stiffness, paper::shear_stiffness, paper::friction}),
-      {.density = paper::density, .k0 = 1});
-  tunnel.excavate(opening());
-  return tunnel;
+namespace {
+
+Tunnel excavated(const paper::Extent& extent) {
+  return {paper::sliced_rock(paper::mass_a, 1, paper::domain(extent)),
+          CoulombJoint({paper::normal_stiffness, paper::shear_stiffness, paper::friction}),
+          {.density = paper::density, .k0 = 1},
+          opening()};
+}
+
+}  // namespace
+
+Tunnel excavated(double scale) { return excavated({.width = paper::width * scale}); }
+
+Tunnel excavated_square(double width) {
+  const double above = paper::cover + paper::diameter;
+  return excavated({.width = width, .below = 6 * width / 7 - above});
 }
 
 void support(Tunnel& tunnel, double bolt_spacing, double lining_thickness) {

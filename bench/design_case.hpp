@@ -19,6 +19,9 @@ using voussoir::paper::degree;
 /// Mass A in its in-situ stress with the opening carved, nothing moved; `scale` of the width, the
 /// blocks stay as they are.
 [[nodiscard]] Tunnel excavated(double scale = 1);
+/// The same rock under the same cover, in a domain `width` wide and 6/7 of that deep [m]: 5 660
+/// blocks at 70 m, 105 130 at 300 m, 860 619 at 858 m, with the lining nodes.
+[[nodiscard]] Tunnel excavated_square(double width);
 /// 4 m bolts over the roof, a concrete ring; nothing where a value is 0.
 void support(Tunnel& tunnel, double bolt_spacing, double lining_thickness);
 /// `Tunnel::equilibrium()` with its default method.

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One supported tunnel to equilibrium, what it is made of, and its peers: one force evaluation is
-// the floor, explicit time stepping the other method, Eigen's sparse LDL^T the other factorisation.
+// the floor, explicit time stepping the other method. What its elastic solves cost: elastic_bench.
 #include <benchmark/benchmark.h>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <utility>
 #include <vector>
-#include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/explicit.hpp>
 
 #include "design_case.hpp"
@@ -15,10 +12,8 @@
 namespace {
 
 using namespace voussoir_bench;
-using voussoir::BlockCholesky;
 using voussoir::EquilibriumReport;
 using voussoir::Explicit;
-using Matrix = Tunnel::SystemType::Matrix;
 
 /// The excavated design case, made once for each scale of the width.
 const Tunnel& unsupported(double scale) {
@@ -128,90 +123,5 @@ void force_evaluation(benchmark::State& state) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(force_evaluation)->Unit(benchmark::kMicrosecond);
-
-// ---- the elastic factor: the same matrix, by blocks and by Eigen
-// ------------------------------------
-
-/// Lower triangle, number by number.
-Eigen::SparseMatrix<double> as_sparse(const Matrix& blocks) {
-  constexpr int dof = Tunnel::dof;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int i, int j, const Matrix::Block& block) {
-    for (int r = 0; r < dof; ++r)
-      for (int c = 0; c < dof; ++c)
-        if (i != j || r >= c) entries.emplace_back(dof * i + r, dof * j + c, block(r, c));
-  };
-  for (int i = 0; i < blocks.size(); ++i) add(i, i, blocks.diagonal(i));
-  int k = 0;
-  for (const auto& [i, j] : blocks.pairs()) add(i, j, blocks.below(k++));
-  Eigen::SparseMatrix<double> matrix(dof * blocks.size(), dof * blocks.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-using EigenFactor =
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>>;
-
-/// Range: the width over 70 m.
-Tunnel supported(const benchmark::State& state) {
-  return design_case(15, 0.1, static_cast<double>(state.range(0)));
-}
-
-/// Order, analyse and factor, as a search does.
-void factor_by_blocks(benchmark::State& state) {
-  const Matrix matrix = supported(state).system().elastic_stiffness();
-  for (auto _ : state) {
-    const BlockCholesky<Tunnel::dof> factor(matrix);
-    benchmark::DoNotOptimize(factor.block_count());
-  }
-  constexpr double block_size = Tunnel::dof * Tunnel::dof;
-  const BlockCholesky<Tunnel::dof> factor(matrix);
-  state.counters["bodies"] = matrix.size();
-  state.counters["stored_numbers"] = block_size * static_cast<double>(factor.block_count());
-}
-BENCHMARK(factor_by_blocks)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
-
-void factor_by_eigen(benchmark::State& state) {
-  const Matrix blocks = supported(state).system().elastic_stiffness();
-  const Eigen::SparseMatrix<double> matrix = as_sparse(blocks);
-  EigenFactor factor;
-  for (auto _ : state) {
-    factor.compute(matrix);
-    if (factor.info() != Eigen::Success) state.SkipWithError("not factored");
-  }
-  state.counters["bodies"] = blocks.size();
-  state.counters["stored_numbers"] =
-      static_cast<double>(factor.matrixL().nestedExpression().nonZeros() + matrix.rows());
-}
-BENCHMARK(factor_by_eigen)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
-
-/// With the weights of the blocks as the load.
-void solve_by_blocks(benchmark::State& state) {
-  const Tunnel tunnel = supported(state);
-  const Matrix matrix = tunnel.system().elastic_stiffness();
-  const Eigen::VectorXd& load = tunnel.system().load;
-  const BlockCholesky<Tunnel::dof> factor(matrix);
-  Eigen::VectorXd x;
-  for (auto _ : state) {
-    x = load;
-    factor.solve_in_place(x);
-    benchmark::DoNotOptimize(x.data());
-  }
-  const Eigen::VectorXd y = EigenFactor(as_sparse(matrix)).solve(load);
-  state.counters["difference_to_eigen"] = (x - y).norm() / y.norm();
-}
-BENCHMARK(solve_by_blocks)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
-
-void solve_by_eigen(benchmark::State& state) {
-  const Tunnel tunnel = supported(state);
-  const Eigen::VectorXd& load = tunnel.system().load;
-  const EigenFactor factor(as_sparse(tunnel.system().elastic_stiffness()));
-  Eigen::VectorXd x;
-  for (auto _ : state) {
-    x = factor.solve(load);
-    benchmark::DoNotOptimize(x.data());
-  }
-}
-BENCHMARK(solve_by_eigen)->Arg(1)->Arg(4)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -317,6 +317,11 @@ void read_run(Section& s, RunInput& run) {
                                           {"relaxation", RunMethod::relaxation},
                                           {"explicit", RunMethod::explicit_}},
                                          Need::optional);
+  s.choice<LinearMethod>("linear_solver", run.linear_solver,
+                         {{"automatic", LinearMethod::automatic},
+                          {"direct", LinearMethod::direct},
+                          {"iterative", LinearMethod::iterative}},
+                         Need::optional);
   s.number("tolerance", run.tolerance, tolerance_range, Need::optional);
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <voussoir/linear/linear_method.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
 ///
@@ -145,6 +146,7 @@ struct StageInput {
 /// [run] How equilibrium is sought.
 struct RunInput {
   RunMethod method = RunMethod::two_level;
+  LinearMethod linear_solver = LinearMethod::automatic;  ///< of elastic equations
   double tolerance = 1e-3;           ///< accepted error estimate [-], 1e-6 to 0.1
   double displacement_limit = 0.02;  ///< a block that moved further is detached [m], > 0
   double refind_limit = 0.02;        ///< moved so far, contacts are updated [m], > 0

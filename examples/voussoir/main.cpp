@@ -279,6 +279,10 @@ int run_program(int argc, char** argv) {
   } catch (const voussoir::NumericalFault& fault) {
     std::cerr << "stopped: " << fault.what() << "\n";
     return numerical_fault;
+  } catch (const voussoir::NotEnoughMemory& error) {
+    std::cerr << "error: " << error.what() << "; nothing written\n   = accepted: " << work.remedy
+              << "\n";
+    return failed;
   } catch (const std::bad_alloc&) {
     std::cerr << "error: out of memory while " << work.doing
               << "; nothing written\n   = accepted: " << work.remedy << "\n";

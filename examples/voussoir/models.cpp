@@ -39,16 +39,19 @@ ChosenMethod method_of(const Input& input) {
   switch (run.method) {
     case RunMethod::two_level: {
       TwoLevel::Params params;
+      params.linear.method = run.linear_solver;
       if (run.max_steps) params.fallback.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(TwoLevel(params));
     }
     case RunMethod::relaxation: {
       Relaxation::Params params;
+      params.linear.method = run.linear_solver;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(Relaxation(params));
     }
     case RunMethod::explicit_: {
       Explicit::Params params;
+      params.linear.method = run.linear_solver;
       params.damping = run.damping;
       params.ramp_steps = run.ramp_steps;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);

@@ -81,6 +81,12 @@ nlohmann::json report_json(const EquilibriumReport& report) {
           {"force_evaluations", report.steps},
           {"elastic_solves", report.elastic_solves},
           {"factorisations", report.factorisations},
+          {"linear_solver",
+           {{"method", to_string(report.linear.method)},
+            {"reason", report.linear.reason},
+            {"bodies", report.linear.bodies},
+            {"memory_MB", 1e-6 * report.linear.memory},
+            {"iterations", report.linear.iterations}}},
           {"detached_bodies", report.fallen.size()},
           {"detached_area_m2", report.fallen_measure},
           {"broken_bolt_springs", report.broken_bolts}};
@@ -413,6 +419,13 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += "         error estimate " + computed("%.1e", last.error_estimate) +
          ", worst out-of-balance force ratio " + computed("%.1e", last.unbalance_over_weight) +
          ", " + text("%.2f s\n", run.equilibrium_seconds);
+  if (last.linear.method != LinearMethod::automatic) {
+    out += std::string("solver   ") + to_string(last.linear.method) + " (" + last.linear.reason +
+           "): " + std::to_string(last.elastic_solves) + " elastic solves";
+    if (last.linear.iterations > 0)
+      out += " in " + std::to_string(last.linear.iterations) + " iterations";
+    out += text(", %.3g MB\n", 1e-6 * last.linear.memory);
+  }
   if (run.fallen_measure() > 0)
     out += "detached " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
   out += "wall     crown " + millimetres(c.crown) + " mm, springings " +

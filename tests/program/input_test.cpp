@@ -339,6 +339,9 @@ TEST_SUITE("program/input") {
     CHECK(run.method == RunMethod::explicit_);
     CHECK(run.damping == 0.5);
     CHECK(run.ramp_steps == 0);
+    CHECK(run.linear_solver == voussoir::LinearMethod::automatic);
+    CHECK(read(good, {"run.linear_solver=iterative"}).run.linear_solver ==
+          voussoir::LinearMethod::iterative);
     CHECK(run.max_steps == 100000);
     CHECK(run.tolerance == 1e-4);
     CHECK(run.displacement_limit == 0.1);
@@ -511,6 +514,8 @@ TEST_SUITE("program/input") {
         {"install = [\"bolts\"]", "install = [\"bolts\", \"bolts\"]", 33, "in the list twice",
          "once"},
         {"method = \"two-level\"", "method = \"newton\"", 38, "run.method", "\"relaxation\""},
+        {"method = \"two-level\"", "linear_solver = \"cholesky\"", 38, "run.linear_solver",
+         "\"iterative\""},
         {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-06 to 0.1"},
         {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
          "above 0"},

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/rockmass/pierce.hpp>
+#include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 
@@ -44,7 +44,7 @@ double mean_spacing(const RockMass<Planar>& mass, bool vertical) {
     const Segment line =
         vertical ? Segment{{at, -30}, {at, 20}} : Segment{{-30, at - 5}, {30, at - 5}};
     length += line.length();
-    crossings += static_cast<double>(pierce(mass, line).size() - 1);
+    crossings += static_cast<double>(block_intersections(mass, line).size() - 1);
   }
   return length / crossings;
 }

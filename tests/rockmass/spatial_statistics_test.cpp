@@ -89,13 +89,13 @@ TEST_SUITE("rockmass/spatial_statistics") {
       const Vec3 low = Vec3::Constant(-9.9), high = Vec3::Constant(9.9);
       const SpatialLine line{voussoir_test::random_point(random, low, high),
                              voussoir_test::random_point(random, low, high)};
-      const auto passages = pierce(mass, line);
-      REQUIRE_FALSE(passages.empty());
-      CHECK(passages.front().from == 0);
-      CHECK(std::abs(passages.back().to - line.length()) < slack);
-      for (std::size_t k = 0; k < passages.size(); ++k) {
-        const auto& p = passages[k];
-        if (k > 0) CHECK(std::abs(p.from - passages[k - 1].to) < slack);
+      const auto intersections = block_intersections(mass, line);
+      REQUIRE_FALSE(intersections.empty());
+      CHECK(intersections.front().from == 0);
+      CHECK(std::abs(intersections.back().to - line.length()) < slack);
+      for (std::size_t k = 0; k < intersections.size(); ++k) {
+        const auto& p = intersections[k];
+        if (k > 0) CHECK(std::abs(p.from - intersections[k - 1].to) < slack);
         const Vec3 middle = line.at(0.5 * (p.from + p.to) / line.length());
         CHECK(mass.bodies[static_cast<std::size_t>(p.body)].parts[0].contains(middle, slack));
       }
@@ -112,12 +112,12 @@ TEST_SUITE("rockmass/spatial_statistics") {
                                      {{0, 0, 15}, {0, 0, -15}},
                                      {{-11, 0, 0}, {11, 0, 0}},
                                      {{0, -9, -9}, {0, 9, 9}}}) {
-      const auto passages = pierce(bricks, SpatialLine{start, end});
-      REQUIRE(passages.size() == 2);
-      CHECK(passages[0].body != passages[1].body);
-      CHECK(std::abs(passages[0].to - passages[1].from) < 1e-12);
+      const auto intersections = block_intersections(bricks, SpatialLine{start, end});
+      REQUIRE(intersections.size() == 2);
+      CHECK(intersections[0].body != intersections[1].body);
+      CHECK(std::abs(intersections[0].to - intersections[1].from) < 1e-12);
       double inside = 0;
-      for (const auto& p : passages) inside += p.to - p.from;
+      for (const auto& p : intersections) inside += p.to - p.from;
       const double expected = std::abs(start.y()) == 9 ? 18 * std::sqrt(2.0) : 20;
       CHECK(std::abs(inside - expected) < 1e-12);
     }

@@ -10,6 +10,7 @@ set(layer_core 0)
 set(layer_theory 1)
 set(layer_statistics 1)
 set(layer_geometry 1)
+set(layer_linear 1)
 set(layer_detection 2)
 set(layer_rockmass 2)
 set(layer_contact 3)
@@ -19,7 +20,7 @@ set(layer_motion 4)
 set(layer_solver 5)
 set(layer_tunnel 6)
 set(layer_io 7)
-set(core_only theory statistics)  # beside the tower: they stand on core alone
+set(core_only theory statistics linear)  # beside the tower: they stand on core alone
 
 # One complaint about `header` including `included` (both relative to the root, or an outside name), or "".
 function(complaint_about header included inside out)

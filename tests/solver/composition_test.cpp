@@ -13,7 +13,7 @@
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
-#include "solver/dense_matrix.hpp"
+#include "linear/dense_matrix.hpp"
 #include "support/dense_algebra.hpp"
 #include "support/jointed_rock.hpp"
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <vector>
 #include <voussoir/bolt/axial_bolt.hpp>
@@ -41,7 +42,8 @@ class Scene {
     const auto p = mass_properties(shape);
     const double weight = movable ? density * gravity * p.measure : 0;
     const double gyration = std::sqrt(p.second_moment(0, 0) / p.measure);
-    shapes_->push_back({shape});
+    rock_->blocks.push_back(shape);
+    rock_->of_body.emplace_back(&rock_->blocks.back(), 1);
     measures.push_back(p.measure);
     return system.add_body({p.centroid, weight, gyration, movable, !is_wall});
   }
@@ -49,7 +51,7 @@ class Scene {
   void finish(Vec2 down) {
     for (int b = 0; b < system.body_count(); ++b)
       system.load.segment<2>(3 * b) = system.body(b).weight * down;
-    system.shapes = shapes_;
+    system.shapes = {rock_, &rock_->of_body};
     find_contacts_again(system, 0.02);
   }
   [[nodiscard]] SearchContext context(double displacement_limit, double refind_limit) const {
@@ -65,7 +67,11 @@ class Scene {
   std::vector<double> measures;
 
  private:
-  std::shared_ptr<Plane::Shapes> shapes_ = std::make_shared<Plane::Shapes>();
+  struct Rock {
+    std::deque<ConvexPolygon> blocks;
+    Plane::Shapes of_body;
+  };
+  std::shared_ptr<Rock> rock_ = std::make_shared<Rock>();
 };
 
 }  // namespace

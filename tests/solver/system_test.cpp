@@ -12,7 +12,7 @@
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/solver/system.hpp>
 
-#include "solver/dense_matrix.hpp"
+#include "linear/dense_matrix.hpp"
 #include "support/dense_algebra.hpp"
 #include "support/reference.hpp"
 

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/linear/block_cholesky.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
-#include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/explicit.hpp>
 #include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>

@@ -31,6 +31,12 @@ class NumericalFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Work was refused because it needs more memory than there is: the message has both figures.
+class NotEnoughMemory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Refuses a parameter outside its range; `range` reads like "> 0". Written so that NaN is refused:
 /// pass the condition that must hold.
 VOUSSOIR_INLINE void require(bool holds, const char* name, double value, const char* range);

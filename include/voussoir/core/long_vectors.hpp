@@ -20,6 +20,15 @@ namespace voussoir {
   for (Eigen::Index k = 0; k < a.size(); ++k) vector.data()[k] = -a.data()[k];
   return vector;
 }
+[[nodiscard]] inline double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  // Four sums side by side: one alone would wait for every addition.
+  double sums[4] = {0, 0, 0, 0};
+  Eigen::Index k = 0;
+  for (; k + 4 <= a.size(); k += 4)
+    for (int l = 0; l < 4; ++l) sums[l] += a.data()[k + l] * b.data()[k + l];
+  for (; k < a.size(); ++k) sums[0] += a.data()[k] * b.data()[k];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
 /// factor / a, entry by entry.
 [[nodiscard]] inline Eigen::VectorXd inverses(const Eigen::VectorXd& a, double factor = 1) {
   Eigen::VectorXd vector(a.size());

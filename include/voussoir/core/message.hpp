@@ -30,8 +30,7 @@ struct MessagePiece {
 /// Put together by one function for all messages: a chain of operator+ is a dozen calls, and what
 /// they clear up, in every function that may refuse something.
 ///
-///   throw InvalidInput(message({"joint ", k, " of set ", set, ": every coordinate must be
-///   finite"}));
+///   throw InvalidInput(message({"joint ", k, " of set ", set, ": must be finite"}));
 [[nodiscard]] VOUSSOIR_INLINE std::string message(std::initializer_list<MessagePiece> pieces);
 
 #if VOUSSOIR_BODIES

@@ -9,8 +9,8 @@
 
 namespace voussoir {
 
-/// What is to be put in order is told by numbers alone: `std::sort` of every other type is code
-/// that whoever includes a header compiles.
+// What is to be put in order is told by numbers alone: `std::sort` of every other type is code that
+// whoever includes a header compiles.
 
 /// The order of pairs by their first number, then by their second; equal ones stay as they are.
 /// Counted, not compared.

@@ -140,6 +140,8 @@ template <class Shape>
 /// The pieces of a block that remain outside stay one rigid body as long as they touch each other;
 /// where a block falls apart each connected group becomes a body of its own. Outline cuts do not
 /// obey the block limits, so bodies at the wall smaller than `smallest` are dropped, and counted.
+/// New corners are welded with the corners nearby; bodies that no edge of the outline cuts stay as
+/// they are, bit for bit.
 ///
 /// @param smallest  area (2-D) or volume (3-D) below which a body at the wall is dropped [m^2],
 ///                  [m^3]
@@ -158,13 +160,16 @@ template <class Geometry>
   const Domain<dim>& domain = mass.domain;
   detail::check_inside(opening, domain);
   const double tolerance = domain.tolerance();
-  const auto box = detail::box_of(opening);
+  auto box = detail::box_of(opening);
+  // So that whoever has a corner within the tolerance of a new one is looked at.
+  box = {shifted_by(box.first, -2 * tolerance), shifted_by(box.second, 2 * tolerance)};
   std::vector<decltype(detail::outline_piece(opening, 0, domain))> outline;
   for (std::size_t e = 0; e < opening.size(); ++e)
     outline.push_back(detail::outline_piece(opening, e, domain));
   CarvingReport& report = mass.carving;
   std::vector<Body<Geometry>> kept;
   kept.reserve(mass.bodies.size());
+  std::vector<std::size_t> beside, cut;  // indices of kept bodies
   StopCheck stop(progress);
   for (Body<Geometry>& body : mass.bodies) {
     stop();
@@ -195,6 +200,7 @@ template <class Geometry>
       return inside;
     });
     if (pieces.size() == before && pieces.size() == body.parts.size()) {
+      beside.push_back(kept.size());
       kept.push_back(std::move(body));
       continue;
     }
@@ -213,12 +219,16 @@ template <class Geometry>
         ++report.dropped_pieces;
         report.dropped_measure += rest.properties.measure;
       } else {
+        cut.push_back(kept.size());
         kept.push_back(std::move(rest));
       }
     }
   }
   if (kept.empty()) throw InvalidInput("opening: no rock is left around it");
-  weld(kept, tolerance, stop);
+  VertexWelder<dim> welder(tolerance);
+  for (const auto* bodies : {&beside, &cut})
+    for (const std::size_t b : *bodies)
+      for (Shape& part : kept[b].parts) part.move_vertices(welder);
   mass.bodies = std::move(kept);
   mass.openings.push_back(opening);
   return mass;

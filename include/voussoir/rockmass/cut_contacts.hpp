@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
@@ -26,7 +27,9 @@ struct CutContacts {
   [[nodiscard]] static std::vector<ContactFacet<Geometry>> find(const RockMass<Geometry>& mass,
                                                                 const Progress& progress = {}) {
     StopCheck stop(progress);
-    const std::vector<detail::FaceRef> faces = detail::faces_by_cut(mass);
+    std::vector<typename Geometry::Facet> facets;  // in 3-D they are made only where they touch
+    const std::vector<detail::FaceRef> faces =
+        detail::faces_by_cut(mass, Geometry::dim == 2 ? &facets : nullptr);
     std::vector<ContactFacet<Geometry>> contacts;
     contacts.reserve(faces.size() / 2);
     for (std::size_t i = 0; i < faces.size();) {
@@ -35,11 +38,26 @@ struct CutContacts {
       while (end < faces.size() && faces[end].cut == faces[i].cut) ++end;
       const std::size_t before = contacts.size();
       if (mass.cuts[static_cast<std::size_t>(faces[i].cut)].kind != Cut::Kind::boundary)
-        detail::match_cut(mass, &faces[i], faces.data() + end, mass.domain.tolerance(), contacts);
+        match(mass, faces, facets, i, end, contacts);
       for (std::size_t k = before; k < contacts.size(); ++k) contacts[k].cut = faces[i].cut;
       i = end;
     }
     return contacts;
+  }
+
+ private:
+  /// Adds the contacts across the cut whose faces are first, ..., last - 1.
+  template <class Geometry>
+  static void match(const RockMass<Geometry>& mass, const std::vector<detail::FaceRef>& faces,
+                    const std::vector<typename Geometry::Facet>& facets, std::size_t first,
+                    std::size_t last, std::vector<ContactFacet<Geometry>>& contacts) {
+    const auto of_cut = std::span(faces).subspan(first, last - first);
+    if constexpr (Geometry::dim == 2)
+      detail::match_cut(of_cut, std::span(facets).subspan(first, last - first),
+                        mass.domain.tolerance(), contacts);
+    else
+      detail::match_cut(mass, of_cut.data(), of_cut.data() + of_cut.size(), mass.domain.tolerance(),
+                        contacts);
   }
 };
 

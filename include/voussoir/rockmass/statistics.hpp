@@ -12,7 +12,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
-#include <voussoir/rockmass/pierce.hpp>
+#include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {
@@ -32,11 +32,12 @@ struct Scanline {
 /// Adds what the line meets to `found`.
 template <class Geometry>
 void scan(const RockMass<Geometry>& mass, const typename Geometry::Line& line, Scanline& found) {
-  const std::vector<Passage> passages = pierce(mass, line);
-  for (std::size_t k = 0; k < passages.size(); ++k) {
-    found.length += passages[k].to - passages[k].from;
-    const bool next_touches = k + 1 < passages.size() && passages[k + 1].from - passages[k].to <
-                                                             same_point * mass.domain.tolerance();
+  const std::vector<BlockIntersection> intersections = block_intersections(mass, line);
+  for (std::size_t k = 0; k < intersections.size(); ++k) {
+    found.length += intersections[k].to - intersections[k].from;
+    const bool next_touches =
+        k + 1 < intersections.size() &&
+        intersections[k + 1].from - intersections[k].to < same_point * mass.domain.tolerance();
     if (next_touches) ++found.joints;
   }
 }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/ordering.hpp>
-#include <voussoir/solver/block_lu.hpp>
+#include <voussoir/linear/tangent_solver.hpp>
 #include <voussoir/solver/system.hpp>
 
 namespace voussoir {
@@ -25,15 +25,19 @@ class ActiveSet {
   static constexpr int dof = System::dof;
 
   /// @param f          out-of-balance forces of the whole system
+  /// @param elsewhere  what of them an elastic solve has left and the next will take
   /// @param threshold  a body is active if its out-of-balance force ratio exceeds this
   /// @param rings      how many generations of neighbours to add
-  ActiveSet(System& system, const Eigen::VectorXd& f, double threshold, int rings)
+  ActiveSet(System& system, const Eigen::VectorXd& f, const Eigen::VectorXd& elsewhere,
+            double threshold, int rings)
       : system_(&system),
         active_(static_cast<std::size_t>(system.body_count()), 0),
         number_(active_.size(), -1) {
     lightest_ = system.lightest_weight();
+    Eigen::VectorXd own;
+    set_to_sum(own, f, -1, elsewhere);
     for (int b = 0; b < system.body_count(); ++b)
-      active_[static_cast<std::size_t>(b)] = system.unbalance_of(f, b, lightest_) > threshold;
+      active_[static_cast<std::size_t>(b)] = system.unbalance_of(own, b, lightest_) > threshold;
     for (int ring = 0; ring < rings; ++ring) grow();
     for (int b = 0; b < system.body_count(); ++b)
       if (active(b) && system.body(b).movable) {
@@ -158,7 +162,7 @@ class ActiveSet {
     Eigen::VectorXd step(dof * static_cast<Eigen::Index>(bodies_.size()));
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       set_part<dof>(step, dof * static_cast<Eigen::Index>(k), part<dof>(f, dof * bodies_[k]));
-    BlockLU<dof>(matrix, progress).solve_in_place(step);
+    solve_tangent(matrix, step, progress);
     return step;
   }
 

@@ -5,7 +5,7 @@
 #include <vector>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/rockmass/pierce.hpp>
+#include <voussoir/rockmass/block_intersections.hpp>
 
 namespace voussoir {
 
@@ -23,16 +23,16 @@ struct BoltCrossingPoint {
 ///
 /// Across a hole (a block that is detached) the bar goes on; at a joint the two faces are one
 /// place, and the span exactly what the anchors say, not the rounding of two positions.
-/// @param passages   in the order of their distance from the head
+/// @param intersections   in the order of their distance from the head
 /// @param tolerance  of the domain [m]
 template <class Line, class Anchors>
-[[nodiscard]] auto bolt_crossings(const std::vector<Passage>& passages, const Line& bar,
-                                  const Anchors& anchors, double tolerance) {
+[[nodiscard]] auto bolt_crossings(const std::vector<BlockIntersection>& intersections,
+                                  const Line& bar, const Anchors& anchors, double tolerance) {
   constexpr int dim = decltype(bar.start)::RowsAtCompileTime;
   const Vec<dim> axis = (bar.end - bar.start) / bar.length();
   std::vector<BoltCrossingPoint<dim>> found;
-  for (std::size_t k = 1; k < passages.size(); ++k) {
-    const Passage &before = passages[k - 1], &after = passages[k];
+  for (std::size_t k = 1; k < intersections.size(); ++k) {
+    const BlockIntersection &before = intersections[k - 1], &after = intersections[k];
     if (before.body == after.body) continue;  // round a corner of the opening and back
     const AnchorDistances d = anchors.distances({before.to - before.from, after.to - after.from});
     const double gap = after.from - before.to, position = 0.5 * (before.to + after.from);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
 
@@ -41,9 +44,11 @@ template <int Dim>
 struct ReferenceContact {
   static constexpr int dof = Dim + spin_count<Dim>;
 
-  Vec<Dim> normal;             ///< from a to b
-  TangentBasis<Dim> tangents;  ///< with the normal a right-handed frame
-  Vec<Dim> arm_a, arm_b;       ///< from the centres of the bodies to the centre of the facet [m]
+  Vec<Dim> normal;  ///< from a to b
+  /// With the normal a frame: right-handed, but in 3-D left-handed where a contact update has found
+  /// the bodies the other way round and turned all its axes about.
+  TangentBasis<Dim> tangents;
+  Vec<Dim> arm_a, arm_b;  ///< from the centres of the bodies to the centre of the facet [m]
   int a, b;
   int first, last;  ///< points first, ..., last - 1
   int law = 0;      ///< index into the laws of the group
@@ -71,6 +76,27 @@ struct ReferenceContact {
   }
 };
 
+/// The order in which contacts that have been found go into their group: by the lower of their two
+/// bodies, then by the other one; several of the same two as they were found.
+///
+/// Neighbours in the rock have numbers near each other, so forces go through the memory of bodies
+/// from front to back: in 2-D 40 instead of 140 ns a contact for a million blocks and 46 instead of
+/// 62 for 105 000, which is what it takes to read the 256 bytes of each.
+/// @param bodies_of  bodies_of(contact) are the two bodies, either first
+/// @return  indices into `contacts`
+template <class Contacts, class BodiesOf>
+[[nodiscard]] std::vector<int> order_by_bodies(const Contacts& contacts, BodiesOf&& bodies_of) {
+  std::vector<std::pair<int, int>> bodies;
+  bodies.reserve(contacts.size());
+  int limit = 0;
+  for (const auto& contact : contacts) {
+    const std::pair<int, int> two = bodies_of(contact);
+    bodies.emplace_back(std::minmax(two.first, two.second));
+    limit = std::max(limit, bodies.back().second + 1);
+  }
+  return order_of_pairs(bodies, limit);
+}
+
 /// What evaluating forces does to the contact history.
 struct Frozen {};      ///< read it: the force depends on the displacement alone
 struct Committing {};  ///< and bring it up to date at every evaluation
@@ -96,6 +122,12 @@ class ContactGroup {
   }
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+
+  /// Makes room for more contacts of so many points each.
+  void reserve(std::size_t contacts, std::size_t points_each) {
+    contacts_.reserve(contacts_.size() + contacts);
+    points_.reserve(points_.size() + contacts * points_each);
+  }
 
   /// @param facet     its area vector points from a to b
   /// @param centre_a, centre_b  of the bodies [m]
@@ -238,48 +270,79 @@ class ContactGroup {
   /// Forgets the contacts of bodies for which `gone(body)` holds.
   template <class Gone>
   void remove(Gone&& gone) {
-    std::vector<Contact> kept;
-    std::vector<Point> points;
-    for (Contact c : contacts_) {
+    // In their place: what is kept only moves towards the front.
+    std::size_t kept = 0;
+    int end = 0;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      Contact c = contacts_[k];
       if (gone(c.a) || gone(c.b)) continue;
-      const int first = static_cast<int>(points.size());
-      points.insert(points.end(), points_.begin() + c.first, points_.begin() + c.last);
-      c.first = first;
-      c.last = static_cast<int>(points.size());
-      kept.push_back(c);
+      const int count = c.last - c.first;
+      if (end != c.first)
+        std::move(points_.begin() + c.first, points_.begin() + c.last, points_.begin() + end);
+      c.first = end;
+      c.last = end += count;
+      contacts_[kept++] = c;
     }
-    contacts_ = std::move(kept);
-    points_ = std::move(points);
+    contacts_.erase(contacts_.begin() + static_cast<std::ptrdiff_t>(kept), contacts_.end());
+    points_.erase(points_.begin() + end, points_.end());
   }
 
  private:
   template <class History>
   void add_force(const Contact& c, const double* u, double* f) {
-    if constexpr (dim == 2) return add_force_in_plane<History>(c, u, f);
-    const TangentBasis<dim>& tangents = c.tangents;
+    if constexpr (dim == 2)
+      add_force_in_plane<History>(c, u, f);
+    else
+      add_force_in_space<History>(c, u, f);
+  }
+
+  /// In the axes of the contact, normal and tangents: only what is the same for all its points is
+  /// turned there and back. A third of the time that turning every point takes.
+  template <class History>
+  void add_force_in_space(const Contact& c, const double* u, double* f) requires(dim == 3) {
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
-    const Vec<dim> jump = displacement_at<dim>(ub, c.arm_b) - displacement_at<dim>(ua, c.arm_a);
-    const Spin<dim> turn = vector_at<dof - dim>(ub + dim) - vector_at<dof - dim>(ua + dim);
-    Vec<dim> force = zeros<Vec<dim>>();
-    Spin<dim> moment = zeros<Spin<dim>>();
-    for (int k = c.first; k < c.last; ++k) {
-      Point& p = points_[static_cast<std::size_t>(k)];
-      const Vec<dim> offset = c.offset_of(p);
-      const Vec<dim> motion = jump + turned(turn, offset);
-      const PointLoad<dim> load{p.weight,
-                                p.initial,
-                                {p.start[0] + c.normal.dot(motion),
-                                 part<dim - 1>(p.start, 1) + transposed_product(tangents, motion)}};
-      const PointForce<dim> at = law_of(c).force(load, p.state);
-      if constexpr (std::is_same_v<History, Committing>) law_of(c).commit(load, p.state);
-      const Vec<dim> on_b = at.normal * c.normal + tangents * at.tangential;
-      force += on_b;
-      moment += moment_of(offset, on_b);
+    const Law& law = law_of(c);
+    const Vec<3> jump = displacement_at<3>(ub, c.arm_b) - displacement_at<3>(ua, c.arm_a);
+    const Vec<3> spin = vector_at<3>(ub + 3) - vector_at<3>(ua + 3);
+    const double *n = c.normal.data(), *s = c.tangents.data(), *t = s + 3;
+    const auto along = [](const double* axis, const Vec<3>& v) {
+      return axis[0] * v.data()[0] + axis[1] * v.data()[1] + axis[2] * v.data()[2];
+    };
+    const double jump_n = along(n, jump), jump_s = along(s, jump), jump_t = along(t, jump);
+    // In a left-handed frame a cross product has the other sign.
+    const double volume = n[0] * (s[1] * t[2] - s[2] * t[1]) + n[1] * (s[2] * t[0] - s[0] * t[2]) +
+                          n[2] * (s[0] * t[1] - s[1] * t[0]);
+    const double hand = volume < 0 ? -1.0 : 1.0;
+    const double spin_n = hand * along(n, spin), spin_s = hand * along(s, spin),
+                 spin_t = hand * along(t, spin);
+    double force_n = 0, force_s = 0, force_t = 0, moment_n = 0, moment_s = 0, moment_t = 0;
+    Point* const end = points_.data() + c.last;
+    for (Point* p = points_.data() + c.first; p != end; ++p) {
+      const double *offset = p->offset.data(), *start = p->start.data();
+      const double on = offset[0], os = offset[1], ot = offset[2];
+      PointLoad<3> load{p->weight, p->initial, {start[0] + jump_n + spin_s * ot - spin_t * os, {}}};
+      load.motion.slip = {start[1] + jump_s + spin_t * on - spin_n * ot,
+                          start[2] + jump_t + spin_n * os - spin_s * on};
+      const PointForce<3> at = law.force(load, p->state);
+      if constexpr (std::is_same_v<History, Committing>) law.commit(load, p->state);
+      const double fn = at.normal, fs = at.tangential.data()[0], ft = at.tangential.data()[1];
+      force_n += fn;
+      force_s += fs;
+      force_t += ft;
+      moment_n += os * ft - ot * fs;
+      moment_s += ot * fn - on * ft;
+      moment_t += on * fs - os * fn;
     }
-    add_at<dim>(f + dof * c.b, force);
-    add_at<dim>(f + dof * c.a, -force);
-    add_at<dof - dim>(f + dof * c.b + dim, moment + moment_of(c.arm_b, force));
-    add_at<dof - dim>(f + dof * c.a + dim, -(moment + moment_of(c.arm_a, force)));
+    Vec<3> force, moment;
+    for (int k = 0; k < 3; ++k) {
+      force.data()[k] = force_n * n[k] + force_s * s[k] + force_t * t[k];
+      moment.data()[k] = hand * (moment_n * n[k] + moment_s * s[k] + moment_t * t[k]);
+    }
+    double *fa = f + dof * c.a, *fb = f + dof * c.b;
+    add_at<3>(fb, force);
+    add_at<3>(fa, -force);
+    add_at<3>(fb + 3, moment + moment_of(c.arm_b, force));
+    add_at<3>(fa + 3, -(moment + moment_of(c.arm_a, force)));
   }
 
   /// The same in 2-D, number by number and in the axes of the contact: half the time, for

@@ -8,6 +8,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
+#include <voussoir/linear/linear_method.hpp>
 
 namespace voussoir {
 
@@ -71,7 +72,8 @@ struct EquilibriumReport {
   double largest_displacement = 0;  ///< [m]
   int steps = 0;                    ///< force evaluations
   int elastic_solves = 0;
-  int factorisations = 0;
+  int factorisations = 0;     ///< of the elastic stiffness; or preconditioners made
+  LinearReport linear;        ///< how the elastic solves were done
   std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
   int broken_bolts = 0;       ///< bolt springs that ruptured

@@ -6,7 +6,7 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
-#include <voussoir/solver/block_cholesky.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
@@ -38,6 +38,7 @@ class Explicit {
     double safety = 0.9;    ///< of the stable step [-], 0 < safety <= 1
     int max_steps = 200000;
     int check_every = 50;
+    LinearSettings linear{};  ///< of the elastic solves: error estimate and a look ahead
   };
   Explicit() = default;
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -74,15 +75,6 @@ class Explicit {
     return 0.25 * system.elastic_stiffness().absolute_row_sums();
   }
 
-  /// d = K^-1 f, in place.
-  template <class System>
-  static void elastic_correction(const System& system, const Progress& progress, Eigen::VectorXd& f,
-                                 EquilibriumReport& report) {
-    BlockCholesky<System::dof>(system.elastic_stiffness(progress), progress).solve_in_place(f);
-    ++report.factorisations;
-    ++report.elastic_solves;
-  }
-
   template <class System>
   void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
@@ -106,7 +98,8 @@ void Explicit::step_on(System& system, const SearchContext& context,
   const Acceptance& accept = context.acceptance;
   detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f) {
-    elastic_correction(system, context.progress, f, report);
+    detail::solve_elastically(system, params_.linear, {.relative = 0.05}, context.progress, f,
+                              report);
   };
   if (detail::has_collapsed<System::dim>(report, accept)) return;
   if (detail::moves_too_far(system, context, solve, report)) return;
@@ -156,8 +149,10 @@ void Explicit::step_on(System& system, const SearchContext& context,
         report.unbalance_over_weight > next_estimate)
       continue;
     Eigen::VectorXd d = f;
-    elastic_correction(system, context.progress, d, report);
-    report.error_estimate = system.relative_correction(d, u);
+    const double inexact = detail::solve_elastically(
+        system, params_.linear, detail::tolerance_of_correction(system, accept), context.progress,
+        d, report);
+    report.error_estimate = system.relative_correction(d, u, inexact);
     if (report.error_estimate < accept.error_estimate) {
       if (detail::find_when_due(system, context, true)) continue;
       report.verdict = Verdict::stable;

@@ -8,6 +8,8 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/small_algebra.hpp>
+#include <voussoir/linear/conjugate_gradients.hpp>
+#include <voussoir/linear/linear_method.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 
 namespace voussoir::detail {
@@ -47,6 +49,30 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   };
   for (const int b : bodies) enter(b);
   for (const int b : remove_with_loose(system, bodies)) enter(b);
+}
+
+/// How exact the correction of an error estimate must be: to a tenth of itself, since the next one
+/// corrects that too, but no better than a twentieth of the error that is accepted.
+template <class System>
+[[nodiscard]] SolveTolerance tolerance_of_correction(const System& system,
+                                                     const Acceptance& accept) {
+  return {
+      .relative = 0.1,
+      .absolute = 0.05 * accept.error_estimate * system.largest_translation(system.displacement)};
+}
+
+/// u = K^-1 f, in place, once.
+/// @return  estimate of its largest error [m]
+template <class System>
+double solve_elastically(const System& system, const LinearSettings& settings,
+                         const SolveTolerance& tolerance, const Progress& progress,
+                         Eigen::VectorXd& f, EquilibriumReport& report) {
+  auto solver = system.elastic_solver(settings, progress);
+  const double error = solver.solve_in_place(f, tolerance, progress);
+  ++report.factorisations;
+  ++report.elastic_solves;
+  add_report(report.linear, solver.report());
+  return error;
 }
 
 /// True, with the reason, if the rock as a whole is about to move so far that detached blocks

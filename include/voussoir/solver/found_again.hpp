@@ -7,6 +7,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/progress.hpp>
+#include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/detail/contact_update.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/system.hpp>
@@ -68,7 +69,9 @@ class FoundAgain {
   static void replace(Group& group, const Contacts& by) {
     Group next(group.laws());
     std::vector<typename Group::Point> points;
-    for (const auto& c : by.contacts) {
+    for (const int n : order_by_bodies(
+             by.contacts, [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
+      const ReferenceContact<dim>& c = by.contacts[static_cast<std::size_t>(n)];
       points.clear();
       for (auto k = static_cast<std::size_t>(c.first); k < static_cast<std::size_t>(c.last); ++k) {
         points.push_back({by.points[k], {}});

@@ -75,7 +75,7 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
     require(bar.length() > 0 && std::isfinite(bar.length()), "bolt length", bar.length(), "> 0 m");
     const Vec<dim> axis = (bar.end - bar.start) / bar.length();
     for (const auto& at :
-         bolt_crossings(pierce(mass, bar), bar, anchors, mass.domain.tolerance())) {
+         bolt_crossings(block_intersections(mass, bar), bar, anchors, mass.domain.tolerance())) {
       const Pose<dim> a = run.home(at.a), b = run.home(at.b);
       const auto in = [](const Pose<dim>& pose, const Vec<dim>& p) {
         return transposed(pose.rotation) * (p - pose.position);

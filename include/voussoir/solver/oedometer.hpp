@@ -6,9 +6,9 @@
 #include <vector>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
-#include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/system.hpp>
 
@@ -62,7 +62,10 @@ struct Press {
     const int ground = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
     platen = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
     measures.resize(measures.size() + 2, 0.0);
-    for (const auto& c : Detector::find(mass)) {
+    const auto found = Detector::find(mass);
+    for (const int k :
+         order_by_bodies(found, [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
+      const auto& c = found[static_cast<std::size_t>(k)];
       const auto points = c.facet.gauss_points();
       system.joints.add(c.a, c.b, c.facet, system.body(c.a).centre, system.body(c.b).centre,
                         points);
@@ -147,7 +150,6 @@ void check_press(const RockMass<Geometry>& mass, const OedometerParams& params) 
 template <class Detector = CutContacts, class Geometry, class JointLaw>
 [[nodiscard]] OedometerResult oedometer(const RockMass<Geometry>& mass, const JointLaw& joint_law,
                                         const OedometerParams& params = {}) {
-  constexpr int dof = Geometry::dof;
   detail::check_press(mass, params);
   detail::Press<Geometry, JointLaw> press(mass, joint_law, params, Detector{});
   // The platen is a body that cannot move by itself; moved by hand it pushes the blocks at it. The
@@ -156,7 +158,7 @@ template <class Detector = CutContacts, class Geometry, class JointLaw>
   press.move_platen(motion);
   Eigen::VectorXd push;
   press.system.forces(press.system.displacement, push);
-  BlockCholesky<dof>(press.system.elastic_stiffness()).solve_in_place(push);
+  (void)press.system.elastic_solver({}).solve_in_place(push, {.relative = 1e-8});
   press.system.displacement = push;
   press.move_platen(motion);
   return press.read(motion, false);

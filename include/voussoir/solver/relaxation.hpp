@@ -6,8 +6,8 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/solver/active_set.hpp>
-#include <voussoir/solver/block_cholesky.hpp>
 #include <voussoir/solver/contact_group.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
@@ -29,10 +29,11 @@ class Relaxation {
 
   struct Params {
     int max_steps = 60000;
-    int check_every = 40;  ///< steps between looks at the whole system
-    double damping = 0.7;  ///< local damping [-], 0 <= damping < 1
-    double safety = 0.9;   ///< of the stable step [-]
-    int rings = 3;         ///< generations of neighbours that move with a body out of balance
+    int check_every = 40;     ///< steps between looks at the whole system
+    double damping = 0.7;     ///< local damping [-], 0 <= damping < 1
+    double safety = 0.9;      ///< of the stable step [-]
+    int rings = 3;            ///< generations of neighbours that move with a body out of balance
+    LinearSettings linear{};  ///< of the elastic solve that says whether blocks can be told apart
   };
   Relaxation() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -66,10 +67,8 @@ EquilibriumReport Relaxation::find(System& system, const SearchContext& context)
   EquilibriumReport report;
   detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f) {
-    BlockCholesky<System::dof>(system.elastic_stiffness(context.progress), context.progress)
-        .solve_in_place(f);
-    ++report.factorisations;
-    ++report.elastic_solves;
+    detail::solve_elastically(system, params_.linear, {.relative = 0.05}, context.progress, f,
+                              report);
   };
   detail::until_stopped(report, [&] {
     if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
@@ -121,7 +120,8 @@ void Relaxation::step_on(System& system, const SearchContext& context,
       break;
     }
     detail::ask_to_go_on(context);
-    ActiveSet<System> active(system, f, 0.3 * accept.unbalance_over_weight, params_.rings);
+    ActiveSet<System> active(system, f, zeros(f.size()), 0.3 * accept.unbalance_over_weight,
+                             params_.rings);
     for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
       stop();
       if (k > 0) active.template forces<Committing>(u, f);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -12,12 +11,12 @@
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/motion/contact_points.hpp>
+#include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
-#include <voussoir/rockmass/edge_slabs.hpp>
-#include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/bolt_crossings.hpp>
 #include <voussoir/solver/composition.hpp>
+#include <voussoir/solver/detail/initial_model.hpp>
 #include <voussoir/solver/in_situ.hpp>
 #include <voussoir/solver/system.hpp>
 
@@ -50,6 +49,13 @@ class ComposedSolver {
                        progress) {}
   /// The same with laws of their own for some joint sets.
   ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {});
+
+  /// Rock that is excavated at once: what the constructor above and `excavate` do, bit for bit,
+  /// with one model to make instead of two.
+  /// @throws InvalidInput, Stopped  as they do
+  ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+                 const typename Geometry::Opening& opening, double smallest_piece = 0.074,
                  ContactPoints points = ContactPoints::gauss, const Progress& progress = {});
 
   /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
@@ -120,7 +126,7 @@ class ComposedSolver {
     return states;
   }
 
-  [[nodiscard]] const RockMass<Geometry>& mass() const { return mass_; }
+  [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
   [[nodiscard]] const SystemType& system() const { return system_; }
   [[nodiscard]] SystemType& system() { return system_; }
@@ -130,7 +136,7 @@ class ComposedSolver {
   /// Number of the first lining node among the bodies of the system; -1 without lining.
   [[nodiscard]] int first_lining_node() const { return first_node_; }
   /// Number of the fixed ground among the bodies of the system.
-  [[nodiscard]] int ground() const { return static_cast<int>(mass_.bodies.size()); }
+  [[nodiscard]] int ground() const { return static_cast<int>(mass_->bodies.size()); }
 
   /// Displacement of a point that moves with a body since the in-situ state [m].
   [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const;
@@ -142,41 +148,20 @@ class ComposedSolver {
         {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0}, any_units);
   }
 
-  [[nodiscard]] std::vector<FacetPoint<dim>> points_on(const typename Geometry::Facet& facet) const;
-
-  /// The initial contacts; a detector may be asked to stop, but need not know how.
-  [[nodiscard]] static auto contacts_of(const RockMass<Geometry>& mass, const Progress& progress) {
-    if constexpr (requires { Detector::find(mass, progress); }) {
-      return Detector::find(mass, progress);
-    } else {
-      return Detector::find(mass);
-    }
-  }
+  /// Takes what there is, and checks it; `build` makes the model of it.
+  struct Unbuilt {};
+  ComposedSolver(Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
+                 const InSitu& in_situ, ContactPoints points);
 
   void build(const Progress& progress);
-
-  /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
-  /// acting as a load.
-  template <class Points>
-  void add_edge_shear(int body, const typename Geometry::Facet& facet, const Points& points) {
-    const Vec<dim> normal = facet.area_vector().normalized();
-    const Vec<dim>& centre = system_.body(body).centre;
-    const Vec<dim> middle = facet.centre_from(centre);
-    for (const FacetPoint<dim>& p : points) {
-      const Vec<dim> arm = middle + p.offset;
-      const Vec<dim> traction =
-          in_situ_.stress<dim>(mass_.domain.depth(Vec<dim>(centre + arm))) * normal;
-      const Vec<dim> shear = traction - normal.dot(traction) * normal;
-      if (!is_zero(shear))
-        add_force_at<dim>(system_.load.data() + dof * body, arm, Vec<dim>(-p.weight * shear));
-    }
-  }
+  void hold_wall();
 
   /// The intersections of a bar without the bodies that are detached.
-  [[nodiscard]] std::vector<Passage> passages_of_present_rock(
+  [[nodiscard]] std::vector<BlockIntersection> intersections_of_present_rock(
       const typename Geometry::Line& bar) const;
 
-  RockMass<Geometry> mass_;
+  /// Copies of the solver share it, and so do its shapes; `excavate` alone changes it, or a copy.
+  std::shared_ptr<RockMass<Geometry>> mass_;
   LawsBySet<JointLaw> joint_laws_;
   InSitu in_situ_;
   ContactPoints points_;
@@ -219,16 +204,36 @@ class Solver : public detail::Composed<Composition<Policies...>> {
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
           class Lining, class Method>
 ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
-    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-    ContactPoints points, const Progress& progress)
-    : mass_(std::move(mass)),
+    Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+    ContactPoints points)
+    : mass_(std::make_shared<RockMass<Geometry>>(std::move(mass))),
       joint_laws_(std::move(joint_laws)),
       in_situ_(in_situ),
       points_(points),
       system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
   in_situ_.check();
-  if (mass_.bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
+  if (mass_->bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
+    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+    ContactPoints points, const Progress& progress)
+    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points) {
   build(progress);
+}
+
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
+    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+    const typename Geometry::Opening& opening, double smallest_piece, ContactPoints points,
+    const Progress& progress)
+    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points) {
+  *mass_ = carve(std::move(*mass_), opening, smallest_piece, progress);
+  build(progress);
+  hold_wall();
 }
 
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
@@ -236,9 +241,19 @@ template <class Geometry, class Detector, class JointLaw, class Anchors, class B
 void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::excavate(
     const typename Geometry::Opening& opening, double smallest_piece, const Progress& progress) {
   if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
-  mass_ = carve(std::move(mass_), opening, smallest_piece, progress);
+  system_.shapes.reset();  // they are those of the mass
+  const bool is_shared = mass_.use_count() > 1;
+  mass_ = std::make_shared<RockMass<Geometry>>(
+      carve(is_shared ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
   system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
   build(progress);
+  hold_wall();
+}
+
+/// All that the rock in the opening has exerted on the wall goes on acting.
+template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
+          class Lining, class Method>
+void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::hold_wall() {
   Eigen::VectorXd f;
   system_.forces(system_.displacement, f);
   system_.wall_load = opposite(f);
@@ -253,7 +268,7 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
   require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
   const double length = bar.length();
   require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
-  const auto& domain = mass_.domain;
+  const auto& domain = mass_->domain;
   if (any_less(bar.end, domain.low) || any_less(domain.high, bar.end))
     throw InvalidInput(
         message({"bolt: its tip at ", text_of<dim>(bar.end),
@@ -262,7 +277,7 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
   const Vec<dim> axis = (bar.end - bar.start) / length;
   system_.bolt_laws.push_back(law);
   const auto crossings =
-      bolt_crossings(passages_of_present_rock(bar), bar, anchors, domain.tolerance());
+      bolt_crossings(intersections_of_present_rock(bar), bar, anchors, domain.tolerance());
   for (const BoltCrossingPoint<dim>& at : crossings) {
     BoltSpring<Geometry, BoltLaw> spring{};
     spring.a = at.a;
@@ -314,7 +329,10 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
                               Lining::template stiffness<dof>(section, length)});
   }
   typename SystemType::Interface interface({interface_law});
-  for (const LiningContact<Geometry>& c : frame.contacts) {
+  for (const int k : order_by_bodies(frame.contacts, [this](const LiningContact<Geometry>& c) {
+         return std::pair<int, int>(c.body, first_node_ + c.node);
+       })) {
+    const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
     if (!system_.body(c.body).movable) continue;  // that block is detached
     const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
     const int node = first_node_ + c.node;
@@ -358,85 +376,25 @@ auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
 
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
           class Lining, class Method>
-auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::points_on(
-    const typename Geometry::Facet& facet) const -> std::vector<FacetPoint<dim>> {
-  if (points_ == ContactPoints::gauss) {
-    const auto gauss = facet.gauss_points();
-    return {gauss.begin(), gauss.end()};
-  }
-  std::vector<WeightedPoint<dim>> places;
-  if constexpr (dim == 2)
-    place_points(points_, std::array{facet.start, facet.end}, facet.measure(), places);
-  else
-    place_points(points_, facet.vertices, facet.measure(), places);
-  std::vector<FacetPoint<dim>> points;
-  for (const WeightedPoint<dim>& p : places) points.push_back({p.place - facet.centre(), p.weight});
-  return points;
-}
-
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
 void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::build(
     const Progress& progress) {
-  StopCheck stop(progress);
-  measures_.clear();
-  for (const Body<Geometry>& body : mass_.bodies) {
-    stop();
-    const auto& p = body.properties;
-    const double weight = in_situ_.density * in_situ_.gravity * p.measure;
-    const double gyration = std::sqrt(p.second_moment.trace() / spin_count<dim> / p.measure);
-    const int b = system_.add_body({p.centroid, weight, gyration, true});
-    system_.load[dof * b + dim - 1] = -weight;
-    measures_.push_back(p.measure);
-  }
-  const int fixed = system_.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false, false});
-  measures_.push_back(0.0);
-  const std::vector<int> law_of_cut = joint_laws_.of_cuts(mass_);
-  for (const auto& c : contacts_of(mass_, progress)) {
-    stop();
-    const auto points = points_on(c.facet);
-    const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
-    system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
-                       points, law);
-  }
-  for (const auto& f : boundary_facets(mass_)) {
-    stop();
-    const auto points = points_on(f.facet);
-    if (f.side == SideOf<dim>::top) {
-      const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
-      add_force_at<dim>(system_.load.data() + dof * f.body,
-                        f.facet.centre_from(system_.body(f.body).centre), pressure);
-    } else {
-      system_.boundary.add(f.body, fixed, f.facet, system_.body(f.body).centre,
-                           system_.body(fixed).centre, points);
-      add_edge_shear(f.body, f.facet, points);
-    }
-  }
-  auto shapes = std::make_shared<typename SystemType::Shapes>();
-  for (const Body<Geometry>& body : mass_.bodies) {
-    stop();
-    shapes->push_back(body.parts);
-  }
-  shapes->push_back(edge_slabs(mass_.domain));
-  system_.shapes = std::move(shapes);
-  system_.law_of_cut = std::make_shared<const std::vector<int>>(law_of_cut);
-  const auto stress_at = [&](const auto& contact, const Vec<dim>& offset) {
-    stop();
-    const Vec<dim> point = system_.body(contact.a).centre + contact.arm_a + offset;
-    return in_situ_.stress<dim>(mass_.domain.depth(point));
-  };
-  system_.joints.set_initial(stress_at);
-  system_.boundary.set_initial(stress_at);
+  detail::InitialModel<Detector, SystemType> model(*mass_, in_situ_, points_, system_, progress);
+  model.add_bodies(measures_);
+  model.add_contacts(joint_laws_);
+  model.add_edges();
+  system_.shapes = detail::shapes_of<SystemType>(mass_);
+  model.set_initial_stress();
 }
 
 template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
           class Lining, class Method>
-std::vector<Passage>
+std::vector<BlockIntersection>
 ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
-               Method>::passages_of_present_rock(const typename Geometry::Line& bar) const {
-  std::vector<Passage> passages = pierce(mass_, bar);
-  std::erase_if(passages, [this](const Passage& p) { return !system_.body(p.body).movable; });
-  return passages;
+               Method>::intersections_of_present_rock(const typename Geometry::Line& bar) const {
+  std::vector<BlockIntersection> intersections = block_intersections(*mass_, bar);
+  std::erase_if(intersections,
+                [this](const BlockIntersection& p) { return !system_.body(p.body).movable; });
+  return intersections;
 }
 
 }  // namespace voussoir

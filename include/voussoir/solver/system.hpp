@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,8 +19,9 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
+#include <voussoir/linear/block_matrix.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/lining/frame_element.hpp>
-#include <voussoir/solver/block_matrix.hpp>
 #include <voussoir/solver/bolt_spring.hpp>
 #include <voussoir/solver/contact_group.hpp>
 
@@ -56,7 +58,7 @@ class System {
   using Boundary = ContactGroup<Geometry, SmoothWall>;
   using Interface = ContactGroup<Geometry, CoulombJoint>;
   using Shape = typename PlacedShapes<dim>::Shape;
-  using Shapes = std::vector<std::vector<Shape>>;
+  using Shapes = std::vector<std::span<const Shape>>;
 
   System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness,
          const CoulombJoint& interface_law)
@@ -71,12 +73,16 @@ class System {
   std::vector<BoltSpring<Geometry, BoltLaw>> bolts;
   std::vector<FrameElement<Geometry>> frames;
   /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
-  /// contacts cannot be updated.
+  /// contacts cannot be updated. What it points to, it keeps alive.
   std::shared_ptr<const Shapes> shapes;
+  /// Of factors of the elastic stiffness; copies of a system share them.
+  std::shared_ptr<PatternStore> patterns = std::make_shared<PatternStore>();
   /// For every label of their faces the index of the joint law; null: the first for all.
   std::shared_ptr<const std::vector<int>> law_of_cut;
 
-  int add_body(const Body& body);
+  int add_body(const Body& body) { return add_bodies({&body, 1}); }
+  /// @return  number of the first
+  int add_bodies(std::span<const Body> bodies);
 
   [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
@@ -110,6 +116,13 @@ class System {
     for (int b = 0; b < body_count(); ++b)
       if (body(b).movable) movable.push_back(b);
     return movable;
+  }
+
+  /// Of all bodies, where contacts were last found [m].
+  [[nodiscard]] std::vector<Vec<dim>> centres() const {
+    std::vector<Vec<dim>> all;
+    for (int b = 0; b < body_count(); ++b) all.push_back(pose_when_found(b).position);
+    return all;
   }
 
   Eigen::VectorXd displacement;  ///< since the in-situ state
@@ -155,6 +168,12 @@ class System {
   /// @throws Stopped
   [[nodiscard]] Matrix elastic_stiffness(const Progress& progress = {}) const;
 
+  /// Solves with that stiffness. @throws FreeBody, NotEnoughMemory, Stopped
+  [[nodiscard]] ElasticSolver<dof> elastic_solver(const LinearSettings& settings,
+                                                  const Progress& progress = {}) const {
+    return ElasticSolver<dof>(elastic_stiffness(progress), centres(), settings, progress, patterns);
+  }
+
   /// Takes bodies out for good: their contacts, bolts and frames go, and they stop moving.
   void remove(const std::vector<int>& gone);
 
@@ -188,12 +207,13 @@ class System {
 
   /// Largest elastic correction of any body over the largest displacement of a block: the error
   /// estimate [-]. Below a nanometre of displacement there is nothing to be in error.
+  /// @param inexact  largest error of the correction itself [m]
   [[nodiscard]] double relative_correction(const Eigen::VectorXd& correction,
-                                           const Eigen::VectorXd& u) const {
+                                           const Eigen::VectorXd& u, double inexact = 0) const {
     double squared = 0;
     for (int b = 0; b < body_count(); ++b)
       squared = std::max(squared, part<dim>(correction, dof * b).squaredNorm());
-    return std::sqrt(squared) / std::max(largest_translation(u), 1e-9);
+    return (std::sqrt(squared) + inexact) / std::max(largest_translation(u), 1e-9);
   }
 
   /// Largest translation of a block [m].
@@ -218,17 +238,18 @@ class System {
 };
 
 template <class Geometry, class JointLaw, class BoltLaw>
-int System<Geometry, JointLaw, BoltLaw>::add_body(const Body& body) {
-  bodies_.push_back(body);
+int System<Geometry, JointLaw, BoltLaw>::add_bodies(std::span<const Body> bodies) {
+  const int first = body_count();
+  bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
   grow(displacement, size);
   grow(load, size);
   if (has_found_again()) {
     grow(found_at_, size);
-    turned_.push_back(diagonal_of<dim>(1));
+    turned_.resize(bodies_.size(), diagonal_of<dim>(1));
   }
   grow(wall_load, size);
-  return static_cast<int>(bodies_.size()) - 1;
+  return first;
 }
 
 template <class Geometry, class JointLaw, class BoltLaw>

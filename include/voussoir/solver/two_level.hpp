@@ -10,8 +10,9 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
+#include <voussoir/linear/linear_method.hpp>
 #include <voussoir/solver/active_set.hpp>
-#include <voussoir/solver/block_cholesky.hpp>
+#include <voussoir/solver/detail/elastic_corrections.hpp>
 #include <voussoir/solver/equilibrium.hpp>
 #include <voussoir/solver/falls.hpp>
 #include <voussoir/solver/fire.hpp>
@@ -54,6 +55,7 @@ class TwoLevel {
     int max_bursts = 14;         ///< local searches without detachment or end before the fallback
     int increments = 5;          ///< of the unloading, where blocks detach in one step
     int max_restarts = 8;        ///< searches after the first, without what is detached
+    LinearSettings linear{};     ///< of the elastic solves
     Fire::Params fire{};
     Relaxation::Params fallback{};
   };
@@ -75,53 +77,14 @@ class TwoLevel {
  private:
   enum class Outcome { decided, open };
 
-  /// The stiffness with all contacts closed and sticking, factored, and the masses that go with it.
-  /// Within one call of `find` it depends on the bodies and bolts that are left, not on where they
-  /// are: made anew only after some have gone, or are back because the search starts again.
   template <class System>
-  class Elastic {
-   public:
-    /// @throws Stopped  it is as it was
-    void prepare(const System& system, const Fire::Params& fire, const Progress& progress,
-                 EquilibriumReport& report) {
-      std::vector<int> bodies = system.movable_bodies();
-      std::vector<bool> broken;
-      for (const auto& bolt : system.bolts) broken.push_back(bolt.broken);
-      const Eigen::VectorXd& found_at = system.found_at();
-      const bool same_place = found_at.size() == found_at_.size() && found_at == found_at_;
-      if (factor_ && bodies == bodies_ && broken == broken_ && same_place) return;
-      const auto stiffness = system.elastic_stiffness(progress);
-      // Not two of them at a time; without a factor it is made anew, whatever stops this.
-      factor_.reset();
-      factor_.emplace(stiffness, progress);
-      fire_.emplace(stiffness.absolute_row_sums(), fire);
-      bodies_ = std::move(bodies);
-      broken_ = std::move(broken);
-      found_at_ = found_at;
-      ++report.factorisations;
-    }
-    /// d = K^-1 f, in place.
-    void solve(Eigen::VectorXd& d, EquilibriumReport& report) const {
-      factor_->solve_in_place(d);
-      ++report.elastic_solves;
-    }
-    [[nodiscard]] Fire& fire() { return *fire_; }
-
-   private:
-    std::optional<BlockCholesky<System::dof>> factor_;
-    std::optional<Fire> fire_;
-    std::vector<int> bodies_;   ///< that could move when it was made
-    std::vector<bool> broken_;  ///< bolts then
-    Eigen::VectorXd found_at_;  ///< the displacement at which contacts had been found
-  };
+  void find_by_stages(System& system, const SearchContext& context,
+                      detail::ElasticCorrections<System>& elastic, EquilibriumReport& whole) const;
 
   template <class System>
-  void find_by_stages(System& system, const SearchContext& context, EquilibriumReport& whole) const;
-
-  template <class System>
-  [[nodiscard]] EquilibriumReport find_in_one_step(System& system, const SearchContext& context,
-                                                   bool give_up_at_a_fall,
-                                                   Elastic<System>& elastic) const {
+  [[nodiscard]] EquilibriumReport find_in_one_step(
+      System& system, const SearchContext& context, bool give_up_at_a_fall,
+      detail::ElasticCorrections<System>& elastic) const {
     EquilibriumReport report;
     detail::until_stopped(
         report, [&] { search_anew(system, context, give_up_at_a_fall, elastic, report); });
@@ -132,9 +95,11 @@ class TwoLevel {
   /// Searches until one is decided, without what detaches meanwhile.
   template <class System>
   void search_anew(System& system, const SearchContext& context, bool give_up_at_a_fall,
-                   Elastic<System>& elastic, EquilibriumReport& report) const {
+                   detail::ElasticCorrections<System>& elastic, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
-    const System start = system;  // where a search without the detached blocks begins
+    // Where a search without the detached blocks begins. One that gives up has no use for it.
+    std::optional<System> start;
+    if (!give_up_at_a_fall) start.emplace(system);
     // The fallback mostly has to tell what detaches: blocks at a tenth of their weight do not. One
     // that creeps to its rest is followed more closely.
     double follow_to = std::max(0.1, accept.unbalance_over_weight);
@@ -161,7 +126,7 @@ class TwoLevel {
       }
       if (attempt == params_.max_restarts) break;
       if (!fall.fallen.empty()) {
-        system = System(start);  // moved: less code than an assignment of every part
+        system = System(*start);  // moved: less code than an assignment of every part
         detail::remove_with_loose(system, report.fallen);
         continue;
       }
@@ -191,26 +156,29 @@ class TwoLevel {
   /// One search with the present bodies; `decided` with a verdict or a reason to stop.
   template <class System>
   Outcome search(System& system, const SearchContext& context, bool give_up_at_a_fall,
-                 Elastic<System>& elastic, EquilibriumReport& report) const {
+                 detail::ElasticCorrections<System>& elastic, EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
     system.wall_fraction = context.wall_fraction;
-    elastic.prepare(system, params_.fire, context.progress, report);
+    elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
     Eigen::VectorXd& u = system.displacement;
     Eigen::VectorXd f, d, trial;
+    double inexact = 0;  // of the last correction
     const auto correction = [&] {
       system.forces(u, f);
       ++report.steps;
       d = f;
-      elastic.solve(d, report);
+      inexact = elastic.solve(d, detail::tolerance_of_correction(system, accept), context.progress,
+                              report);
     };
     correction();
     u += d;
+    Eigen::VectorXd left = elastic.residual();  // of elastic solves: for the next to take
     double estimate = 1;
     Eigen::VectorXd reach = constants(system.body_count(), 0.2 * longest_move(accept));
     // More often than a block can need on its way to the displacement limit is no progress.
     int may_find = 4 + static_cast<int>(8 * accept.displacement_limit / accept.refind_limit);
     for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      settle_locally(system, elastic.fire(), context, estimate, reach, f, report);
+      settle_locally(system, elastic.fire(), context, estimate, left, reach, f, report);
       // A maximum would not tell: it passes over what is not a number.
       if (!is_finite(u))
         throw NumericalFault(
@@ -230,12 +198,12 @@ class TwoLevel {
               std::numeric_limits<double>::quiet_NaN();  // it is on its way down
           return Outcome::decided;
         }
-        elastic.prepare(system, params_.fire, context.progress, report);
+        elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
         burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
       }
       correction();
       report.largest_displacement = system.largest_translation(u);
-      report.error_estimate = estimate = system.relative_correction(d, u);
+      report.error_estimate = estimate = system.relative_correction(d, u, inexact);
       report.unbalance_over_weight = system.unbalance_over_weight(f);
       if (!is_finite(d))
         throw NumericalFault(
@@ -244,7 +212,7 @@ class TwoLevel {
           report.unbalance_over_weight < accept.unbalance_over_weight) {
         // A bolt broke, a joint failed, or contacts are elsewhere: look again.
         if (system.commit() > 0 || detail::find_when_due(system, context, true)) {
-          elastic.prepare(system, params_.fire, context.progress, report);
+          elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
           continue;
         }
         report.verdict = Verdict::stable;
@@ -253,7 +221,7 @@ class TwoLevel {
         return Outcome::decided;
       }
       detail::ask_to_go_on(context, progress_of(report, accept, burst));
-      correct(system, u, d, f, trial, report);
+      correct(system, u, d, elastic.residual(), f, trial, left, report);
     }
     return Outcome::open;
   }
@@ -270,14 +238,15 @@ class TwoLevel {
   /// shrinks for the bodies that ran into something, and the others fall on.
   template <class System>
   void settle_locally(System& system, Fire& fire, const SearchContext& context, double estimate,
-                      Eigen::VectorXd& reach, Eigen::VectorXd& f, EquilibriumReport& report) const {
+                      const Eigen::VectorXd& left, Eigen::VectorXd& reach, Eigen::VectorXd& f,
+                      EquilibriumReport& report) const {
     constexpr int dim = System::dim, dof = System::dof;
     const Acceptance& accept = context.acceptance;
     StopCheck stop(context.progress, 1);
     Eigen::VectorXd& u = system.displacement;
     system.forces(u, f);
     ++report.steps;
-    ActiveSet<System> active(system, f, 0.1 * accept.unbalance_over_weight, params_.rings);
+    ActiveSet<System> active(system, f, left, 0.1 * accept.unbalance_over_weight, params_.rings);
     const std::vector<int>& bodies = active.bodies();
     fire.rest();
     for (int step = 0; step < params_.burst_steps; ++step) {
@@ -346,16 +315,22 @@ class TwoLevel {
   }
 
   /// Adds the elastic correction, halved while it would make the residual four times larger.
+  /// @param residual  what the solve for it has left
+  /// @param left      what of it is for the next solve; what a shortened correction has not taken
+  ///                  is not, for that may be slip
   template <class System>
   static void correct(System& system, Eigen::VectorXd& u, const Eigen::VectorXd& d,
-                      Eigen::VectorXd& f, Eigen::VectorXd& trial, EquilibriumReport& report) {
+                      const Eigen::VectorXd& residual, Eigen::VectorXd& f, Eigen::VectorXd& trial,
+                      Eigen::VectorXd& left, EquilibriumReport& report) {
     const double before = f.squaredNorm();
+    left = zeros(f.size());
     for (double part = 1; part > 0.2; part *= 0.5) {
       set_to_sum(trial, u, part, d);
       system.forces(trial, f);
       ++report.steps;
       if (f.squaredNorm() <= 16 * before) {
         u = trial;
+        set_to_sum(left, left, part, residual);
         return;
       }
     }
@@ -377,17 +352,21 @@ class TwoLevel {
 template <class System>
 EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) const {
   EquilibriumReport whole;
-  detail::until_stopped(whole, [&] { find_by_stages(system, context, whole); });
+  detail::ElasticCorrections<System> elastic;
+  detail::until_stopped(whole, [&] { find_by_stages(system, context, elastic, whole); });
+  whole.linear = elastic.report();
   return whole;
 }
 
 template <class System>
 void TwoLevel::find_by_stages(System& system, const SearchContext& context,
+                              detail::ElasticCorrections<System>& elastic,
                               EquilibriumReport& whole) const {
   detail::drop(system, {}, context, whole);
-  Elastic<System> elastic;
-  elastic.prepare(system, params_.fire, context.progress, whole);
-  const auto solve = [&](Eigen::VectorXd& f) { elastic.solve(f, whole); };
+  elastic.prepare(system, params_.fire, params_.linear, context.progress, whole);
+  const auto solve = [&](Eigen::VectorXd& f) {
+    (void)elastic.solve(f, {.relative = 0.05}, context.progress, whole);
+  };
   if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return;
   if (detail::moves_too_far(system, context, solve, whole)) return;
   const auto part_of_stage = [&](double wall_fraction) {
@@ -396,15 +375,16 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
     part.acceptance.collapse_measure -= whole.fallen_measure;
     return part;
   };
-  const System start = system;
-  const double from = start.wall_fraction, to = context.wall_fraction;
+  const double from = system.wall_fraction, to = context.wall_fraction;
   const bool unloading = from != to && params_.increments > 1;
+  std::optional<System> start;
+  if (unloading) start.emplace(system);
   add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
   if (unloading && whole.reason.empty()) {
     // Something detached, or no end was found. The elastic start of one large step opens joints
     // that a gradual unloading keeps closed, so only what detaches then counts. Most detaches when
     // little traction is left: the increments shrink with it.
-    system = System(start);
+    system = std::move(*start);
     for (int k = 1; k <= params_.increments; ++k) {
       const bool last = k == params_.increments;
       const double left = last ? to : to + (from - to) * std::pow(0.4, k);

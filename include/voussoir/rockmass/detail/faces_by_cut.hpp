@@ -16,9 +16,12 @@ struct FaceRef {
 };
 
 /// All faces, ordered by the cut that made them; those of one cut as the bodies come.
+/// @param facets  if given, the faces themselves in the same order: looked up here, body by body,
+///                that costs a third of what it does cut by cut
 /// @throws InvalidInput  a face without a cut, as shapes have that were not sliced
 template <class Geometry>
-[[nodiscard]] std::vector<FaceRef> faces_by_cut(const RockMass<Geometry>& mass) {
+[[nodiscard]] std::vector<FaceRef> faces_by_cut(
+    const RockMass<Geometry>& mass, std::vector<typename Geometry::Facet>* facets = nullptr) {
   std::vector<std::size_t> next(mass.cuts.size() + 1, 0);  // where the next face of a cut goes
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const auto& part : mass.bodies[b].parts)
@@ -33,20 +36,17 @@ template <class Geometry>
       }
   std::partial_sum(next.begin(), next.end(), next.begin());
   std::vector<FaceRef> faces(next.back());
+  if (facets != nullptr) facets->resize(faces.size());
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (std::size_t p = 0; p < mass.bodies[b].parts.size(); ++p) {
       const auto& part = mass.bodies[b].parts[p];
-      for (std::size_t k = 0; k < part.size(); ++k)
-        faces[next[static_cast<std::size_t>(part.cut(k))]++] = {
-            part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)};
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const std::size_t at = next[static_cast<std::size_t>(part.cut(k))]++;
+        faces[at] = {part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)};
+        if (facets != nullptr) (*facets)[at] = part.face(k);
+      }
     }
   return faces;
-}
-
-template <class Geometry>
-[[nodiscard]] typename Geometry::Facet facet_of(const RockMass<Geometry>& mass, const FaceRef& f) {
-  return mass.bodies[static_cast<std::size_t>(f.body)].parts[static_cast<std::size_t>(f.part)].face(
-      static_cast<std::size_t>(f.face));
 }
 
 }  // namespace voussoir::detail

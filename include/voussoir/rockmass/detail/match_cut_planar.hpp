@@ -3,46 +3,46 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
-#include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir::detail {
 
 /// Overlaps of the faces on the two sides of one cut: sort both sides along it and sweep.
 /// Contact ends are vertices of one side or the other, taken as they are.
-VOUSSOIR_INLINE void match_cut(const RockMass<Planar>& mass, const FaceRef* first,
-                               const FaceRef* last, double tolerance,
-                               std::vector<ContactFacet<Planar>>& contacts);
+/// @param faces   all of the cut
+/// @param facets  the same
+VOUSSOIR_INLINE void match_cut(std::span<const FaceRef> faces, std::span<const Segment> facets,
+                               double tolerance, std::vector<ContactFacet<Planar>>& contacts);
 
 #if VOUSSOIR_BODIES
 
-VOUSSOIR_INLINE void match_cut(const RockMass<Planar>& mass, const FaceRef* first,
-                               const FaceRef* last, double tolerance,
-                               std::vector<ContactFacet<Planar>>& contacts) {
+VOUSSOIR_INLINE void match_cut(std::span<const FaceRef> faces, std::span<const Segment> facets,
+                               double tolerance, std::vector<ContactFacet<Planar>>& contacts) {
   struct Interval {
     double from, to;
     Segment facet;  ///< in the direction of the cut
     int body;
   };
   // The longest face gives the best direction, and is not one that welding has shrunk to a point.
-  Segment reference = facet_of(mass, *first);
-  for (const FaceRef* f = first + 1; f != last; ++f)
-    if (const Segment s = facet_of(mass, *f); s.length() > reference.length()) reference = s;
+  Segment reference = facets[0];
+  for (std::size_t k = 1; k < faces.size(); ++k)
+    if (facets[k].length() > reference.length()) reference = facets[k];
   const Vec2 along = normalized(reference.end - reference.start);
   thread_local std::vector<Interval> left, right;
   left.clear();
   right.clear();
-  for (const FaceRef* f = first; f != last; ++f) {
-    const Segment s = facet_of(mass, *f);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Segment& s = facets[k];
     const double from = dot_product(along, s.start), to = dot_product(along, s.end);
     if (from < to) {
-      left.push_back({from, to, s, f->body});
+      left.push_back({from, to, s, faces[k].body});
     } else {
-      right.push_back({to, from, {s.end, s.start}, f->body});
+      right.push_back({to, from, {s.end, s.start}, faces[k].body});
     }
   }
   const auto by_start = [](const Interval& x, const Interval& y) { return x.from < y.from; };

@@ -10,7 +10,7 @@
 namespace voussoir {
 
 /// The stretch of a line that runs inside one body.
-struct Passage {
+struct BlockIntersection {
   int body;
   double from, to;  ///< distance from the start of the line [m]
 };
@@ -26,11 +26,11 @@ inline constexpr double same_point = 10;
 ///
 /// @cost  one bounding test per body
 template <class Geometry>
-[[nodiscard]] std::vector<Passage> pierce(const RockMass<Geometry>& mass,
-                                          const typename Geometry::Line& line) {
+[[nodiscard]] std::vector<BlockIntersection> block_intersections(
+    const RockMass<Geometry>& mass, const typename Geometry::Line& line) {
   const double tolerance = mass.domain.tolerance();
   const auto low = smaller_of(line.start, line.end), high = larger_of(line.start, line.end);
-  std::vector<Passage> passages;
+  std::vector<BlockIntersection> intersections;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     for (const auto& part : mass.bodies[b].parts) {
       auto part_low = part.vertex(0), part_high = part.vertex(0);
@@ -43,15 +43,15 @@ template <class Geometry>
         continue;
       double from = 0, to = 0;
       if (clip(line, part, tolerance, from, to))
-        passages.push_back({static_cast<int>(b), from, to});
+        intersections.push_back({static_cast<int>(b), from, to});
     }
   }
   std::vector<double> starts;
-  starts.reserve(passages.size());
-  for (const Passage& passage : passages) starts.push_back(passage.from);
-  std::vector<Passage> joined;
+  starts.reserve(intersections.size());
+  for (const BlockIntersection& intersection : intersections) starts.push_back(intersection.from);
+  std::vector<BlockIntersection> joined;
   for (const std::size_t k : order_of_values(starts)) {
-    const Passage& next = passages[k];
+    const BlockIntersection& next = intersections[k];
     if (!joined.empty() && joined.back().body == next.body &&
         next.from - joined.back().to < same_point * tolerance) {
       joined.back().to = next.to;

@@ -7,7 +7,7 @@
 #include <voussoir/core/progress.hpp>
 #if VOUSSOIR_BODIES
 #include <limits>
-#include <voussoir/solver/detail/quotient_graph.hpp>
+#include <voussoir/linear/detail/quotient_graph.hpp>
 #endif
 
 namespace voussoir {

@@ -9,14 +9,14 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/core/random.hpp>
+#include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
-#include <voussoir/rockmass/pierce.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"
 
-namespace pierce_test {
+namespace block_intersections_test {
 
 using namespace voussoir;
 using voussoir_test::jointed_rock;
@@ -39,30 +39,31 @@ RockMass<Planar> bricks() {
 }
 
 /// Column and row of the brick that an intersection runs in.
-std::vector<Vec2> cells(const RockMass<Planar>& mass, const std::vector<Passage>& passages) {
+std::vector<Vec2> cells(const RockMass<Planar>& mass,
+                        const std::vector<BlockIntersection>& intersections) {
   std::vector<Vec2> result;
-  for (const Passage& p : passages)
+  for (const BlockIntersection& p : intersections)
     result.emplace_back(mass.bodies[index(p.body)].properties.centroid.array().floor());
   return result;
 }
 
 /// Ordered, without gap or overlap, from `from` to `to`, and each in the body it names.
 void check_covered(const RockMass<Planar>& mass, const Segment& line, double from, double to,
-                   const std::vector<Passage>& passages) {
+                   const std::vector<BlockIntersection>& intersections) {
   // Intersections shorter than the tolerance are left out, and lines are clipped to it at every
   // face.
   const double slack = 4 * mass.domain.tolerance();
-  REQUIRE_FALSE(passages.empty());
-  CHECK(std::abs(passages.front().from - from) <= slack);
-  CHECK(std::abs(passages.back().to - to) <= slack);
+  REQUIRE_FALSE(intersections.empty());
+  CHECK(std::abs(intersections.front().from - from) <= slack);
+  CHECK(std::abs(intersections.back().to - to) <= slack);
   double sum = 0;
-  for (std::size_t k = 0; k < passages.size(); ++k) {
-    const Passage& p = passages[k];
+  for (std::size_t k = 0; k < intersections.size(); ++k) {
+    const BlockIntersection& p = intersections[k];
     sum += p.to - p.from;
     CHECK(p.to > p.from);
     if (k > 0) {
-      CHECK(std::abs(p.from - passages[k - 1].to) <= slack);
-      CHECK(p.body != passages[k - 1].body);
+      CHECK(std::abs(p.from - intersections[k - 1].to) <= slack);
+      CHECK(p.body != intersections[k - 1].body);
     }
     const Vec2 middle = line.at(0.5 * (p.from + p.to) / line.length());
     const auto& parts = mass.bodies[index(p.body)].parts;
@@ -73,12 +74,12 @@ void check_covered(const RockMass<Planar>& mass, const Segment& line, double fro
       return outside <= mass.domain.tolerance();
     }));
   }
-  CHECK(std::abs(sum - (to - from)) <= slack * static_cast<double>(passages.size()));
+  CHECK(std::abs(sum - (to - from)) <= slack * static_cast<double>(intersections.size()));
 }
 
 }  // namespace
 
-TEST_SUITE("rockmass/pierce") {
+TEST_SUITE("rockmass/block_intersections") {
   TEST_CASE("random bars: intersections are in order, without gap, as long as the bar") {
     Random random(1);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -89,7 +90,7 @@ TEST_SUITE("rockmass/pierce") {
           return Vec2(19.8 * (random.uniform() - 0.5), -7.9 + 16.8 * random.uniform());
         };
         const Segment line{point(), point()};
-        check_covered(mass, line, 0, line.length(), pierce(mass, line));
+        check_covered(mass, line, 0, line.length(), block_intersections(mass, line));
       }
     }
   }
@@ -110,7 +111,7 @@ TEST_SUITE("rockmass/pierce") {
               (line.end.array() < ground.high.array()).all()))
           continue;
         ++along_joint;
-        check_covered(mass, line, 0, line.length(), pierce(mass, line));
+        check_covered(mass, line, 0, line.length(), block_intersections(mass, line));
       }
     }
     CHECK(along_joint > 500);
@@ -125,24 +126,25 @@ TEST_SUITE("rockmass/pierce") {
       const Vec2 along(std::cos(angle), std::sin(angle));
       const Segment line{corner - 0.7 * along, corner + 0.7 * along};
       if ((corner.cwiseAbs().array() > Vec2(9, 7).array()).any()) continue;
-      check_covered(mass, line, 0, line.length(), pierce(mass, line));
+      check_covered(mass, line, 0, line.length(), block_intersections(mass, line));
       // It starts, or ends, in the corner.
       const Segment from{corner, line.end}, to{line.start, corner};
-      check_covered(mass, from, 0, from.length(), pierce(mass, from));
-      check_covered(mass, to, 0, to.length(), pierce(mass, to));
+      check_covered(mass, from, 0, from.length(), block_intersections(mass, from));
+      check_covered(mass, to, 0, to.length(), block_intersections(mass, to));
     }
   }
 
   TEST_CASE("a bar inside one block has one intersection, its whole length") {
-    const auto passages = pierce(bricks(), {{1.2, 2.3}, {1.8, 2.9}});
-    REQUIRE(passages.size() == 1);
-    CHECK(passages[0].from == 0);
-    CHECK(std::abs(passages[0].to - 0.6 * std::sqrt(2.0)) < 1e-15);
+    const auto intersections = block_intersections(bricks(), {{1.2, 2.3}, {1.8, 2.9}});
+    REQUIRE(intersections.size() == 1);
+    CHECK(intersections[0].from == 0);
+    CHECK(std::abs(intersections[0].to - 0.6 * std::sqrt(2.0)) < 1e-15);
   }
 
   TEST_CASE("a bar along a joint of bricks runs in those on its left") {
     const auto mass = bricks();
-    const auto up = pierce(mass, {{2, 0.5}, {2, 3.5}}), down = pierce(mass, {{2, 3.5}, {2, 0.5}});
+    const auto up = block_intersections(mass, {{2, 0.5}, {2, 3.5}}),
+               down = block_intersections(mass, {{2, 3.5}, {2, 0.5}});
     CHECK(cells(mass, up) == std::vector<Vec2>{{1, 0}, {1, 1}, {1, 2}, {1, 3}});
     CHECK(cells(mass, down) == std::vector<Vec2>{{2, 3}, {2, 2}, {2, 1}, {2, 0}});
     const std::vector<double> ends = {0, 0.5, 1.5, 2.5, 3};
@@ -150,29 +152,29 @@ TEST_SUITE("rockmass/pierce") {
       CHECK(std::abs(up[k].from - ends[k]) < 1e-15);
       CHECK(std::abs(up[k].to - ends[k + 1]) < 1e-15);
     }
-    const auto right = pierce(mass, {{0.5, 1}, {2.5, 1}});
+    const auto right = block_intersections(mass, {{0.5, 1}, {2.5, 1}});
     CHECK(cells(mass, right) == std::vector<Vec2>{{0, 1}, {1, 1}, {2, 1}});
   }
 
   TEST_CASE("a bar through the corners of bricks touches only those on the diagonal") {
     const auto mass = bricks();
-    const auto passages = pierce(mass, {{0.5, 0.5}, {3.5, 3.5}});
-    CHECK(cells(mass, passages) == std::vector<Vec2>{{0, 0}, {1, 1}, {2, 2}, {3, 3}});
-    CHECK(std::abs(passages[1].to - passages[1].from - std::sqrt(2.0)) < 1e-14);
+    const auto intersections = block_intersections(mass, {{0.5, 0.5}, {3.5, 3.5}});
+    CHECK(cells(mass, intersections) == std::vector<Vec2>{{0, 0}, {1, 1}, {2, 2}, {3, 3}});
+    CHECK(std::abs(intersections[1].to - intersections[1].from - std::sqrt(2.0)) < 1e-14);
   }
 
   TEST_CASE("outside the domain there is no intersection") {
     const auto mass = bricks();
     const Segment across{{-1, 0.5}, {6, 0.5}};
-    const auto passages = pierce(mass, across);
-    REQUIRE(passages.size() == 4);
-    check_covered(mass, across, 1, 5, passages);
-    CHECK(pierce(mass, {{-1, -1}, {5, -1}}).empty());
-    CHECK(pierce(mass, {{5, 5}, {6, 6}}).empty());
+    const auto intersections = block_intersections(mass, across);
+    REQUIRE(intersections.size() == 4);
+    check_covered(mass, across, 1, 5, intersections);
+    CHECK(block_intersections(mass, {{-1, -1}, {5, -1}}).empty());
+    CHECK(block_intersections(mass, {{5, 5}, {6, 6}}).empty());
     // Along the edge: the rock is on the left going up the right-hand side, on the right going
     // down.
-    CHECK(pierce(mass, {{4, 0.5}, {4, 3.5}}).size() == 4);
-    CHECK(pierce(mass, {{4, 3.5}, {4, 0.5}}).empty());
+    CHECK(block_intersections(mass, {{4, 0.5}, {4, 3.5}}).size() == 4);
+    CHECK(block_intersections(mass, {{4, 3.5}, {4, 0.5}}).empty());
   }
 
   TEST_CASE("an opening is a gap, and parts of one body are one intersection") {
@@ -181,14 +183,14 @@ TEST_SUITE("rockmass/pierce") {
         carve(slice(ground, {}, {}), SimplePolygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), 0);
     REQUIRE(mass.bodies.size() == 1);
     REQUIRE(mass.bodies[0].parts.size() == 4);
-    const auto through = pierce(mass, {{-5, 0.25}, {5, 0.25}});
+    const auto through = block_intersections(mass, {{-5, 0.25}, {5, 0.25}});
     REQUIRE(through.size() == 2);
     CHECK(std::abs(through[0].to - 4) < 1e-12);
     CHECK(std::abs(through[1].from - 6) < 1e-12);
-    const auto beside = pierce(mass, {{-5, 2}, {5, 2}});
+    const auto beside = block_intersections(mass, {{-5, 2}, {5, 2}});
     REQUIRE(beside.size() == 1);
     CHECK(std::abs(beside[0].to - 10) < 1e-14);
-    CHECK(pierce(mass, {{-0.5, -0.5}, {0.5, 0.5}}).empty());
+    CHECK(block_intersections(mass, {{-0.5, -0.5}, {0.5, 0.5}}).empty());
   }
 
   TEST_CASE("bolts from the wall of an opening start in rock and are covered to their tip") {
@@ -200,7 +202,7 @@ TEST_SUITE("rockmass/pierce") {
       const Vec2 out(std::cos(angle), std::sin(angle));
       const Vec2 head = opening.last_crossing({{0, 0}, 5 * out}).value() * 5 * out;
       const Segment bolt{head, head + 3 * out};
-      check_covered(mass, bolt, 0, 3, pierce(mass, bolt));
+      check_covered(mass, bolt, 0, 3, block_intersections(mass, bolt));
     }
   }
 
@@ -210,10 +212,11 @@ TEST_SUITE("rockmass/pierce") {
     for (int k = 0; k < 100; ++k) {
       const Segment line{{18 * (random.uniform() - 0.5), 14 * (random.uniform() - 0.5)},
                          {18 * (random.uniform() - 0.5), 14 * (random.uniform() - 0.5)}};
-      const auto there = pierce(mass, line), back = pierce(mass, {line.end, line.start});
+      const auto there = block_intersections(mass, line),
+                 back = block_intersections(mass, {line.end, line.start});
       REQUIRE(there.size() == back.size());
       for (std::size_t i = 0; i < there.size(); ++i) {
-        const Passage& other = back[back.size() - 1 - i];
+        const BlockIntersection& other = back[back.size() - 1 - i];
         CHECK(there[i].body == other.body);
         CHECK(std::abs(there[i].from - (line.length() - other.to)) < 1e-12);  // coordinates of 10 m
       }
@@ -221,4 +224,4 @@ TEST_SUITE("rockmass/pierce") {
   }
 }
 
-}  // namespace pierce_test
+}  // namespace block_intersections_test

@@ -6,19 +6,11 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/progress.hpp>
-#include <voussoir/solver/block_elimination.hpp>
-#include <voussoir/solver/small_inverse.hpp>
+#include <voussoir/linear/block_elimination.hpp>
+#include <voussoir/linear/small_inverse.hpp>
+#include <voussoir/linear/tangent_matrix.hpp>
 
 namespace voussoir {
-
-/// Sparse block matrix of symmetric pattern and unsymmetric values: a tangent with sliding joints.
-template <int Dof>
-struct TangentMatrix {
-  using Block = Fixed<Dof, Dof>;
-  std::vector<Block> diagonal;
-  std::vector<std::pair<int, int>> pairs;  ///< coupled bodies (i, j), each pair once
-  std::vector<Block> forward, backward;    ///< blocks (i, j) and (j, i)
-};
 
 /// Factor A = L U by blocks, and solves with it. Pivots are the diagonal blocks in the order of
 /// elimination: no pivoting between bodies, so the caller must check what comes out.

@@ -21,11 +21,16 @@ class QuotientGraph {
  public:
   /// @param first  where to begin: of rows with equally many neighbours, the one that comes first
   ///               from here on, round to row first - 1, goes first
-  QuotientGraph(int size, const std::vector<std::pair<int, int>>& pairs, int first) : size_(size) {
+  QuotientGraph(int size, const std::vector<std::pair<int, int>>& pairs, int first)
+      : QuotientGraph(size, pairs, first, size) {}
+  /// For a part of a graph: rows from `count` on, which stand around it and are eliminated later,
+  /// are neighbours but are not put in order.
+  QuotientGraph(int size, const std::vector<std::pair<int, int>>& pairs, int first, int count)
+      : size_(size), count_(count) {
     read(pairs);
     set_dense_aside();
-    for (int k = size; k-- > 0;) {
-      const int i = k < size - first ? k + first : k + first - size;
+    for (int k = count; k-- > 0;) {
+      const int i = k < count - first ? k + first : k + first - count;
       if (weight_[i] > 0) link(i, degree_[i]);
     }
   }
@@ -33,7 +38,7 @@ class QuotientGraph {
   /// The row that is eliminated k-th. Call once.
   /// @throws Stopped
   std::vector<int> order(StopCheck& stop) {
-    for (int degree = 0; remaining_ > 0; degree = std::min(degree, lowest_linked_)) {
+    for (int degree = 0; remaining_ > outside(); degree = std::min(degree, lowest_linked_)) {
       while (first_[degree] == none) ++degree;
       stop();
       eliminate(first_[degree]);
@@ -90,14 +95,22 @@ class QuotientGraph {
       if (variables_[i] <= limit) continue;
       weight_[i] = 0;
       --remaining_;
-      dense_.push_back(i);
+      if (is_outside(i)) {
+        ++dense_outside_;
+      } else {
+        dense_.push_back(i);
+      }
       for (int k = begin_[i]; k < begin_[i] + variables_[i]; ++k) --degree_[lists_[k]];
     }
   }
 
   // Variables by degree, in doubly linked lists.
 
+  [[nodiscard]] bool is_outside(int i) const { return i >= count_; }
+  [[nodiscard]] int outside() const { return size_ - count_ - dense_outside_; }
+
   void link(int i, int degree) {
+    if (is_outside(i)) return;
     degree_[i] = degree;
     previous_[i] = none;
     next_[i] = first_[degree];
@@ -107,6 +120,7 @@ class QuotientGraph {
   }
 
   void unlink(int i) {
+    if (is_outside(i)) return;
     if (next_[i] != none) previous_[next_[i]] = previous_[i];
     (previous_[i] != none ? next_[previous_[i]] : first_[degree_[i]]) = next_[i];
   }
@@ -119,7 +133,7 @@ class QuotientGraph {
     for (int k = begin_[p], end = k + variables_[p]; k < end; ++k) update(lists_[k], p);
     stamp_ += size_ + 1;
     for (int k = begin_[p], end = k + variables_[p]; k < end; ++k)
-      if (weight_[lists_[k]] < 0) merge_bucket(previous_[lists_[k]]);
+      if (weight_[lists_[k]] < 0 && !is_outside(lists_[k])) merge_bucket(previous_[lists_[k]]);
     close(p);
   }
 
@@ -192,7 +206,8 @@ class QuotientGraph {
       hash += static_cast<unsigned>(e);
       lists_[end++] = e;
     }
-    if (degree == 0) {  // no neighbours but those of p: may be eliminated at once with it
+    if (degree == 0 &&
+        !is_outside(i)) {  // no neighbours but those of p: may be eliminated at once with it
       degree_[p] += weight_[i];
       absorb(i, p);
       return;
@@ -200,6 +215,7 @@ class QuotientGraph {
     lists_[end++] = p;  // in place of p itself or of an element that is now part of p
     elements_[i] = end - begin_[i] - variables_[i];
     degree_[i] = std::min(degree_[i], degree);
+    if (is_outside(i)) return;
     const int h = static_cast<int>(hash % static_cast<unsigned>(size_));
     next_[i] = bucket_[h];
     previous_[i] = h;
@@ -297,9 +313,10 @@ class QuotientGraph {
     return order;
   }
 
-  int size_, remaining_ = size_;  ///< variables at first, and those not yet eliminated
-  int used_ = 0;                  ///< of lists_
-  int lowest_linked_ = 0;         ///< degree, since the last elimination began
+  int size_, count_, remaining_ = size_;  ///< variables at first, and those not yet eliminated
+  int dense_outside_ = 0;
+  int used_ = 0;           ///< of lists_
+  int lowest_linked_ = 0;  ///< degree, since the last elimination began
   double operations_ = 0;
   Of<int> lists_{0};  ///< of a variable: variables, then elements; of an element: variables
   Of<int> begin_{size_}, variables_{size_}, elements_{size_};  ///< where in lists_, and how many

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <voussoir/solver/block_matrix.hpp>
+#include <voussoir/linear/block_matrix.hpp>
 
 namespace voussoir_test {
 

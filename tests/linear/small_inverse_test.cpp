@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <voussoir/core/random.hpp>
-#include <voussoir/solver/small_inverse.hpp>
+#include <voussoir/linear/small_inverse.hpp>
 
 #include "support/dense_algebra.hpp"
 
@@ -30,7 +30,7 @@ struct Block {
 
 }  // namespace
 
-TEST_SUITE("solver/small_inverse") {
+TEST_SUITE("linear/small_inverse") {
   TEST_CASE_TEMPLATE("L^-1 is that of Eigen's Cholesky factor", B, Block<1>, Block<3>, Block<6>) {
     constexpr int n = B::size;
     using Matrix = Eigen::Matrix<double, n, n>;

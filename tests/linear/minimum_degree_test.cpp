@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/random.hpp>
-#include <voussoir/solver/block_elimination.hpp>
-#include <voussoir/solver/detail/quotient_graph.hpp>
-#include <voussoir/solver/minimum_degree.hpp>
+#include <voussoir/linear/block_elimination.hpp>
+#include <voussoir/linear/detail/quotient_graph.hpp>
+#include <voussoir/linear/minimum_degree.hpp>
 
 namespace minimum_degree_test {
 
@@ -183,7 +183,7 @@ std::vector<Graph> many_graphs() {
 
 }  // namespace
 
-TEST_SUITE("solver/minimum_degree") {
+TEST_SUITE("linear/minimum_degree") {
   TEST_CASE("every row has its place, and L the blocks of an elimination row by row") {
     for (const Graph& graph : many_graphs()) {
       CAPTURE(graph.size);

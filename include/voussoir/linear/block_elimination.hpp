@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/progress.hpp>
-#include <voussoir/solver/minimum_degree.hpp>
+#include <voussoir/linear/minimum_degree.hpp>
 
 namespace voussoir {
 
