@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of the elastic stiffness by size: the factor, multigrid, the whole search for
 // equilibrium that they serve, and peers on the same matrices. One product with the matrix is the
-// floor. At the end: exponents n^k fitted to the sizes of each row.
+// floor. At the end: exponents n^k fitted to the sizes of each row from 10 000 bodies.
 //   elastic_bench [--large] [Google Benchmark's flags]      --large: 860 000 blocks in 2-D
 //   too, and the peers on larger models (a quarter of an hour)
 #include <benchmark/benchmark.h>
@@ -227,8 +227,9 @@ template <class Get>
 void add_family(const std::string& space, const std::vector<int>& sizes, Get get, int factor_up_to,
                 int peers_up_to) {
   const auto add = [&](const char* name, int size, auto run) {
-    benchmark::RegisterBenchmark((space + "/" + name + "/" + std::to_string(size)).c_str(),
-                                 [run, get, size](benchmark::State& s) { run(s, get(size)); })
+    return benchmark::RegisterBenchmark(
+               (space + "/" + name + "/" + std::to_string(size)).c_str(),
+               [run, get, size](benchmark::State& s) { run(s, get(size)); })
         ->Unit(benchmark::kMillisecond);
   };
   for (const int size : sizes) {  // the larger the number, the larger the model in 2-D only
@@ -240,6 +241,9 @@ void add_family(const std::string& space, const std::vector<int>& sizes, Get get
     if (within(factor_up_to)) {
       add("order", size, [](auto& s, const auto& of) { order(s, of); });
       add("factor", size, [](auto& s, const auto& of) { factor(s, of, 1); });
+      add("factor_2_threads", size, [](auto& s, const auto& of) {
+        factor(s, of, 2);
+      })->UseRealTime();
       add("factor_solve", size, [](auto& s, const auto& of) { factor_solve(s, of); });
     }
     if (within(peers_up_to)) {
@@ -263,7 +267,8 @@ class Fitting : public benchmark::ConsoleReporter {
     for (const Run& run : runs) {
       const auto bodies = run.counters.find("bodies");
       const std::string name = run.run_name.function_name;
-      if (run.run_type != Run::RT_Iteration || run.error_occurred || bodies == run.counters.end())
+      if (run.run_type != Run::RT_Iteration || run.error_occurred || bodies == run.counters.end() ||
+          bodies->second.value < 1e4)
         continue;
       points_[name.substr(0, name.rfind('/'))].emplace_back(
           std::log(bodies->second.value),
@@ -272,7 +277,7 @@ class Fitting : public benchmark::ConsoleReporter {
   }
   /// Exponents by least squares.
   void print() const {
-    std::printf("\n%-28s %s\n", "row", "CPU time grows as bodies^");
+    std::printf("\n%-28s %s\n", "row", "CPU time from 10 000 bodies grows as bodies^");
     for (const auto& [name, points] : points_) {
       double n = 0, x = 0, y = 0, xx = 0, xy = 0;
       for (const auto& [size, time] : points) {

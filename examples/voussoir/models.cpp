@@ -34,24 +34,25 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
-ChosenMethod method_of(const Input& input) {
+ChosenMethod method_of(const Input& input, unsigned threads) {
   const RunInput& run = input.run;
+  const LinearSettings linear{.method = run.linear_solver, .threads = threads};
   switch (run.method) {
     case RunMethod::two_level: {
       TwoLevel::Params params;
-      params.linear.method = run.linear_solver;
+      params.linear = linear;
       if (run.max_steps) params.fallback.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(TwoLevel(params));
     }
     case RunMethod::relaxation: {
       Relaxation::Params params;
-      params.linear.method = run.linear_solver;
+      params.linear = linear;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(Relaxation(params));
     }
     case RunMethod::explicit_: {
       Explicit::Params params;
-      params.linear.method = run.linear_solver;
+      params.linear = linear;
       params.damping = run.damping;
       params.ramp_steps = run.ramp_steps;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);

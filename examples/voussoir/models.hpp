@@ -55,7 +55,8 @@ using Tunnel =
 [[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
 [[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
-[[nodiscard]] ChosenMethod method_of(const Input& input);
+/// @param threads  for a factor of the elastic stiffness; the answer does not depend on it
+[[nodiscard]] ChosenMethod method_of(const Input& input, unsigned threads);
 
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);

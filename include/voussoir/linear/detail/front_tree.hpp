@@ -34,9 +34,9 @@ struct FrontTree {
 /// What a front costs, in additions and multiplications.
 [[nodiscard]] inline double front_cost(int columns, int below, int dof) {
   const double w = dof * columns, r = dof * below;
-  // Tiles round the sizes up; an update is written, read and added; a front takes some time in any
-  // case (fitted to times of 2-D and 3-D tunnels).
-  return w * (w * w / 3 + (r + 4) * (r + 4 + w)) + 8 * (r * r + w * (w + r)) + 3000;
+  // Tiles round the sizes up; an update is written, read and added; the factor is read in every
+  // solve; a front takes some time in any case (fitted to times of 2-D and 3-D tunnels).
+  return w * (w * w / 3 + (r + 4) * (r + 4 + w)) + 8 * r * r + 30 * w * (w + r) + 3000;
 }
 
 #if VOUSSOIR_BODIES
