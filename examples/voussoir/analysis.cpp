@@ -12,6 +12,7 @@
 #include <numbers>
 #include <system_error>
 #include <thread>
+#include <voussoir/core/memory.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 
@@ -151,7 +152,8 @@ void install_lining(Tunnel& tunnel, const Input& input, double thickness) {
 /// Builds in stages. `spacing` none: no bolts; `thickness` 0: no lining.
 std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimplePolygon& opening,
                                const std::optional<BoltSpacing>& spacing, double thickness,
-                               unsigned threads, const Report& report, InstalledBolts& bolts) {
+                               const LinearSettings& linear, const Report& report,
+                               InstalledBolts& bolts) {
   std::vector<StageResult> results;
   for (const StageInput& stage : input.stages) {
     const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
@@ -159,7 +161,7 @@ std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimpleP
       bolts = install_bolts(tunnel, input, *spacing, opening, progress);
     if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
     StageResult result{stage.name, stage.wall_traction, stage.wall_traction, {}, {}};
-    result.report = tunnel.equilibrium(stage.wall_traction, method_of(input, threads),
+    result.report = tunnel.equilibrium(stage.wall_traction, method_of(input, linear),
                                        acceptance_of(input, opening), progress);
     result.wall_traction = tunnel.system().wall_fraction;
     result.convergence = convergence(tunnel);
@@ -383,10 +385,10 @@ RunResult computed_run(const Input& input, const Report& report) {
   const std::optional<BoltSpacing> spacing =
       input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
   InstalledBolts bolts;
-  // Two make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
-  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U);
+  // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
+  const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
   run.stages = build(run.tunnel, input, run.opening, spacing,
-                     input.lining ? input.lining->thickness : 0.0, threads, report, bolts);
+                     input.lining ? input.lining->thickness : 0.0, linear, report, bolts);
   if (run.stages.back().report.stopped) throw Stopped();  // nobody reads what could be told
   run.bars = std::move(bolts.bars);
   run.crossings = std::move(bolts.crossings);
@@ -410,13 +412,15 @@ DiagramResult computed_diagram(const Input& input, unsigned threads, const Repor
     if (!report("diagram", static_cast<double>(finished) / static_cast<double>(count)))
       go_on = false;
   };
+  // Each tunnel may take its share of the memory, whatever the others have taken already.
+  const LinearSettings linear{.memory_limit = available_memory() / std::max(threads, 1U)};
   const auto tunnel_at = [&](std::size_t i, std::size_t j) {
     DiagramPoint point{};
     if (!go_on) return point;
     Tunnel tunnel = excavated.tunnel;
     InstalledBolts bolts;
     const auto stages = build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j],
-                              1, quiet, bolts);
+                              linear, quiet, bolts);
     point.report = stages.back().report;
     for (std::size_t k = 0; k + 1 < stages.size(); ++k)
       point.report.fallen_measure += stages[k].report.fallen_measure;

@@ -34,9 +34,9 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
-ChosenMethod method_of(const Input& input, unsigned threads) {
+ChosenMethod method_of(const Input& input, LinearSettings linear) {
   const RunInput& run = input.run;
-  const LinearSettings linear{.method = run.linear_solver, .threads = threads};
+  linear.method = run.linear_solver;
   switch (run.method) {
     case RunMethod::two_level: {
       TwoLevel::Params params;

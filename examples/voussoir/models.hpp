@@ -55,8 +55,9 @@ using Tunnel =
 [[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
 [[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
-/// @param threads  for a factor of the elastic stiffness; the answer does not depend on it
-[[nodiscard]] ChosenMethod method_of(const Input& input, unsigned threads);
+/// @param linear  what the computer has for elastic equations; how they are solved is the file's
+/// choice
+[[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear);
 
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);

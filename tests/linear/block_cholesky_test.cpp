@@ -238,6 +238,44 @@ TEST_SUITE("linear/block_cholesky") {
     }
   }
 
+  TEST_CASE("of several failures the first in the order of elimination counts, whenever it comes") {
+    detail::FactorState state{Progress()};
+    CHECK_FALSE(state.has_failed());
+    state.fail(7, 70);
+    CHECK(state.is_over(7));
+    CHECK(state.is_over(8));
+    CHECK_FALSE(state.is_over(6));  // it may fail too, and would come first
+    state.fail(3, 30);
+    state.fail(5, 50);
+    CHECK(state.has_failed());
+    CHECK(state.failed_column() == 30);
+    CHECK_FALSE(state.is_over(2));
+    CHECK_FALSE(state.is_stopped());
+    CHECK_NOTHROW(state.rethrow());
+  }
+
+  TEST_CASE("memory of several threads: what all subtrees leave waits at one time") {
+    for (const auto& graph :
+         {voussoir_test::grid_pairs(40, 40, 1, true), voussoir_test::grid_pairs(9, 9, 9, true)}) {
+      const CholeskyPattern pattern(6, graph.size, graph.pairs);
+      const detail::FrontSchedule alone(pattern, 1);
+      CHECK(alone.most_numbers(pattern) == pattern.most_numbers());
+      for (const unsigned threads : {2U, 4U}) {
+        const detail::FrontSchedule schedule(pattern, threads);
+        double waiting = 0;
+        for (const int last : schedule.subtrees()) {
+          const auto& front = pattern.fronts()[static_cast<std::size_t>(last)];
+          const double below = 6 * static_cast<double>(front.end - front.begin);
+          waiting += below * below;
+        }
+        const double most = schedule.most_numbers(pattern);
+        CHECK(most >= pattern.stored_numbers() + waiting);
+        CHECK(most >= pattern.most_numbers());
+        CHECK(most <= 2 * pattern.most_numbers());  // no reason to refuse what fits
+      }
+    }
+  }
+
   TEST_CASE("stopped at any question, and made again") {
     Random random(16);
     const auto graph = voussoir_test::grid_pairs(12, 12, 12, true);

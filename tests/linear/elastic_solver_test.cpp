@@ -167,6 +167,44 @@ TEST_SUITE("linear/elastic_solver") {
     }
   }
 
+  TEST_CASE("forces that are not numbers are not solved for, and give no numbers") {
+    Random random(37);
+    const auto network = rigid_network<3>(random, {.side = 20});
+    for (const auto& settings : {direct, iterative}) {
+      auto solving = solver(network, settings);
+      Eigen::VectorXd u = random_forces(random, 3 * network.matrix.size());
+      u[4] = std::numeric_limits<double>::quiet_NaN();
+      (void)solving.solve_in_place(u, {});
+      CHECK(u.array().isNaN().all());
+      CHECK(solving.report().method == settings.method);
+      CHECK(std::isnan(largest_translation<3>(u)));
+    }
+    Eigen::VectorXd u = zeros(6), before = u;
+    u[0] = std::numeric_limits<double>::quiet_NaN();
+    u[3] = 1;
+    CHECK(std::isnan(largest_translation<3>(u)));
+    CHECK(std::isnan(detail::largest_change<3>(u, before)));
+  }
+
+  TEST_CASE("more exact than numbers can be: a factor, or an error as small as was asked") {
+    Random random(38);
+    for (const int side : {10, 20}) {
+      const auto network = rigid_network<3>(random, {.side = side});
+      const Eigen::VectorXd f = random_forces(random, 3 * network.matrix.size());
+      const Eigen::VectorXd expected = exact(network, f);
+      const double largest = largest_translation<3>(expected);
+      for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-16}) {
+        CAPTURE(side);
+        CAPTURE(tolerance);
+        auto solving = solver(network, iterative);
+        Eigen::VectorXd u = f;
+        CHECK(solving.solve_in_place(u, {.relative = tolerance}) <= tolerance * 1.001 * largest);
+        // Rounding: the condition of these networks is below 1e5.
+        CHECK(detail::largest_change<3>(u, expected) <= std::max(tolerance, 1e-11) * largest);
+      }
+    }
+  }
+
   TEST_CASE_TEMPLATE("bodies that hold nothing but each other are named, whatever the method", D,
                      Dofs<3>, Dofs<6>) {
     constexpr int dof = D::value;

@@ -84,6 +84,32 @@ TEST_SUITE("solver/inexact_solves") {
     CHECK(iterated == compared);
   }
 
+  TEST_CASE("about to move too far: iteration and a factor say the same, near the limit too") {
+    Random random(52);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const Solver<> tunnel = random_tunnel(random, seed);
+      // Where it begins, to a hair, by a factor.
+      double low = 0, high = 0.1;
+      const auto refused = [&](const TwoLevel& method, double limit) {
+        Solver<> one = tunnel;
+        const EquilibriumReport report = one.equilibrium(0, method, {.displacement_limit = limit});
+        return report.reason.find("raise displacement_limit") != std::string::npos;
+      };
+      for (int k = 0; k < 16; ++k) {
+        const double middle = 0.5 * (low + high);
+        (refused(direct, middle) ? low : high) = middle;
+      }
+      CAPTURE(seed);
+      REQUIRE(low > 0);
+      for (const double share : {0.9, 0.97, 0.99, 1.01, 1.03, 1.1}) {
+        const double limit = share * 0.5 * (low + high);
+        CAPTURE(share);
+        if (limit > low && limit < high) continue;
+        CHECK(refused(iterative, limit) == refused(direct, limit));
+      }
+    }
+  }
+
   TEST_CASE("a bolted tunnel in 3-D too") {
     const Domain<3> ground{{-10, 0, -8}, {10, 5, 10}};
     SpatialJointSet a{"J1", 75 * degree, 90 * degree}, b{"J2", 25 * degree, 90 * degree},

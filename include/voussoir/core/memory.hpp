@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <voussoir/core/bodies.hpp>
 #if VOUSSOIR_BODIES
 #include <algorithm>
@@ -12,17 +13,24 @@
 namespace voussoir {
 
 /// Memory that this process can still take without harm to the machine [bytes]: what Linux calls
-/// available, or what is left of the limit of a container if that is less. Infinite where the
-/// operating system does not say.
+/// available, or what is left of the limit of a container (control groups, version 2) if that is
+/// less. Infinite where the operating system does not say.
 [[nodiscard]] VOUSSOIR_INLINE double available_memory();
+
+namespace detail {
+
+/// What is left of the limit of the control group in this folder [bytes]; infinite without a limit.
+[[nodiscard]] VOUSSOIR_INLINE double left_of_container(const std::string& folder);
+
+}  // namespace detail
 
 #if VOUSSOIR_BODIES
 
 namespace detail {
 
 /// The first whole number in a file, after `key` at the start of a line if there is one; -1: none.
-inline double number_in_file(const char* path, const char* key = "") {
-  std::FILE* const file = std::fopen(path, "r");
+inline double number_in_file(const std::string& path, const char* key = "") {
+  std::FILE* const file = std::fopen(path.c_str(), "r");
   if (file == nullptr) return -1;
   double number = -1;
   char line[256];
@@ -35,15 +43,23 @@ inline double number_in_file(const char* path, const char* key = "") {
   return number;
 }
 
+VOUSSOIR_INLINE double left_of_container(const std::string& folder) {
+  const double limit = number_in_file(folder + "/memory.max"),
+               taken = number_in_file(folder + "/memory.current");
+  if (limit < 0 || taken < 0) return std::numeric_limits<double>::infinity();
+  // Files that were read count as taken, but make room when memory is asked for.
+  double files = 0;
+  for (const char* kind : {"active_file ", "inactive_file "})
+    files += std::max(number_in_file(folder + "/memory.stat", kind), 0.0);
+  return std::max(limit - std::max(taken - files, 0.0), 0.0);
+}
+
 }  // namespace detail
 
 VOUSSOIR_INLINE double available_memory() {
-  double most = std::numeric_limits<double>::infinity();
+  double most = detail::left_of_container("/sys/fs/cgroup");
   if (const double kib = detail::number_in_file("/proc/meminfo", "MemAvailable:"); kib >= 0)
     most = std::min(most, 1024 * kib);
-  const double limit = detail::number_in_file("/sys/fs/cgroup/memory.max");
-  const double taken = detail::number_in_file("/sys/fs/cgroup/memory.current");
-  if (limit >= 0 && taken >= 0) most = std::min(most, std::max(limit - taken, 0.0));
   return most;
 }
 

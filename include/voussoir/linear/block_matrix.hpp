@@ -98,11 +98,17 @@ void BlockMatrix<Dof>::compress() {
   std::vector<std::pair<int, int>> places;
   places.reserve(added_.size());
   for (const Entry& e : added_) places.emplace_back(e.row, e.column);
-  columns_.reserve(added_.size());
-  blocks_.reserve(added_.size());
+  const std::vector<int> order = order_of_pairs(places, size());
+  // As many as there are places: bodies often touch in several contacts.
+  std::size_t distinct = 0;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    distinct += k == 0 || places[static_cast<std::size_t>(order[k])] !=
+                              places[static_cast<std::size_t>(order[k - 1])];
+  columns_.reserve(distinct);
+  blocks_.reserve(distinct);
   row_begin_.assign(diagonal_.size() + 1, 0);
   int row = -1;
-  for (const int k : order_of_pairs(places, size())) {
+  for (const int k : order) {
     const Entry& e = added_[static_cast<std::size_t>(k)];
     if (row == e.row && columns_.back() == e.column) {
       blocks_.back() += e.block;
@@ -114,7 +120,7 @@ void BlockMatrix<Dof>::compress() {
     }
   }
   for (std::size_t i = 1; i < row_begin_.size(); ++i) row_begin_[i] += row_begin_[i - 1];
-  added_ = {};
+  std::vector<Entry>().swap(added_);  // what is assigned to it would keep its memory
 }
 
 template <int Dof>

@@ -70,8 +70,8 @@ class CholeskyPattern {
   /// Numbers that the factor keeps, 8 bytes each: with zeros where fronts are merged and above the
   /// diagonal.
   [[nodiscard]] double stored_numbers() const { return stored_blocks_ * dof_ * dof_; }
-  /// Numbers in use while it is made by one thread, at the worst time: with more threads a little
-  /// more, for each works on fronts of its own.
+  /// Numbers in use while it is made by one thread, at the worst time. By several:
+  /// `FrontSchedule::most_numbers`.
   [[nodiscard]] double most_numbers() const {
     return stored_numbers() + most_waiting_ * dof_ * dof_;
   }
@@ -172,7 +172,6 @@ VOUSSOIR_INLINE void CholeskyPattern::find_rows(const detail::BodyGraph& graph, 
   in_parent_.resize(rows_.size());
   // Where the row stands in a front is known as it is added; in its parent soon after.
   places_.resize(graph.next.all().size() / 2);
-  for (int i = 0; i < size(); ++i) mark[front_of[i]] = -1;
   for (int i = 0; i < size(); ++i) {
     const int body = order_[static_cast<std::size_t>(i)];
     mark[front_of[i]] = i;

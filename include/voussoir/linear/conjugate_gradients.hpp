@@ -26,27 +26,29 @@ struct IterationReport {
   bool converged = false;
 };
 
-/// Largest translation of a body [m].
+/// Largest translation of a body; not a number where one is not [m].
 template <int Dof>
 [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) {
   double squared = 0;
   for (Eigen::Index first = 0; first < u.size(); first += Dof) {
     const double one = squared_length_of(part<dimension_of<Dof>>(u, first));
-    if (!(one <= squared)) squared = one;  // not a number is kept
+    if (std::isnan(one)) return one;
+    squared = std::max(squared, one);
   }
   return std::sqrt(squared);
 }
 
 namespace detail {
 
-/// Largest translation of the difference of two displacements [m].
+/// Largest translation of the difference of two displacements; not a number where one is not [m].
 template <int Dof>
 [[nodiscard]] double largest_change(const Eigen::VectorXd& u, const Eigen::VectorXd& before) {
   constexpr int dim = dimension_of<Dof>;
   double squared = 0;
   for (Eigen::Index first = 0; first < u.size(); first += Dof) {
     const double one = squared_length_of(part<dim>(u, first) - part<dim>(before, first));
-    if (!(one <= squared)) squared = one;
+    if (std::isnan(one)) return one;
+    squared = std::max(squared, one);
   }
   return std::sqrt(squared);
 }
@@ -132,13 +134,17 @@ template <int Dof, class Precondition>
   Eigen::VectorXd past[delay] = {x, x, x};  // the last iterates
   detail::ErrorEstimate error_of;
   double last = 0;
-  // Below what rounding leaves of the residual no step means anything.
+  const auto allowed = [&] {
+    return std::max(tolerance.relative * largest_translation<Dof>(x), tolerance.absolute);
+  };
+  // Below what rounding leaves of the residual no step means anything. x is then as exact as a
+  // factor would make it, which 1e-8 is a cautious word for.
   const double noise = 1e-30 * dot_product(f, f);
   for (int step = 1; step <= most; ++step) {
     stop();
     if (dot_product(residual, residual) <= noise) {
       report.error = std::min(report.error, 1e-8 * largest_translation<Dof>(x));
-      report.converged = true;
+      report.converged = report.error <= allowed();
       break;
     }
     apply(residual, z);
@@ -157,8 +163,7 @@ template <int Dof, class Precondition>
     Eigen::VectorXd& before = past[step % delay];
     report.error = error_of(step, length * length * work, detail::largest_change<Dof>(x, before),
                             largest_translation<Dof>(z));
-    report.converged = report.error <= std::max(tolerance.relative * largest_translation<Dof>(x),
-                                                tolerance.absolute);
+    report.converged = report.error <= allowed();
     if (report.converged) break;
     before = x;
   }

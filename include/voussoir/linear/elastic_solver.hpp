@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include <voussoir/linear/block_matrix.hpp>
 #include <voussoir/linear/cholesky_pattern.hpp>
 #include <voussoir/linear/conjugate_gradients.hpp>
+#include <voussoir/linear/detail/front_schedule.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/linear/multigrid.hpp>
 #include <voussoir/linear/pattern_store.hpp>
@@ -27,7 +29,7 @@ namespace voussoir {
 ///
 /// Which of them is chosen from the size, the dimension and what the factor would hold and cost.
 /// Iteration that does not converge is followed by a factor, where that fits into memory; no answer
-/// is returned that is not as exact as was asked.
+/// is returned whose estimated error is larger than was asked.
 template <int Dof>
 class ElasticSolver {
  public:
@@ -54,10 +56,11 @@ class ElasticSolver {
     }
   }
 
-  /// u = K^-1 f, in place.
+  /// u = K^-1 f, in place. Where a force is not finite, no displacement is a number.
   /// @return  estimate of the largest error of a translation [m]; 0: exact to rounding
-  /// @throws NumericalFault  neither did iteration converge, nor does a factor fit into memory: the
-  ///                         message names the body that is farthest from rest
+  /// @throws NumericalFault  iteration did not converge, and a factor does not fit into memory (the
+  ///                         message names the body that is farthest from rest) or finds the matrix
+  ///                         singular (FreeBody)
   /// @throws Stopped
   double solve_in_place(Eigen::VectorXd& f, const SolveTolerance& tolerance,
                         const Progress& progress = {});
@@ -87,7 +90,9 @@ class ElasticSolver {
     return 8 * ((complexity - 1) * block_count() + complexity * matrix_->size()) * Dof * Dof +
            8 * vectors;
   }
-  [[nodiscard]] double direct_memory() const { return 8 * pattern_->most_numbers(); }
+  [[nodiscard]] double direct_memory() const {
+    return 8 * detail::FrontSchedule(*pattern_, settings_.threads).most_numbers(*pattern_);
+  }
   [[nodiscard]] static double two_digits(double value) {
     if (!(value > 0 && std::isfinite(value))) return value;
     const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -164,6 +169,11 @@ void ElasticSolver<Dof>::choose(const Progress& progress) {
 template <int Dof>
 double ElasticSolver<Dof>::solve_in_place(Eigen::VectorXd& f, const SolveTolerance& tolerance,
                                           const Progress& progress) {
+  if (!is_finite(f)) {
+    residual_ = zeros(f.size());
+    f = Eigen::VectorXd::Constant(f.size(), std::numeric_limits<double>::quiet_NaN());
+    return 0;
+  }
   if (!factor_) {
     auto [u, error] = guess(f, tolerance);
     const SolveTolerance rest{0.5 * tolerance.relative, 0.5 * tolerance.absolute};
@@ -193,7 +203,7 @@ void ElasticSolver<Dof>::factorise_instead(const IterationReport& failed, const 
   double squared = -1;
   for (int b = 0; b < matrix_->size(); ++b) {
     const double one = squared_length_of(part<dimension_of<Dof>>(still, Dof * b));
-    if (one <= squared) continue;
+    if (!(one > squared)) continue;
     squared = one;
     farthest = b;
   }

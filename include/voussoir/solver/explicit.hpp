@@ -97,9 +97,9 @@ void Explicit::step_on(System& system, const SearchContext& context,
   constexpr int dof = System::dof;
   const Acceptance& accept = context.acceptance;
   detail::drop(system, {}, context, report);
-  const auto solve = [&](Eigen::VectorXd& f) {
-    detail::solve_elastically(system, params_.linear, {.relative = 0.05}, context.progress, f,
-                              report);
+  const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
+    return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
+                                     report);
   };
   if (detail::has_collapsed<System::dim>(report, accept)) return;
   if (detail::moves_too_far(system, context, solve, report)) return;

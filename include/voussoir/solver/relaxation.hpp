@@ -66,9 +66,9 @@ template <class System>
 EquilibriumReport Relaxation::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
   detail::drop(system, {}, context, report);
-  const auto solve = [&](Eigen::VectorXd& f) {
-    detail::solve_elastically(system, params_.linear, {.relative = 0.05}, context.progress, f,
-                              report);
+  const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
+    return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
+                                     report);
   };
   detail::until_stopped(report, [&] {
     if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&

@@ -364,8 +364,8 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
                               EquilibriumReport& whole) const {
   detail::drop(system, {}, context, whole);
   elastic.prepare(system, params_.fire, params_.linear, context.progress, whole);
-  const auto solve = [&](Eigen::VectorXd& f) {
-    (void)elastic.solve(f, {.relative = 0.05}, context.progress, whole);
+  const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
+    return elastic.solve(f, tolerance, context.progress, whole);
   };
   if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return;
   if (detail::moves_too_far(system, context, solve, whole)) return;

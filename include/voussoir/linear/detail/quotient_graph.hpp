@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/progress.hpp>
+#include <voussoir/linear/detail/by_index.hpp>
 
 namespace voussoir::detail {
 
@@ -52,18 +53,6 @@ class QuotientGraph {
 
  private:
   static constexpr int none = -1;
-
-  /// A vector whose index is an int, as nodes are.
-  template <class T>
-  class Of {
-   public:
-    explicit Of(int size, T value = 0) : values_(static_cast<std::size_t>(size), value) {}
-    T& operator[](int i) { return values_[static_cast<std::size_t>(i)]; }
-    std::vector<T>& all() { return values_; }
-
-   private:
-    std::vector<T> values_;
-  };
 
   void read(const std::vector<std::pair<int, int>>& pairs) {
     for (const auto& [i, j] : pairs) {
@@ -289,7 +278,7 @@ class QuotientGraph {
   /// last merged first: those that `update` found without neighbours outside p need not see all of
   /// p's.
   std::vector<int> postorder() {
-    Of<int>&total = variables_, &next_end = begin_, &own = degree_;  // of no more use as such
+    ByIndex<int>&total = variables_, &next_end = begin_, &own = degree_;  // of no more use as such
     int end = 0;
     for (const int p : pivots_) total[p] = 0;
     for (const int p : pivots_) {
@@ -318,15 +307,19 @@ class QuotientGraph {
   int used_ = 0;           ///< of lists_
   int lowest_linked_ = 0;  ///< degree, since the last elimination began
   double operations_ = 0;
-  Of<int> lists_{0};  ///< of a variable: variables, then elements; of an element: variables
-  Of<int> begin_{size_}, variables_{size_}, elements_{size_};  ///< where in lists_, and how many
-  Of<int> weight_{size_, 1};  ///< of a variable; < 0: in the element being made; 0: merged or dense
-  Of<int> degree_{size_};     ///< variables beside it, by weight: of an element exact, else a bound
-  Of<int> parent_{size_, none};            ///< which element or variable it is part of
-  Of<int> first_{size_, none};             ///< by degree
-  Of<int> next_{size_}, previous_{size_};  ///< of equal degree; in `eliminate` of equal hash; hash
-  Of<int> bucket_{size_, none};            ///< by hash, the first
-  Of<std::int64_t> mark_{size_};
+  ByIndex<int> lists_{0};  ///< of a variable: variables, then elements; of an element: variables
+  ByIndex<int> begin_{size_}, variables_{size_},
+      elements_{size_};  ///< where in lists_, and how many
+  ByIndex<int> weight_{size_,
+                       1};  ///< of a variable; < 0: in the element being made; 0: merged or dense
+  ByIndex<int> degree_{
+      size_};  ///< variables beside it, by weight: of an element exact, else a bound
+  ByIndex<int> parent_{size_, none};  ///< which element or variable it is part of
+  ByIndex<int> first_{size_, none};   ///< by degree
+  ByIndex<int> next_{size_},
+      previous_{size_};               ///< of equal degree; in `eliminate` of equal hash; hash
+  ByIndex<int> bucket_{size_, none};  ///< by hash, the first
+  ByIndex<std::int64_t> mark_{size_};
   std::int64_t stamp_ = 0;                    ///< above every mark of the past
   std::vector<int> pivots_, merged_, dense_;  ///< each in order of time
 };

@@ -20,7 +20,7 @@ namespace voussoir::detail {
 template <class System>
 class ElasticCorrections {
  public:
-  /// @throws Stopped  it is as it was
+  /// @throws Stopped, FreeBody, NotEnoughMemory  it then has no solver; the next call makes one
   void prepare(const System& system, const Fire::Params& fire, const LinearSettings& linear,
                const Progress& progress, EquilibriumReport& report) {
     std::vector<int> bodies = system.movable_bodies();
