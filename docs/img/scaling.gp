@@ -9,10 +9,11 @@ set key top left Left reverse samplen 2
 set grid
 set xlabel "bodies"
 set ylabel "processor time [s]"
+set format xy "10^{%L}"
 rows(space, what) = sprintf("< grep '^%s,%s,' scaling.csv", space, what)
 set title "2-D: joints to equilibrium"
 set xrange [3e3:2e6]
-set yrange [1e-4:1e5]
+set yrange [2e-5:1e4]
 plot rows("planar", "before") using 3:4 with linespoints lw 2 pt 6 title "before", \
      rows("planar", "now") using 3:4 with linespoints lw 2 pt 7 title "now", \
      rows("planar", "rock") using 3:4 with linespoints lw 1 pt 4 title "of which rock and supports", \

@@ -72,7 +72,7 @@ struct EquilibriumReport {
   double largest_displacement = 0;  ///< [m]
   int steps = 0;                    ///< force evaluations
   int elastic_solves = 0;
-  int factorisations = 0;     ///< of the elastic stiffness; or preconditioners made
+  int factorisations = 0;     ///< times that the elastic stiffness was prepared for solving
   LinearReport linear;        ///< how the elastic solves were done
   std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]

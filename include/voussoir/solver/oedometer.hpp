@@ -146,6 +146,7 @@ void check_press(const RockMass<Geometry>& mass, const OedometerParams& params) 
 ///
 /// @throws InvalidInput    no bodies, an opening was carved, or a parameter out of range
 /// @throws NumericalFault  some body can move without resistance
+/// @throws NotEnoughMemory  for the elastic equations
 /// @cost   one factorisation: about 0.1 s for 6 000 blocks in 2-D
 template <class Detector = CutContacts, class Geometry, class JointLaw>
 [[nodiscard]] OedometerResult oedometer(const RockMass<Geometry>& mass, const JointLaw& joint_law,

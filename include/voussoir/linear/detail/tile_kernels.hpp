@@ -10,7 +10,8 @@
 ///
 /// Written with the vector types of g++ and clang++, for -O2 leaves loops as they are. Each number
 /// is the same sum in the same order whatever the length of a vector, so the bits are the same on
-/// every machine; a fused multiply-add, which would change them, is not used.
+/// every machine, as long as products and sums are not fused: that is the compiler's to say, by
+/// -ffp-contract=off (docs/reproducibility.md).
 namespace voussoir::detail {
 
 inline constexpr std::size_t tile = 8;  ///< rows and columns
