@@ -216,8 +216,8 @@ void Multigrid<Dof>::forward_sweep(std::size_t level, const Eigen::VectorXd& b,
   }
 }
 
-/// With e, the coarser correction on this level: x += e + (D + L^T)^-1 (residual - K e), in one
-/// pass from the last body to the first.
+/// With e, the coarser correction on this level: x += e + (D + L^T)^-1 (residual - K e), which is
+/// x += (D + L^T)^-1 (residual - L e); in one pass from the last body to the first.
 template <int Dof>
 void Multigrid<Dof>::backward_sweep(std::size_t level, Eigen::VectorXd& x) {
   const Matrix& k = matrix(level);
@@ -235,19 +235,14 @@ void Multigrid<Dof>::backward_sweep(std::size_t level, Eigen::VectorXd& x) {
   double* const r = l.residual.data();
   for (int i = k.size(); i-- > 0;) {
     const int begin = k.row_begin(i), end = k.row_begin(i + 1);
-    const double* const own = e.data() + Dof * i;
-    double rest[Dof], whole[Dof];
-    for (int d = 0; d < Dof; ++d) {
-      rest[d] = r[Dof * i + d];
-      whole[d] = -own[d];
-    }
-    detail::subtract_block<Dof>(k.diagonal(i), own, rest);
+    double rest[Dof], step[Dof] = {};
+    for (int d = 0; d < Dof; ++d) rest[d] = r[Dof * i + d];
     for (int at = end; at-- > begin;)
       detail::subtract_block<Dof>(k.below(at), e.data() + Dof * k.column(at), rest);
-    detail::subtract_block<Dof>(l.inverse[static_cast<std::size_t>(i)], rest, whole);
-    for (int d = 0; d < Dof; ++d) x.data()[Dof * i + d] += whole[d] = -whole[d];
+    detail::subtract_block<Dof>(l.inverse[static_cast<std::size_t>(i)], rest, step);
+    for (int d = 0; d < Dof; ++d) x.data()[Dof * i + d] += step[d] = -step[d];
     for (int at = end; at-- > begin;)
-      detail::subtract_block_transposed<Dof>(k.below(at), whole, r + Dof * k.column(at));
+      detail::subtract_block_transposed<Dof>(k.below(at), step, r + Dof * k.column(at));
   }
 }
 
