@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -34,7 +35,11 @@ void parallel_for(std::size_t count, unsigned threads, Job&& job) {
   const auto helpers = std::min<std::size_t>(std::max(threads, 1U), count);
   {
     std::vector<std::jthread> pool;
-    for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
+    try {
+      for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
+    } catch (const std::system_error&) {
+      // The system has no more threads to give: those there are do it all.
+    }
     work();
   }
   if (failure) std::rethrow_exception(failure);

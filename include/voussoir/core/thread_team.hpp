@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -19,8 +20,13 @@ namespace voussoir {
 /// than the work: a meeting is a short spin on an atomic, a job wakes threads that sleep.
 class ThreadTeam {
  public:
+  /// @param size  members, the caller included; fewer where the system has no more threads to give
   explicit ThreadTeam(unsigned size = 1) : size_(std::max(size, 1U)) {
-    for (unsigned k = 1; k < size_; ++k) helpers_.emplace_back([this, k] { serve(k); });
+    try {
+      for (unsigned k = 1; k < size_; ++k) helpers_.emplace_back([this, k] { serve(k); });
+    } catch (const std::system_error&) {
+      size_ = static_cast<unsigned>(helpers_.size()) + 1;  // nobody reads it before the first job
+    }
   }
   ~ThreadTeam() {
     {
