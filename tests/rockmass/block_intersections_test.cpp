@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/core/random.hpp>
+#include <voussoir/geometry/mass_properties.hpp>
+#include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/slicing.hpp>
@@ -93,6 +95,35 @@ TEST_SUITE("rockmass/block_intersections") {
         check_covered(mass, line, 0, line.length(), block_intersections(mass, line));
       }
     }
+  }
+
+  TEST_CASE("no block reaches beyond what its second moment allows; a needle nearly does") {
+    double nearest = 0;
+    const auto check = [&](const auto& mass) {
+      for (const auto& body : mass.bodies)
+        for (const auto& v : body.parts.front().vertices()) {
+          const double share =
+              squared_length_of(v - body.properties.centroid) / squared_reach(body.properties);
+          CHECK(share <= 1 + 1e-9);
+          nearest = std::max(nearest, share);
+        }
+    };
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) check(jointed_rock(ground, seed));
+    CHECK(nearest > 0.5);
+    // Of a triangle and a cone as slender as this the tip reaches it.
+    const MassProperties<2> needle = mass_properties(
+        std::vector<ConvexPolygon>{ConvexPolygon({Vec2(0, -1e-4), Vec2(3, 0), Vec2(0, 1e-4)})});
+    CHECK(squared_length_of(Vec2(3, 0) - needle.centroid) / squared_reach(needle) ==
+          doctest::Approx(1).epsilon(1e-7));
+    const Domain<3> space{{-4, -4, -4}, {4, 4, 4}};
+    Random random(5);
+    std::vector<JointOf<3>> joints;
+    for (int k = 0; k < 60; ++k) {
+      const auto unit = [&] { return 2 * random.uniform() - 1; };
+      const Vec3 point(4 * unit(), 4 * unit(), 4 * unit()), normal(unit(), unit(), unit());
+      joints.push_back({unbounded_joint(point, normal), 0});
+    }
+    check(slice<Spatial>(space, joints, {}));
   }
 
   TEST_CASE("bars along a joint, through corners and T-junctions, belong to one body everywhere") {

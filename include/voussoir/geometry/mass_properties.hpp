@@ -22,6 +22,20 @@ struct MassProperties {
   Inertia second_moment = zeros<Inertia>();
 };
 
+/// Square of a distance from the centroid beyond which a convex shape has no point [m^2]: d (d + 2)
+/// times the mean square distance of its points.
+///
+/// Of all convex shapes with the same spread along an axis, a triangle or a cone reaches farthest
+/// along it: to sqrt(d (d + 2)) standard deviations.
+///
+/// Source: Kannan, Lovasz and Simonovits (1995), Isoperimetric problems for convex bodies and a
+/// localization lemma, Discrete Comput. Geom. 13, 541-559, theorem 4.1.
+template <int Dim>
+[[nodiscard]] double squared_reach(const MassProperties<Dim>& of) {
+  const double squares = of.second_moment.trace() / (Dim - 1);  // the integral of r.r
+  return Dim * (Dim + 2) * squares / of.measure;
+}
+
 /// Area, centroid and polar second moment of a simple polygon (Green's theorem).
 ///
 /// @param vertices  anticlockwise [m]; convexity is not needed

@@ -24,15 +24,25 @@ inline constexpr double same_point = 10;
 /// Intersections through several parts of one body are joined. Gaps (outside the domain, inside an
 /// opening) simply do not appear. A line along a joint belongs to one side of it, see `clip`.
 ///
-/// @cost  one bounding test per body
+/// @cost  a look at every body, 4 ns each where few are near
 template <class Geometry>
 [[nodiscard]] std::vector<BlockIntersection> block_intersections(
     const RockMass<Geometry>& mass, const typename Geometry::Line& line) {
   const double tolerance = mass.domain.tolerance();
   const auto low = smaller_of(line.start, line.end), high = larger_of(line.start, line.end);
+  // Welding moves vertices by a tolerance, and lines are clipped to it:
+  // (r + 3 t)^2 <= 1.01 r^2 + 101 (3 t)^2.
+  const double slack = 909 * tolerance * tolerance;
   std::vector<BlockIntersection> intersections;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
-    for (const auto& part : mass.bodies[b].parts) {
+    const auto& body = mass.bodies[b];
+    // Without a look at its vertices, which are elsewhere in memory.
+    const auto& centre = body.properties.centroid;
+    const auto nearest = smaller_of(larger_of(centre, low), high);
+    if (body.parts.size() == 1 &&
+        squared_length_of(centre - nearest) > 1.01 * squared_reach(body.properties) + slack)
+      continue;
+    for (const auto& part : body.parts) {
       auto part_low = part.vertex(0), part_high = part.vertex(0);
       for (const auto& v : part.vertices()) {
         part_low = smaller_of(part_low, v);
