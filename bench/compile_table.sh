@@ -33,7 +33,7 @@ including() {  # including HEADER...: a file that includes them
 printf '| %s, one file | s | MB |\n| --- | --- | --- |\n' "$compiler"
 row 'floor: Eigen/Core' -fsyntax-only "$(including Eigen/Core)"
 row 'voussoir.hpp' -fsyntax-only "$(including voussoir/voussoir.hpp)"
-for header in tunnel/measurements solver/solver motion/dynamics; do
+for header in tunnel/measurements solver/solver dynamics/dynamics; do
   row "$header.hpp" -fsyntax-only "$(including "voussoir/$header.hpp")"
 done
 row 'contact detection alone, 2-D and 3-D' -fsyntax-only \

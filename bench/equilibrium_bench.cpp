@@ -5,7 +5,7 @@
 
 #include <utility>
 #include <vector>
-#include <voussoir/solver/explicit.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
 
 #include "design_case.hpp"
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <numbers>
 #include <utility>
+#include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
-#include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 #include "design_case.hpp"

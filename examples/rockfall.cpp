@@ -11,11 +11,11 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/page_map.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/atomic_file.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/page_map.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/svg.hpp>
 #include <voussoir/voussoir.hpp>
 using namespace voussoir;
 

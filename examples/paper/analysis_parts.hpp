@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include <voussoir/io/number_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/theory/bolts_and_lining.hpp>
 #include <voussoir/theory/elastic_ground.hpp>
 #include <voussoir/theory/equivalent_moduli.hpp>

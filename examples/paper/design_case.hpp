@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 #include <vector>
-#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 
 #include "design_rock.hpp"

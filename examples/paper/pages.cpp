@@ -2,7 +2,7 @@
 #include "pages.hpp"
 
 #include <cstddef>
-#include <voussoir/io/number_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
 
 #include "claims.hpp"
 #include "report.hpp"

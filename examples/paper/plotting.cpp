@@ -11,8 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
-#include <voussoir/io/number_text.hpp>
 
 namespace voussoir::paper {
 

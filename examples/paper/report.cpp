@@ -2,8 +2,8 @@
 #include "report.hpp"
 
 #include <voussoir/core/version.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/xml_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/xml_text.hpp>
 
 #include "claims.hpp"
 #include "scoreboard.hpp"

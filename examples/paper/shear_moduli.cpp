@@ -2,9 +2,9 @@
 // Equivalent moduli of the jointed mass from one-dimensional compression: Table 3, G1 to G8.
 #include <array>
 #include <voussoir/core/parallel.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/rockmass/statistics.hpp>
-#include <voussoir/solver/oedometer.hpp>
-#include <voussoir/solver/two_level.hpp>
 
 #include "analyses.hpp"
 #include "analysis_parts.hpp"

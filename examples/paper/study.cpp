@@ -7,7 +7,7 @@
 #include <utility>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/parallel.hpp>
-#include <voussoir/io/number_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/statistics/sample.hpp>
 
 namespace voussoir::paper {

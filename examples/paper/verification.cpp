@@ -6,11 +6,11 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/coulomb_joint.hpp>
-#include <voussoir/motion/dynamics.hpp>
+#include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
-#include <voussoir/solver/oedometer.hpp>
-#include <voussoir/solver/two_level.hpp>
 #include <voussoir/statistics/confidence.hpp>
 #include <voussoir/statistics/distribution_fit.hpp>
 #include <voussoir/statistics/goodness_of_fit.hpp>

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/solver/explicit.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
 
 #include "input_document.hpp"
 #include "input_section.hpp"

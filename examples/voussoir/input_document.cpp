@@ -19,7 +19,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <voussoir/io/number_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
 
 namespace voussoir::program {
 

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <optional>
 #include <voussoir/core/version.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/interaction_picture.hpp>
-#include <voussoir/io/number_text.hpp>
 
 namespace voussoir::program {
 

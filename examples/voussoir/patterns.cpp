@@ -8,16 +8,16 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/page_map.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/svg.hpp>
+#include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/io/csv_table.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/page_map.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/svg.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
-#include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 namespace voussoir::program {

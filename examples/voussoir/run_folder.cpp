@@ -14,8 +14,8 @@
 #include <system_error>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/version.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/xml_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/xml_text.hpp>
 
 namespace voussoir::program {
 

@@ -1,7 +1,7 @@
 // expect: equilibrium method: add `static constexpr const char* name` for the log
 // SPDX-License-Identifier: MIT
 // The solver prints what it is made of.
-#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
 
 namespace {
 

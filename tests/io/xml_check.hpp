@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
-#include <voussoir/io/xml_text.hpp>
+#include <voussoir/drawing/xml_text.hpp>
 
 /// Is this well-formed XML, as far as our writers go (no CDATA, no DOCTYPE)? Tags nest, attributes
 /// are quoted and named once, `&` begins an entity, ids are unique, bytes are allowed.

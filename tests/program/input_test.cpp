@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
-#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
 
 using namespace voussoir::program;
 

@@ -22,7 +22,7 @@ $<$<BOOL:${others}>:-isystem \"$<JOIN:${others},\"\n-isystem \">\">\n")
 # may come precompiled, which hides nothing: it would be there anyway. A header takes the last that
 # it includes.
 set(commons voussoir/core/vec.hpp voussoir/geometry/convex_polyhedron.hpp
-            voussoir/motion/contact_tracker.hpp)
+            voussoir/model/contact_tracker.hpp)
 set(paths "")
 foreach(header IN LISTS voussoir_headers)
   cmake_path(RELATIVE_PATH header BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/include" OUTPUT_VARIABLE path)

@@ -7,8 +7,8 @@
 #include <string>
 #include <type_traits>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
-#include <voussoir/solver/explicit.hpp>
-#include <voussoir/solver/relaxation.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/opening.hpp>

@@ -11,11 +11,11 @@
 #include <vector>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/planar.hpp>
-#include <voussoir/solver/explicit.hpp>
-#include <voussoir/solver/relaxation.hpp>
-#include <voussoir/solver/system.hpp>
-#include <voussoir/solver/two_level.hpp>
+#include <voussoir/model/system.hpp>
 
 #include "support/reference.hpp"
 

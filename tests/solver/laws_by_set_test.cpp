@@ -9,10 +9,10 @@
 #include <vector>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/detection/face_contacts.hpp>
+#include <voussoir/dynamics/moving_rock.hpp>
+#include <voussoir/model/contact_update.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
-#include <voussoir/solver/found_again.hpp>
-#include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/solver/solver.hpp>
 
 #include "support/degree.hpp"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
-#include <voussoir/solver/moving_rock.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>

@@ -341,20 +341,20 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] PlainPair<Dim> grid_pair(Random& random) {
   PlainPair<Dim> pair;
-  const auto half_steps = [&random](int count) {
+  const auto kicks = [&random](int count) {
     return 0.5 * static_cast<double>(random.below(static_cast<std::uint64_t>(count)));
   };
   const auto box = [&] {
-    const auto outline = rectangle(0.5 + half_steps(3), 0.5 + half_steps(3));
+    const auto outline = rectangle(0.5 + kicks(3), 0.5 + kicks(3));
     if constexpr (Dim == 2)
       return plain(outline);
     else
-      return prism(outline, Vec3(0, 0, 0.5 + half_steps(3)));
+      return prism(outline, Vec3(0, 0, 0.5 + kicks(3)));
   };
   pair.a = box();
   pair.b = box();
   for (Pose<Dim>* pose : {&pair.pose_a, &pair.pose_b}) {
-    for (int k = 0; k < Dim; ++k) pose->position[k] = half_steps(5);
+    for (int k = 0; k < Dim; ++k) pose->position[k] = kicks(5);
     if (random.below(2) == 0) {
       pose->rotation.setZero();
       for (int k = 0; k < Dim; ++k) pose->rotation(k, (k + 1) % Dim) = k == 0 && Dim == 2 ? -1 : 1;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/bolt/axial_bolt.hpp>
-#include <voussoir/solver/system.hpp>
+#include <voussoir/model/system.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 
 #include "support/dense_algebra.hpp"

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/io/detail/side_column.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir {
 

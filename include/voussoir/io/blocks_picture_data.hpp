@@ -7,8 +7,8 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/io/page_map.hpp>
-#include <voussoir/io/picture_parts.hpp>
+#include <voussoir/drawing/page_map.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
 
 namespace voussoir {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/io/number_text.hpp>
+#include <voussoir/drawing/number_text.hpp>
 
 namespace voussoir {
 

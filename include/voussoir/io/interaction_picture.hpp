@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/round_ticks.hpp>
 #include <voussoir/io/detail/contour_panel.hpp>
 #include <voussoir/io/detail/interaction_panel.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/round_ticks.hpp>
 
 namespace voussoir {
 

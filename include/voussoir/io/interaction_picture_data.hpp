@@ -9,7 +9,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/io/picture_parts.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
 
 namespace voussoir {
 

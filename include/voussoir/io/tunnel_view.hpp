@@ -11,12 +11,12 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/io/axonometric_view.hpp>
-#include <voussoir/io/colour_map.hpp>
+#include <voussoir/drawing/axonometric_view.hpp>
+#include <voussoir/drawing/colour_map.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/detail/mass_layers.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/svg.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {

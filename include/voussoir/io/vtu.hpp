@@ -9,10 +9,10 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/xml_text.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/xml_text.hpp>
 
 namespace voussoir {
 

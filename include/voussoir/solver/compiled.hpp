@@ -3,13 +3,13 @@
 
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/slicing.hpp>
-#include <voussoir/solver/explicit.hpp>
-#include <voussoir/solver/relaxation.hpp>
 #include <voussoir/solver/solver.hpp>
-#include <voussoir/solver/two_level.hpp>
 
 /// What the library `voussoir::compiled` holds of the solver: the common compositions, compiled
 /// once. A program that links it has VOUSSOIR_COMPILED defined; `solver.hpp` then includes this

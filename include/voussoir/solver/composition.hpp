@@ -8,14 +8,14 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/detection/contact_detector.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/geometry_model.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
-#include <voussoir/solver/equilibrium.hpp>
-#include <voussoir/solver/system.hpp>
-#include <voussoir/solver/two_level.hpp>
 
 namespace voussoir {
 

@@ -10,15 +10,15 @@
 #include <vector>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
-#include <voussoir/motion/contact_points.hpp>
+#include <voussoir/model/bolt_crossings.hpp>
+#include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/detail/initial_model.hpp>
+#include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
-#include <voussoir/solver/bolt_crossings.hpp>
 #include <voussoir/solver/composition.hpp>
-#include <voussoir/solver/detail/initial_model.hpp>
-#include <voussoir/solver/in_situ.hpp>
-#include <voussoir/solver/system.hpp>
 
 namespace voussoir {
 

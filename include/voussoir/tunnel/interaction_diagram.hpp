@@ -10,7 +10,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/parallel.hpp>
-#include <voussoir/solver/equilibrium.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
 
 namespace voussoir {
 

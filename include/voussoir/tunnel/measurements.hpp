@@ -10,7 +10,7 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/planar.hpp>
-#include <voussoir/motion/moving_lining.hpp>
+#include <voussoir/model/moving_lining.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
 

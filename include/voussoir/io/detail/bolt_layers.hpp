@@ -8,9 +8,9 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/drawing/picture_parts.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
-#include <voussoir/io/picture_parts.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir::detail {
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
-#include <voussoir/io/colour_map.hpp>
-#include <voussoir/io/contour.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/smooth_grid.hpp>
-#include <voussoir/io/svg.hpp>
+#include <voussoir/drawing/colour_map.hpp>
+#include <voussoir/drawing/contour.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/smooth_grid.hpp>
+#include <voussoir/drawing/svg.hpp>
 
 namespace voussoir::detail {
 

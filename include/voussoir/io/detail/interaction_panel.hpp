@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/detail/contour_panel.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir::detail {
 

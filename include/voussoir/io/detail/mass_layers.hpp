@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/axonometric_view.hpp>
+#include <voussoir/drawing/colour_map.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/page_map.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/geometry/spatial.hpp>
-#include <voussoir/io/axonometric_view.hpp>
-#include <voussoir/io/colour_map.hpp>
 #include <voussoir/io/detail/painting_order.hpp>
-#include <voussoir/io/number_text.hpp>
-#include <voussoir/io/page_map.hpp>
-#include <voussoir/io/svg.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 

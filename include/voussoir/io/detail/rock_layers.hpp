@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/colour_map.hpp>
+#include <voussoir/drawing/round_ticks.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
-#include <voussoir/io/colour_map.hpp>
-#include <voussoir/io/round_ticks.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir::detail {
 

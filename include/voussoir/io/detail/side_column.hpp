@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/io/detail/support_diagrams.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir::detail {
 

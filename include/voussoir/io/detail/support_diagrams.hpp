@@ -10,10 +10,10 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/drawing/round_ticks.hpp>
+#include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
-#include <voussoir/io/round_ticks.hpp>
-#include <voussoir/io/svg.hpp>
 
 namespace voussoir::detail {
 

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/dynamics/dynamics_settings.hpp>
+#include <voussoir/dynamics/energy_balance.hpp>
+#include <voussoir/dynamics/run_diagnostics.hpp>
+#include <voussoir/dynamics/run_sizes.hpp>
+#include <voussoir/dynamics/stepping.hpp>
+#include <voussoir/geometry/cut_facing.hpp>
+#include <voussoir/model/contact_network.hpp>
+#include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/moving_bodies.hpp>
+#include <voussoir/model/support.hpp>
+
+namespace voussoir {
+
+/// Blocks that move: finite displacements and rotations, contact updates as they move.
+///
+/// Velocity Verlet (kick, drift, kick) with a step that is stable for the masses and stiffnesses
+/// there are. Forces of contacts are computed first and then summed body by body in a fixed order:
+/// the result does not depend on the number of threads, to the last bit.
+///
+/// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
+/// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
+template <int Dim, class JointLaw>
+class Dynamics : public MovingBodies<Dim> {
+  static_assert(explain_contact_law<JointLaw, Dim>());
+  using Base = MovingBodies<Dim>;
+
+ public:
+  using typename Base::Body;
+  using typename Base::Shape;
+  using Network = ContactNetwork<Dim, JointLaw>;
+
+  /// @throws InvalidInput  a setting out of range
+  explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
+      : Dynamics(LawsBySet<JointLaw>(law), {}, settings) {}
+  /// The same with joints of several laws.
+  /// @param law_of_cut  for every label of the blocks' faces the index of its law
+  Dynamics(const LawsBySet<JointLaw>& laws, std::vector<int> law_of_cut,
+           const DynamicsSettings& settings = {})
+      : settings_(settings),
+        law_of_cut_(std::move(law_of_cut)),
+        network_(laws, settings.points, settings.viscous_damping),
+        stepping_(settings.threads) {
+    settings.check();
+  }
+
+  // ---- what there is ---------------------------------------------------------------------------
+
+  /// Adds what holds bodies besides contacts; at any time.
+  void add_support(std::shared_ptr<Support<Dim>> support) {
+    begin();
+    supports_.add(std::move(support), bodies_);
+    forget();
+  }
+  /// Adds the nodes of a lining; what joins them is a support.
+  /// @param interface_law  rock on lining
+  /// @return  number of the first
+  /// @throws InvalidInput  there is one already; a node without mass or inertia
+  int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
+                       const CoulombJoint& interface_law) {
+    for (const auto& node : nodes) node.check();
+    network_.set_interface_law(interface_law);
+    const int first = this->body_count();
+    for (const auto& node : nodes) this->add_node(node, BodyRole::lining);
+    return first;
+  }
+  /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
+  void remove(int b) {
+    fix(b);
+    bodies_[index(b)].is_gone = true;
+    find_contacts();
+  }
+  /// Holds a block where it is from now on.
+  void fix(int b) {
+    begin();
+    this->stop(b);
+    forget();
+  }
+  /// Other joint laws from now on, as many as there are; what the springs then hold differently is
+  /// no work of the run.
+  void set_laws(const LawsBySet<JointLaw>& laws) {
+    begin();
+    const double before = network_.stored_energy(bodies_);
+    network_.set_laws(laws);
+    contacts_at_start_ += network_.stored_energy(bodies_) - before;
+    forget();
+  }
+  /// @param alpha  local damping from now on [-], 0 <= alpha < 1
+  void set_local_damping(double alpha) {
+    DynamicsSettings settings = settings_;
+    settings.local_damping = alpha;
+    settings.check();
+    settings_ = settings;
+    stable_step_ = 0;
+  }
+  /// Gives every closed contact the traction of a stress field in which the blocks as they lie now
+  /// are in equilibrium: before the first step.
+  /// @param stress_at  stress_at(point) [Pa], compression positive
+  /// @param closed     contacts open by no more than this are closed [m]
+  template <class StressAt>
+  void prescribe(StressAt&& stress_at, double closed) {
+    begin();
+    network_.prescribe(
+        bodies_, [&](const Vec<Dim>& p) { return stress_at(Vec<Dim>(p + origin_)); }, closed);
+    start_audit();
+  }
+  /// Loads every block with what it needs to be in equilibrium now, besides its other loads. This
+  /// is what an excavation takes away: `set_held(fraction)` leaves a part of it.
+  void hold();
+  void set_held(double fraction) {
+    held_fraction_ = fraction;
+    fresh_ = false;
+  }
+  [[nodiscard]] double held() const { return held_fraction_; }
+
+  // ---- what it does ----------------------------------------------------------------------------
+
+  [[nodiscard]] const DynamicsSettings& settings() const { return settings_; }
+  [[nodiscard]] const auto& joints() const { return network_.joints(); }
+  [[nodiscard]] double time() const { return time_; }  ///< [s]
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
+  [[nodiscard]] double step() const { return step_; }  ///< the last one [s]
+
+  /// Force and moment of all contacts on a body, world axes [N], [N m].
+  [[nodiscard]] Load<Dim> contact_load(int b) {
+    begin();
+    const auto [force, moment] = network_.gather(index(b));
+    return {force, moment};
+  }
+  /// Force and moment out of balance over the weight, the worst block [-]; a moment counts as a
+  /// force at the radius.
+  [[nodiscard]] double unbalance_over_weight();
+
+  /// Where energy has gone since the beginning.
+  [[nodiscard]] EnergyBalance energy() {
+    begin();
+    EnergyBalance now = audit_;
+    now.kinetic = this->kinetic_energy() - kinetic_given_;
+    now.contacts = network_.stored_energy(bodies_) - contacts_at_start_;
+    now.supports = supports_.energy(bodies_);
+    return now;
+  }
+
+  /// The largest step that is stable for the contacts there are, damping included [s]; infinite
+  /// without contacts.
+  ///
+  /// The highest frequency is bounded body by body: omega^2 <= 2 max eigenvalue of M_b^-1 K_bb, for
+  /// a contact's energy is at most twice that of its bodies moving alone. Local damping makes an
+  /// unknown behave as if (1 + alpha) times as stiff; a dashpot of ratio zeta takes the factor
+  /// sqrt(1 + zeta^2) - zeta.
+  [[nodiscard]] double stable_step() {
+    begin();
+    return longest_step();
+  }
+
+  /// Moves on by a time; steps are shortened a little so that a whole number of them meets it.
+  /// @throws NumericalFault  the run went bad (see `RunDiagnostics`): it is back in the last sound
+  /// state
+  void advance(double time);
+  /// Moves on by a number of steps.
+  void advance_steps(int count) {
+    require(count >= 0, "steps to advance", count, ">= 0");
+    while (count > 0) {
+      const double step = choose_step();
+      count -= run_batch(std::min(count, settings_.check_every), step);
+    }
+  }
+
+ private:
+  /// All that a run goes back to when it goes bad.
+  struct Sound {
+    std::vector<Body> bodies;
+    Network network;
+    ContactTracker<Dim> tracker;
+    EnergyBalance audit;
+    std::function<void()> supports;  ///< restores their histories
+    double kinetic_given, time;
+    std::int64_t steps;
+  };
+
+  /// Before anything is asked: bodies that are new are taken in, and forces computed.
+  void begin() {
+    take_in();
+    if (fresh_) return;
+    stepping_.freshen(forces());
+    fresh_ = true;
+  }
+
+  void take_in();
+  /// After a change by hand: the last sound state knows nothing of it, nor does what was computed.
+  void forget() {
+    sound_.reset();
+    stable_step_ = 0;
+    fresh_ = false;
+  }
+
+  void start_audit() {
+    kinetic_given_ = this->kinetic_energy();
+    contacts_at_start_ = network_.stored_energy(bodies_);
+    supports_.start(bodies_);
+    audit_ = {};
+    forget();
+  }
+
+  void find_contacts();
+
+  /// Looks whether the run is sound; if not, goes back to when it was, and says what is wrong.
+  void check();
+
+  // ---- steps -----------------------------------------------------------------------------------
+
+  [[nodiscard]] double longest_step() {
+    std::vector<double> sums = network_.stiffness_over_mass(bodies_);
+    supports_.add_stiffness_over_mass(bodies_, sums);
+    const double largest = *std::max_element(sums.begin(), sums.end());
+    const double zeta = settings_.viscous_damping;
+    return 2 / std::sqrt(2 * largest * (1 + settings_.local_damping)) *
+           (std::sqrt(1 + zeta * zeta) - zeta);
+  }
+  [[nodiscard]] double choose_step();
+  [[nodiscard]] detail::ForcesOnBodies<Dim, JointLaw> forces() {
+    return {bodies_, network_,       supports_,         loads_,
+            held_,   held_fraction_, settings_.gravity, settings_.local_damping};
+  }
+
+  /// Makes `count` steps, or fewer: contacts are looked for again before a body can have moved
+  /// further than they are listed for. The way is summed up step by step, with the speeds there
+  /// are: what gravity, loads or a blow give to a body within the batch counts.
+  /// @return  the number of steps made
+  int run_batch(int count, double step);
+
+  DynamicsSettings settings_;
+  std::vector<int> law_of_cut_;  ///< empty: the first for all
+  Network network_;
+  detail::Stepping<Dim, JointLaw> stepping_;
+  static constexpr int lining_family = -1;
+
+  using Base::bodies_;
+  using Base::fresh_;
+  using Base::home_;
+  using Base::index;
+  using Base::kinetic_given_;
+  using Base::loads_;
+  using Base::origin_;
+  using Base::roles_;
+  using Base::shapes_;
+  std::vector<Load<Dim>> held_;
+  double held_fraction_ = 0;
+  SupportSet<Dim> supports_;
+  std::optional<ContactTracker<Dim>> tracker_;
+  EnergyBalance audit_;
+  double contacts_at_start_ = 0;
+  detail::RunSizes sizes_{};
+  double time_ = 0, step_ = 0, stable_step_ = 0;
+  std::int64_t steps_ = 0, checked_ = 0;
+  std::optional<Sound> sound_;
+  std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
+};
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::hold() {
+  begin();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const auto [force, moment] = network_.gather(b);
+    held_[b] = {-force - loads_[b].force, -moment - loads_[b].moment};
+    held_[b].force[Dim - 1] += bodies_[b].mass * settings_.gravity;
+  }
+  set_held(1);
+}
+
+template <int Dim, class JointLaw>
+double Dynamics<Dim, JointLaw>::unbalance_over_weight() {
+  begin();
+  const auto all = forces();
+  double worst = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
+    if (!body.movable() || body.radius == 0) continue;
+    const Load<Dim> total = all.total(b);
+    worst = std::max(worst, (total.force.norm() + total.moment.norm() / body.radius) /
+                                (body.mass * settings_.gravity));
+  }
+  return worst;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::advance(double time) {
+  require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
+  const double end = time_ + time;
+  while (end - time_ > 1e-12 * std::max(time, step_)) {
+    const double step = choose_step();
+    const int steps = static_cast<int>(std::min(std::ceil((end - time_) / step - 1e-9), 1e9));
+    const int batch = std::min(steps, settings_.check_every);
+    // A last step of another length would spoil the order of the scheme: all are shortened.
+    run_batch(batch, batch == steps ? (end - time_) / steps : step);
+  }
+  time_ = end;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::take_in() {
+  if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
+  const bool is_first = known_bodies_ == 0;
+  if (is_first) {
+    sizes_ = detail::RunSizes::choose(bodies_, settings_);
+    tracker_.emplace(sizes_.reach, sizes_.refresh, 8 * sizes_.reach);
+  }
+  for (; known_shapes_ < shapes_.size(); ++known_shapes_) {
+    const auto& [shape, b] = shapes_[known_shapes_];
+    const Pose<Dim> home = this->home(b);
+    // Nodes of a lining do not touch one another: they are one family.
+    const bool of_lining = roles_[index(b)] == BodyRole::lining;
+    tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b);
+  }
+  known_bodies_ = bodies_.size();
+  held_.resize(known_bodies_);
+  stepping_.resize(known_bodies_);
+  find_contacts();
+  forget();
+  if (is_first) start_audit();
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::find_contacts() {
+  const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
+    if (law_of_cut_.empty()) return 0;
+    const auto& [part, b] = shapes_[shape];
+    const Rotation<Dim> turn =
+        home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
+    const int cut = cut_facing(part, Vec<Dim>(turn * normal));
+    return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
+  };
+  if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.refound)) return;
+  stable_step_ = 0;
+  fresh_ = false;
+}
+
+template <int Dim, class JointLaw>
+void Dynamics<Dim, JointLaw>::check() {
+  const std::string fault = detail::RunDiagnostics<Dim>(bodies_, roles_, origin_,
+                                                        sizes_.speed_limit, settings_.overlap_limit)
+                                .fault(std::as_const(network_), step_);
+  checked_ = steps_;
+  audit_.highest_kinetic =
+      std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
+  if (fault.empty()) {
+    sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, supports_.keep(), kinetic_given_,
+                         time_, steps_});
+    return;
+  }
+  const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
+  if (!sound_) throw NumericalFault(where);
+  bodies_ = sound_->bodies;
+  network_ = sound_->network;
+  tracker_ = sound_->tracker;
+  audit_ = sound_->audit;
+  sound_->supports();
+  kinetic_given_ = sound_->kinetic_given;
+  time_ = sound_->time;
+  steps_ = checked_ = sound_->steps;
+  stable_step_ = 0;
+  fresh_ = false;
+  throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
+}
+
+template <int Dim, class JointLaw>
+double Dynamics<Dim, JointLaw>::choose_step() {
+  take_in();
+  if (!sound_) check();
+  if (stable_step_ == 0) stable_step_ = longest_step();
+  if (settings_.time_step > stable_step_)
+    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
+                         message_number(settings_.time_step, 3) +
+                         " s that was asked for is longer than the stable one of " +
+                         message_number(stable_step_, 3) +
+                         " s; leave time_step at 0 to have it chosen");
+  step_ = settings_.time_step > 0 ? settings_.time_step : settings_.safety * stable_step_;
+  if (!std::isfinite(step_)) step_ = 1e-3;  // nothing touches
+  if (!settings_.find_contacts || shapes_.size() < 2) return step_;
+  // Within one step nothing is looked for: what is apart must not come to overlap in it.
+  begin();
+  const double longest = sizes_.longest_step(bodies_, stepping_.acting());
+  if (settings_.time_step > longest)
+    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": in the time step of " +
+                         message_number(settings_.time_step, 3) +
+                         " s that was asked for a body moves more than a quarter of the reach of " +
+                         "contacts of " + message_number(sizes_.reach, 3) +
+                         " m, and may pass into another unseen; leave time_step at 0, or give " +
+                         "<= " + message_number(longest, 3) + " s");
+  if (longest > 0) step_ = std::min(step_, longest);
+  return step_;
+}
+
+template <int Dim, class JointLaw>
+int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
+  begin();
+  step_ = step;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  typename detail::Stepping<Dim, JointLaw>::Ways ways{never, never};
+  if (settings_.find_contacts) ways = {sizes_.travel_limit(), 0.25 * sizes_.reach};
+  const int made = stepping_.run(forces(), count, step, ways, audit_);
+  steps_ += made;
+  time_ += made * step;
+  if (steps_ - checked_ >= settings_.check_every) check();
+  if (settings_.find_contacts) find_contacts();
+  return made;
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class Dynamics<2, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class Dynamics<3, CoulombJoint>;
+#endif
+
+}  // namespace voussoir

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+#include <voussoir/core/message_number.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/model/moving_bodies.hpp>
+
+namespace voussoir::detail {
+
+/// What is wrong with a dynamic run, in words that name the block, the place, the likely cause and
+/// the remedy; nothing if it is sound.
+template <int Dim>
+class RunDiagnostics {
+ public:
+  using Bodies = std::vector<MovingBody<Dim>>;
+
+  RunDiagnostics(const Bodies& bodies, const std::vector<BodyRole>& roles, const Vec<Dim>& origin,
+                 double speed_limit, double overlap_limit)
+      : bodies_(bodies),
+        roles_(roles),
+        origin_(origin),
+        speed_limit_(speed_limit),
+        overlap_limit_(overlap_limit) {}
+
+  template <class Network>
+  [[nodiscard]] std::string fault(const Network& network, double step) const {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const MovingBody<Dim>& body = bodies_[b];
+      if (!body.movable()) continue;
+      const double speed = body.velocity.norm() + body.spin().norm() * body.radius;
+      if (!std::isfinite(speed + body.pose.position.sum()))
+        return "position or velocity of block " + std::to_string(b) +
+               " is not a number; a load or velocity given is not, or a law of contact or bolt "
+               "returned none";
+      if (speed > speed_limit_)
+        return name_of(b) + " moves at " + message_number(speed, 3) +
+               " m/s, faster than anything here can fall or was thrown at first (limit " +
+               message_number(speed_limit_, 3) +
+               " m/s); it was given this velocity, or the step of " + message_number(step, 3) +
+               " s is too long: raise speed_limit or lower the safety factor";
+    }
+    std::string text;
+    network.each([&](const auto& group, const auto& c) {
+      if (!text.empty()) return;
+      const auto ia = static_cast<std::size_t>(c.a), ib = static_cast<std::size_t>(c.b);
+      const MovingBody<Dim>&a = bodies_[ia], &b = bodies_[ib];
+      const double size = a.movable() && b.movable() ? std::min(a.radius, b.radius)
+                          : a.movable()              ? a.radius
+                                                     : b.radius;
+      const auto at = c.place(a.pose, b.pose);
+      for (int i = c.first; i < c.last; ++i) {
+        const double overlap = -group.points()[static_cast<std::size_t>(i)].motion(at).opening;
+        if (!(overlap > overlap_limit_ * size)) continue;
+        text =
+            name_of(ib) + " overlaps " + name_of(ia) + " by " + message_number(1e3 * overlap, 3) +
+            " mm, more than " + message_number(100 * overlap_limit_, 3) + " % of its radius of " +
+            message_number(size, 3) +
+            " m; the joint is too soft for what presses on it (raise joint_normal_stiffness), or "
+            "the blocks overlapped from the beginning";
+        return;
+      }
+    });
+    return text;
+  }
+
+ private:
+  [[nodiscard]] std::string name_of(std::size_t b) const {
+    const std::string what = roles_[b] == BodyRole::lining ? "lining node "
+                             : bodies_[b].movable()        ? "block "
+                                                           : "fixed block ";
+    return what + std::to_string(b) + " at " + text_of<Dim>(bodies_[b].pose.position + origin_) +
+           " m";
+  }
+
+  const Bodies& bodies_;
+  const std::vector<BodyRole>& roles_;
+  Vec<Dim> origin_;
+  double speed_limit_, overlap_limit_;
+};
+
+}  // namespace voussoir::detail

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+#include <voussoir/core/thread_team.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/dynamics/energy_balance.hpp>
+#include <voussoir/dynamics/kick.hpp>
+#include <voussoir/model/contact_network.hpp>
+#include <voussoir/model/moving_body.hpp>
+#include <voussoir/model/support.hpp>
+
+namespace voussoir::detail {
+
+/// The bodies of a run and all that acts on them; nothing is owned.
+template <int Dim, class JointLaw>
+struct ForcesOnBodies {
+  std::vector<MovingBody<Dim>>& bodies;
+  ContactNetwork<Dim, JointLaw>& network;
+  SupportSet<Dim>& supports;
+  const std::vector<Load<Dim>>& loads;  ///< given to each body
+  const std::vector<Load<Dim>>& held;   ///< what would keep each body in equilibrium
+  double held_fraction;                 ///< of it, that acts [-]
+  double gravity;                       ///< [m/s^2], against the last axis
+  double local_damping;                 ///< alpha [-]
+
+  /// What acts besides weight, contacts and supports, world axes.
+  [[nodiscard]] Load<Dim> applied(std::size_t b) const {
+    return {loads[b].force + held_fraction * held[b].force,
+            loads[b].moment + held_fraction * held[b].moment};
+  }
+  /// All that acts on a body but local damping, world axes. @pre contacts and supports are up to
+  /// date
+  [[nodiscard]] Load<Dim> total(std::size_t b) const {
+    auto [force, moment] = network.gather(b);
+    const Load<Dim> given = applied(b);
+    force += given.force;
+    force[Dim - 1] -= bodies[b].mass * gravity;
+    moment += given.moment;
+    supports.add_load_on(b, force, moment);
+    return {force, moment};
+  }
+};
+
+/// Steps of velocity Verlet, shared by a team of threads: kick, drift, forces at the new place,
+/// kick.
+///
+/// Contacts are computed first and then summed body by body in a fixed order: the result does not
+/// depend on the number of threads, to the last bit.
+template <int Dim, class JointLaw>
+class Stepping {
+ public:
+  using Forces = ForcesOnBodies<Dim, JointLaw>;
+
+  explicit Stepping(unsigned threads) : team_(std::make_unique<ThreadTeam>(threads)) {}
+
+  void resize(std::size_t bodies) { acting_.resize(bodies); }
+  /// What acts on each body, when it was last computed.
+  [[nodiscard]] const std::vector<Kick<Dim>>& acting() const { return acting_; }
+
+  /// Brings what acts on the bodies up to date, with nothing moving.
+  void freshen(const Forces& forces) {
+    team_->run([&](unsigned member) {
+      Dissipation none;  // nothing slips that has not already
+      respond(forces, member, none);
+      const auto share = team_->share(forces.bodies.size(), member);
+      for (std::size_t b = share.first; b < share.last; ++b) settle(forces, b);
+    });
+  }
+
+  /// How far bodies may move, by the speeds of the fastest summed up step by step, before contacts
+  /// must be looked for again [m].
+  struct Ways {
+    double travel;  ///< with one more step like the last
+    double reach;   ///< with one and a half: in the next step bodies may be faster, and a pair that
+                    ///< was apart must not come to touch
+  };
+  /// Makes `count` steps, or fewer where a body comes as far as `ways`; at least one.
+  /// @param step  [s]
+  /// @pre   what acts on the bodies is up to date, and is again afterwards
+  /// @return  the number of steps made; what they did to the energy is added to `audit`
+  int run(const Forces& forces, int count, double step, const Ways& ways, EnergyBalance& audit);
+
+ private:
+  /// A member's share of what contacts and supports do to the bodies where they are; all of it is
+  /// done when it returns.
+  void respond(const Forces& forces, unsigned member, Dissipation& lost) {
+    const auto contacts = team_->share(forces.network.size(), member);
+    forces.network.react(contacts.first, contacts.last, forces.bodies, lost);
+    if (member == 0) forces.supports.act(forces.bodies);
+    team_->meet();
+  }
+  /// First half kick, and the drift.
+  void start(const Forces& forces, std::size_t b, double step, MemberSums& sums) {
+    MovingBody<Dim>& body = forces.bodies[b];
+    acting_[b].kick(body, step);
+    acting_[b].add_work(body, step, forces.gravity, forces.applied(b), sums.work);
+    body.drift(step);
+    sums.fastest = std::max(sums.fastest, body.fastest_point());
+  }
+  /// Forces at the new place.
+  void settle(const Forces& forces, std::size_t b) {
+    const MovingBody<Dim>& body = forces.bodies[b];
+    if (body.movable()) acting_[b].set(body, forces.total(b), forces.local_damping);
+  }
+  /// Second half kick.
+  void finish(const Forces& forces, std::size_t b, double step, MemberSums& sums) {
+    MovingBody<Dim>& body = forces.bodies[b];
+    acting_[b].add_work(body, step, forces.gravity, forces.applied(b), sums.work);
+    acting_[b].kick(body, step);
+  }
+
+  std::unique_ptr<ThreadTeam> team_;
+  std::vector<Kick<Dim>> acting_;
+  std::vector<MemberSums> sums_;
+};
+
+template <int Dim, class JointLaw>
+int Stepping<Dim, JointLaw>::run(const Forces& forces, int count, double step, const Ways& ways,
+                                 EnergyBalance& audit) {
+  std::vector<MovingBody<Dim>>& bodies = forces.bodies;
+  sums_.assign(team_->size(), {});
+  int made = 0;
+  team_->run([&](unsigned member) {
+    MemberSums& sums = sums_[member];
+    const auto share = team_->share(bodies.size(), member);
+    double way = 0;  // of the fastest body of each step: the same for all members
+    for (int k = 0; k < count; ++k) {
+      sums.fastest = 0;
+      for (std::size_t b = share.first; b < share.last; ++b)
+        if (bodies[b].movable()) start(forces, b, step, sums);
+      team_->meet();
+      double fastest = 0;
+      for (const MemberSums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
+      way += step * fastest;
+      respond(forces, member, sums.lost);
+      sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
+      for (std::size_t b = share.first; b < share.last; ++b)
+        if (bodies[b].movable()) {
+          settle(forces, b);
+          finish(forces, b, step, sums);
+        }
+      if (member == 0) made = k + 1;
+      if (way + step * fastest > ways.travel || way + 1.5 * step * fastest > ways.reach) break;
+    }
+  });
+  for (const MemberSums& sums : sums_) sums.add_to(audit);
+  for (MovingBody<Dim>& body : bodies)
+    if (body.movable()) body.straighten();
+  return made;
+}
+
+}  // namespace voussoir::detail

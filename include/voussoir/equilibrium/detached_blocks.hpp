@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/small_algebra.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/linear/conjugate_gradients.hpp>
+#include <voussoir/linear/linear_method.hpp>
+
+namespace voussoir::detail {
+
+// What is detached, and whether that can be told: one answer for every equilibrium method.
+
+/// Blocks that moved beyond the limit.
+template <class System>
+[[nodiscard]] std::vector<int> fallen_bodies(const System& system, double limit) {
+  std::vector<int> fallen;
+  for (int b = 0; b < system.body_count(); ++b)
+    if (system.body(b).movable && system.body(b).is_block &&
+        !(part<System::dim>(system.displacement, System::dof * b).norm() <= limit))
+      fallen.push_back(b);
+  return fallen;
+}
+
+/// Removes these bodies, and those that then hang on nothing.
+/// @return  the latter
+template <class System>
+std::vector<int> remove_with_loose(System& system, const std::vector<int>& bodies) {
+  if (!bodies.empty()) system.remove(bodies);
+  std::vector<int> loose = system.unsupported();
+  if (!loose.empty()) system.remove(loose);
+  return loose;
+}
+
+/// The same, entered in the report as fallen.
+template <class System>
+void drop(System& system, const std::vector<int>& bodies, const SearchContext& context,
+          EquilibriumReport& report) {
+  const auto enter = [&](int b) {
+    if (!system.body(b).is_block) return;
+    report.fallen.push_back(b);
+    if (context.measures != nullptr)
+      report.fallen_measure += (*context.measures)[static_cast<std::size_t>(b)];
+  };
+  for (const int b : bodies) enter(b);
+  for (const int b : remove_with_loose(system, bodies)) enter(b);
+}
+
+/// How exact the correction of an error estimate must be: to a tenth of itself, since the next one
+/// corrects that too, but no better than a twentieth of the error that is accepted.
+template <class System>
+[[nodiscard]] SolveTolerance tolerance_of_correction(const System& system,
+                                                     const Acceptance& accept) {
+  return {
+      .relative = 0.1,
+      .absolute = 0.05 * accept.error_estimate * system.largest_translation(system.displacement)};
+}
+
+/// u = K^-1 f, in place, once.
+/// @return  estimate of its largest error [m]
+template <class System>
+double solve_elastically(const System& system, const LinearSettings& settings,
+                         const SolveTolerance& tolerance, const Progress& progress,
+                         Eigen::VectorXd& f, EquilibriumReport& report) {
+  auto solver = system.elastic_solver(settings, progress);
+  const double error = solver.solve_in_place(f, tolerance, progress);
+  ++report.factorisations;
+  ++report.elastic_solves;
+  add_report(report.linear, solver.report());
+  return error;
+}
+
+/// True, with the reason, if the rock as a whole is about to move so far that detached blocks
+/// cannot be told by their displacement: if more than one block in a hundred would have moved
+/// beyond half the limit after one elastic step to the end of the stage. Blocks that slid so far in
+/// an earlier stage count too: fewer than that do not matter.
+///
+/// @param solve  solve(f, tolerance) turns forces into elastic displacements, in place, and returns
+///               their error [m]
+template <class System, class Solve>
+[[nodiscard]] bool moves_too_far(System& system, const SearchContext& context, Solve&& solve,
+                                 EquilibriumReport& report) {
+  const double now = system.wall_fraction, limit = context.acceptance.displacement_limit;
+  Eigen::VectorXd forces, u;
+  system.wall_fraction = context.wall_fraction;
+  system.forces(system.displacement, forces);
+  system.wall_fraction = now;
+  double far = 0;  // how far the block has moved that one in a hundred is beyond
+  // Once more where the error of the first solve leaves it open.
+  for (const double tolerance : {0.05, 1e-6}) {
+    u = forces;
+    const double error = solve(u, SolveTolerance{.relative = tolerance});
+    if (!voussoir::is_finite(u))
+      throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
+    u += system.displacement;
+    std::vector<double> moved;
+    for (int b = 0; b < system.body_count(); ++b)
+      if (system.body(b).movable && system.body(b).is_block)
+        moved.push_back(part<System::dim>(u, System::dof * b).norm());
+    if (moved.empty()) return false;
+    const auto place =
+        moved.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(moved.size() - 1));
+    std::nth_element(moved.begin(), place, moved.end());
+    far = *place;
+    if (std::abs(far - 0.5 * limit) > error) break;
+  }
+  if (!(far > 0.5 * limit)) return false;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "with joints that slip and open no further the rock would have moved %.3g mm, more than "
+      "half the displacement limit of %.3g mm, and detached blocks could not be told from it: "
+      "raise displacement_limit",
+      1e3 * far, 1e3 * limit);
+  report.reason = text;
+  report.largest_displacement = system.largest_translation(system.displacement);
+  return true;
+}
+
+/// True, with the verdict, if more is detached than a tunnel can lose.
+template <int Dim>
+[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
+  if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
+  const char* unit = Dim == 2 ? "m2" : "m3";
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "%zu block%s of %.3g %s detached before the others came to rest; more than %.3g %s is "
+      "a collapse",
+      report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure, unit,
+      acceptance.collapse_measure, unit);
+  report.verdict = Verdict::collapsing;
+  report.reason = text;
+  return true;
+}
+
+}  // namespace voussoir::detail

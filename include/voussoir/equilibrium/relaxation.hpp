@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/long_vectors.hpp>
+#include <voussoir/equilibrium/active_set.hpp>
+#include <voussoir/equilibrium/detached_blocks.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/update_when_due.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
+#include <voussoir/model/contact_group.hpp>
+
+namespace voussoir {
+
+/// Follows detached blocks: damped motion that commits slip at every step and removes
+/// them, on the blocks that are out of balance and their neighbours only.
+///
+/// Local damping acts on every unknown by itself, so a block that slides past rattling neighbours
+/// keeps its speed; methods that stop all motion at once (FIRE, kinetic damping) hold it up for
+/// ever. The answer overshoots a little (about 2 %), because slip made on the way stays: `TwoLevel`
+/// uses it to learn which blocks detach and then starts anew without them.
+class Relaxation {
+ public:
+  using role = roles::Equilibrium;
+  static constexpr const char* name = "Relaxation";
+
+  struct Params {
+    int max_steps = 60000;
+    int check_every = 40;     ///< steps between looks at the whole system
+    double damping = 0.7;     ///< local damping [-], 0 <= damping < 1
+    double safety = 0.9;      ///< of the stable step [-]
+    int rings = 3;            ///< generations of neighbours that move with a body out of balance
+    LinearSettings linear{};  ///< of the elastic solve that says whether blocks can be told apart
+  };
+  Relaxation() = default;
+  /// @throws InvalidInput  a parameter out of range
+  explicit Relaxation(const Params& params) : params_(params) {
+    require(params.max_steps > 0, "max_steps", params.max_steps, "> 0");
+    require(params.check_every > 0, "check_every", params.check_every, "> 0");
+    require(params.damping >= 0 && params.damping < 1, "damping", params.damping, ">= 0 and < 1");
+    require(params.safety > 0 && params.safety <= 1, "safety", params.safety, "> 0 and <= 1");
+    require(params.rings >= 0, "rings", params.rings, ">= 0");
+  }
+
+  /// Accepts when the out-of-balance test has passed and no block is beyond the displacement limit;
+  /// no error estimate, because the slip made on the way is not in it.
+  template <class System>
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
+
+  /// The same without asking first whether detached blocks can be told by their displacement, for
+  /// a caller that has. Adds to what is in the report.
+  template <class System>
+  void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
+
+ private:
+  template <class System>
+  void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
+
+  Params params_;
+};
+
+template <class System>
+EquilibriumReport Relaxation::find(System& system, const SearchContext& context) const {
+  EquilibriumReport report;
+  detail::drop(system, {}, context, report);
+  const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
+    return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
+                                     report);
+  };
+  detail::until_stopped(report, [&] {
+    if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
+        !detail::moves_too_far(system, context, solve, report))
+      follow(system, context, report);
+  });
+  return report;
+}
+
+template <class System>
+void Relaxation::follow(System& system, const SearchContext& context,
+                        EquilibriumReport& report) const {
+  detail::until_stopped(report, [&] { step_on(system, context, report); });
+  if (report.verdict == Verdict::undecided && report.reason.empty())
+    report.reason = message({"step limit of ", params_.max_steps, " reached"});
+  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  report.largest_displacement = system.largest_translation(system.displacement);
+}
+
+template <class System>
+void Relaxation::step_on(System& system, const SearchContext& context,
+                         EquilibriumReport& report) const {
+  constexpr int dof = System::dof;
+  const Acceptance& accept = context.acceptance;
+  system.wall_fraction = context.wall_fraction;
+  Eigen::VectorXd& u = system.displacement;
+  Eigen::VectorXd velocity = zeros(u.size()), f;
+  // Masses of a quarter of the row sums make the critical step 1 for every unknown.
+  Eigen::VectorXd mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
+  const double step = params_.safety / std::sqrt(1 + params_.damping);
+  StopCheck stop(context.progress, 1);
+  while (report.steps < params_.max_steps) {
+    system.template forces<Committing>(u, f);
+    if (!is_finite(f))
+      throw NumericalFault(message({"relaxation: forces are not finite at step ", report.steps}));
+    const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+    const bool found = detail::find_when_due(system, context);
+    if (found || !fallen.empty()) {
+      detail::drop(system, fallen, context, report);
+      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
+      continue;
+    }
+    report.unbalance_over_weight = system.unbalance_over_weight(f);
+    if (report.unbalance_over_weight < accept.unbalance_over_weight) {
+      if (detail::find_when_due(system, context, true)) continue;
+      report.verdict = Verdict::stable;
+      report.reason = "every block is in equilibrium within the out-of-balance force ratio limit";
+      break;
+    }
+    detail::ask_to_go_on(context);
+    ActiveSet<System> active(system, f, zeros(f.size()), 0.3 * accept.unbalance_over_weight,
+                             params_.rings);
+    for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
+      stop();
+      if (k > 0) active.template forces<Committing>(u, f);
+      ++report.steps;
+      for (const int b : active.bodies())
+        for (int i = dof * b; i < dof * (b + 1); ++i) {
+          const double against = velocity[i] > 0 ? 1.0 : (velocity[i] < 0 ? -1.0 : 0.0);
+          velocity[i] += step * (f[i] - params_.damping * std::abs(f[i]) * against) / mass[i];
+          u[i] += step * velocity[i];
+        }
+    }
+  }
+}
+
+}  // namespace voussoir

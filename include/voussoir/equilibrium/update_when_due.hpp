@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/model/contact_update.hpp>
+
+namespace voussoir {
+
+namespace detail {
+
+/// Whether blocks have moved so far that contacts are to be updated. Where the limit on that is
+/// no shorter than the one beyond which a block is detached, they never are.
+template <class System>
+[[nodiscard]] bool is_due(const System& system, const Acceptance& acceptance, double share = 1) {
+  return system.shapes != nullptr && acceptance.refind_limit < acceptance.displacement_limit &&
+         system.moved_since_found() > share * acceptance.refind_limit;
+}
+
+/// Updates contacts if it is due.
+///
+/// Where contacts have been updated before, an equilibrium is looked at from near by: rotations
+/// are finite there, and linear ones are off by half their square.
+/// @param at_rest  the search is about to end here
+/// @return  true if it has
+/// @throws Stopped  the system is as it was
+template <class System>
+bool find_when_due(System& system, const SearchContext& context, bool at_rest = false) {
+  const Acceptance& acceptance = context.acceptance;
+  const bool near_by = at_rest && system.has_found_again();
+  if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
+  find_contacts_again(system, 2 * acceptance.refind_limit, context.progress);
+  return true;
+}
+
+}  // namespace detail
+
+}  // namespace voussoir

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/face_contacts.hpp>
+#include <voussoir/detection/neighbour_list.hpp>
+#include <voussoir/detection/placed_shapes.hpp>
+#include <voussoir/model/moving_body.hpp>
+
+namespace voussoir {
+
+/// Watches which shapes touch as their bodies move, and asks the detector only about pairs that
+/// have moved since it was last asked.
+///
+/// How far a body has moved is a bound on the path of its fastest vertex, summed up. A pair that
+/// touches (or is within `reach`) is asked again when its two bodies have moved `refresh` together;
+/// one that is further apart when it could have come within reach.
+template <int Dim>
+class ContactTracker {
+ public:
+  using Shape = typename PlacedShapes<Dim>::Shape;
+  struct Pair {
+    std::uint32_t a, b;         ///< shapes
+    std::int32_t contact = -1;  ///< what the caller knows it by; -1: they do not touch
+    double moved = -1;          ///< of both bodies, when it was last asked; -1: never
+    typename FaceContacts::Pair<Dim>::Memory memory{};
+  };
+
+  /// @param reach    contacts may be so far open [m]
+  /// @param refresh  how far the bodies of a contact move before it is updated [m]
+  /// @param margin   see NeighbourList [m]
+  ContactTracker(double reach, double refresh, double margin)
+      : reach_(reach),
+        refresh_(refresh),
+        margin_(margin),
+        // The list is looked at only now and then: bodies may be so far out of their boxes.
+        neighbours_(margin, reach + 2 * unseen * margin) {}
+
+  [[nodiscard]] double reach() const { return reach_; }
+  [[nodiscard]] const PlacedShapes<Dim>& shapes() const { return shapes_; }
+  [[nodiscard]] int body_of(std::size_t shape) const { return body_of_[shape]; }
+  [[nodiscard]] std::vector<Pair>& pairs() { return pairs_; }
+  [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
+
+  /// Adds a shape to a body.
+  /// @param centre    of the body, in the coordinates in which the shape is given [m]
+  /// @param rotation  from the body's frame to these
+  /// @param family    shapes of one family never touch: the parts of a body, or of a lining
+  void add(const Shape& shape, const Vec<Dim>& centre, int body, const Rotation<Dim>& rotation,
+           int family) {
+    shapes_.add(shape, centre);
+    body_of_.push_back(body);
+    family_of_.push_back(family);
+    home_.push_back(transposed(rotation));
+  }
+
+  /// Follows the bodies to where they are now. Calls `touches(pair, contact)` for every pair asked
+  /// that is within reach, `parts(pair)` for every pair with a contact that no longer is.
+  template <class Bodies, class Touches, class Parts>
+  void update(const Bodies& bodies, Touches&& touches, Parts&& parts) {
+    follow(bodies);
+    const auto place = [&](std::size_t shape) {
+      const std::size_t b = index(body_of_[shape]);
+      if (placed_[shape] == path_[b]) return;
+      placed_[shape] = path_[b];
+      const Pose<Dim>& pose = bodies[b].pose;
+      shapes_.place(shape, {pose.position, pose.rotation * home_[shape]});
+    };
+    if (since_looked_ > unseen * margin_) {
+      for (std::size_t s = 0; s < shapes_.size(); ++s) place(s);
+      if (neighbours_.update(shapes_)) carry_over(bodies, parts);
+      since_looked_ = 0;
+    }
+    typename FaceContacts::Pair<Dim> detector(shapes_);
+    for (Pair& pair : pairs_) {
+      if (is_gone(bodies, pair)) {
+        if (pair.contact >= 0) parts(pair);
+        continue;
+      }
+      const double now = path_[index(body_of_[pair.a])] + path_[index(body_of_[pair.b])];
+      const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
+      if (pair.moved >= 0 && now - pair.moved <= allowed) continue;
+      pair.moved = now;
+      place(pair.a);
+      place(pair.b);
+      // The whole of the faces that lie over one another, not what is within reach of touching: the
+      // springs then do not change with the depth of the overlap, which would make or eat energy.
+      const bool near =
+          pair.contact >= 0 || detector.separation(pair.a, pair.b, pair.memory, reach_) <= reach_;
+      Contact<Dim> contact;
+      if (near) contact = detector.contact(pair.a, pair.b, pair.memory, everything);
+      if (contact.touch != Touch::none && contact.separation <= reach_)
+        touches(pair, contact);
+      else if (pair.contact >= 0)
+        parts(pair);
+    }
+  }
+
+ private:
+  [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  template <class Bodies>
+  [[nodiscard]] bool is_gone(const Bodies& bodies, const Pair& pair) const {
+    return bodies[index(body_of_[pair.a])].is_gone || bodies[index(body_of_[pair.b])].is_gone;
+  }
+
+  /// Adds what bodies have moved to their paths.
+  template <class Bodies>
+  void follow(const Bodies& bodies) {
+    if (seen_.size() < bodies.size()) since_looked_ = std::numeric_limits<double>::infinity();
+    for (std::size_t b = seen_.size(); b < bodies.size(); ++b) seen_.push_back(bodies[b].pose);
+    path_.resize(bodies.size(), 0);
+    placed_.resize(shapes_.size(), -1);
+    double farthest = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const auto& body = bodies[b];
+      const double shift = (body.pose.position - seen_[b].position).norm();
+      const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
+      const double path = shift + turn * body.radius;
+      if (path == 0) continue;
+      path_[b] += path;
+      farthest = std::max(farthest, path);
+      seen_[b] = body.pose;
+    }
+    since_looked_ += farthest;
+  }
+
+  /// What is known of a pair goes with it from the old list to the new one.
+  template <class Bodies, class Parts>
+  void carry_over(const Bodies& bodies, Parts&& parts) {
+    const auto before = [](const auto& x, const auto& y) {
+      return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
+    };
+    std::vector<Pair> kept;
+    kept.reserve(neighbours_.pairs().size());
+    auto old = pairs_.begin();
+    const auto leave_behind = [&] {
+      if (old->contact >= 0) parts(*old);
+      ++old;
+    };
+    for (const auto& pair : neighbours_.pairs()) {
+      const auto a = index(body_of_[pair.a]), b = index(body_of_[pair.b]);
+      if (family_of_[pair.a] == family_of_[pair.b]) continue;
+      if (!(bodies[a].movable() || bodies[b].movable())) continue;
+      while (old != pairs_.end() && before(*old, pair)) leave_behind();
+      if (old != pairs_.end() && old->a == pair.a && old->b == pair.b)
+        kept.push_back(*old++);
+      else
+        kept.push_back({pair.a, pair.b});
+    }
+    while (old != pairs_.end()) leave_behind();
+    pairs_.swap(kept);
+  }
+
+  static constexpr double unseen = 0.1;      ///< of the margin
+  static constexpr double everything = 1e6;  ///< further than any face reaches [m]
+
+  double reach_, refresh_, margin_;
+  double since_looked_ = 0;  ///< path of the fastest body since the list was looked at [m]
+  PlacedShapes<Dim> shapes_;
+  std::vector<int> body_of_, family_of_;
+  std::vector<Rotation<Dim>> home_;  ///< from the shape's own frame to that of its body
+  NeighbourList<Dim> neighbours_;
+  std::vector<Pair> pairs_;
+  std::vector<double> path_;     ///< of each body, summed [m]
+  std::vector<Pose<Dim>> seen_;  ///< poses at the last update
+  std::vector<double> placed_;   ///< for every shape, the path of its body when it was placed [m]
+};
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactTracker<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactTracker<3>;
+#endif
+
+}  // namespace voussoir

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/ordering.hpp>
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/progress.hpp>
+#include <voussoir/geometry/cut_facing.hpp>
+#include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/contact_renewal.hpp>
+#include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/moving_body.hpp>
+#include <voussoir/model/moving_contacts.hpp>
+
+namespace voussoir::detail {
+
+/// The point of the former contacts whose memory a point inherits.
+struct FormerPoint {
+  std::int32_t number = -1;  ///< -1: none
+};
+
+/// Contacts of one kind without their laws: what a law remembers follows its point by number.
+template <int Dim>
+struct LawlessContacts {
+  bool has_many_laws = false;
+  std::vector<ReferenceContact<Dim>> contacts;
+  std::vector<ReferencePoint<Dim>> points;
+  std::vector<FormerPoint> former;  ///< for every point
+};
+
+/// Finds the contacts of bodies where they are now, and makes that the reference configuration.
+/// It is the same for all contact laws, and compiled once.
+template <int Dim>
+class ContactUpdate {
+ public:
+  using Contacts = LawlessContacts<Dim>;
+  using Tracker = ContactTracker<Dim>;
+  using Shape = typename Tracker::Shape;
+
+  /// @param reach         contacts may be so far open [m]
+  /// @param displacement  present, `dof` values a body
+  /// @param found_at      that of the reference configuration so far; empty: the in-situ state
+  /// @param law_of_cut    for every label of a face the index of the joint law; null: the first
+  /// @pre the vectors outlive this, and do not change
+  ContactUpdate(double reach, const Eigen::VectorXd& displacement, const Eigen::VectorXd& found_at,
+                const std::vector<int>* law_of_cut)
+      : displacement_(displacement),
+        found_at_(found_at),
+        law_of_cut_(law_of_cut),
+        tracker_(reach, 0, 4 * reach) {}
+
+  /// @param then, now  in the reference configuration so far, and at present
+  void add_body(const Pose<Dim>& then, const Pose<Dim>& now, bool is_movable, bool is_block) {
+    then_.push_back(then);
+    MovingBody<Dim> body;
+    body.pose = now;
+    body.mass = is_movable ? 1 : 0;
+    bodies_.push_back(body);
+    is_block_.push_back(is_block);
+  }
+  /// A convex part of a body in the in-situ state. @pre it outlives this
+  /// @param centre  of the body then [m]
+  void add_part(int body, const Shape& part, const Vec<Dim>& centre);
+
+  [[nodiscard]] const Pose<Dim>& now(int b) const { return bodies_[index(b)].pose; }
+  [[nodiscard]] const Pose<Dim>& then(int b) const { return then_[index(b)]; }
+  /// How a body has turned since contacts were found.
+  [[nodiscard]] Rotation<Dim> turn_of(int b) const {
+    return now(b).rotation * transposed(then(b).rotation);
+  }
+
+  /// Replaces the contacts of all bodies. Those with a lining are not looked for again: they turn
+  /// with the rock.
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped  with contacts that are of no more use
+  void run(Contacts& joints, Contacts& boundary, Contacts& interface, const Progress& progress);
+
+ private:
+  using Contact = MovingContact<Dim>;
+  using Point = MovingContactPoint<Dim, FormerPoint>;
+  using Pair = typename Tracker::Pair;
+  static constexpr double gaping = 0.01;  ///< of two bodies against each other [rad], about
+
+  /// Contacts with their points fixed in bodies that may move by any amount.
+  struct Springs {
+    bool has_many_laws;
+    std::vector<Contact> contacts;
+    std::vector<Point> points;
+    std::vector<std::pair<int, int>> bodies;  ///< the lower first
+    std::vector<int> order;                   ///< of contacts, by their bodies
+  };
+
+  template <class Number>
+  [[nodiscard]] static std::size_t index(Number i) {
+    return static_cast<std::size_t>(i);
+  }
+
+  [[nodiscard]] Springs as_moving(const Contacts& group) const;
+  /// The contact of these bodies that is nearest to a place, its normal turned by less than 60
+  /// degrees; or null.
+  [[nodiscard]] const Contact* nearest(const Springs& group, int a, int b, const Vec<Dim>& normal,
+                                       const Vec<Dim>& place) const;
+  void renew(const Springs& group, const Pair& pair, const voussoir::Contact<Dim>& found,
+             Contacts& to) const;
+  /// Of a contact that is new: the law of the face that is touched.
+  [[nodiscard]] int law_of(std::size_t owner, int a, const Vec<Dim>& normal) const;
+  /// Adds the contact where it is now, for small displacements from there.
+  void add(const Contact& c, std::span<const Point> points, Contacts& to) const;
+
+  const Eigen::VectorXd &displacement_, &found_at_;
+  const std::vector<int>* law_of_cut_;
+  Tracker tracker_;
+  std::vector<MovingBody<Dim>> bodies_;  ///< where they are
+  std::vector<Pose<Dim>> then_;          ///< when contacts were found
+  std::vector<bool> is_block_;
+  std::vector<const Shape*> parts_;  ///< in the order of the tracker's shapes
+};
+
+template <int Dim>
+void ContactUpdate<Dim>::add_part(int body, const Shape& part, const Vec<Dim>& centre) {
+  double& radius = bodies_[index(body)].radius;
+  for (const Vec<Dim>& v : part.vertices()) radius = std::max(radius, (v - centre).norm());
+  tracker_.add(part, centre, body, diagonal_of<Dim>(1), body);
+  parts_.push_back(&part);
+}
+
+template <int Dim>
+void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& interface,
+                             const Progress& progress) {
+  StopCheck stop(progress);
+  const Springs of_joints = as_moving(joints), of_boundary = as_moving(boundary),
+                of_interface = as_moving(interface);
+  for (Contacts* group : {&joints, &boundary, &interface}) {
+    group->contacts.clear();
+    group->points.clear();
+    group->former.clear();
+  }
+  tracker_.update(
+      bodies_,
+      [&](const Pair& pair, const voussoir::Contact<Dim>& found) {
+        stop();
+        const bool of_blocks = is_block_[index(tracker_.body_of(pair.a))] &&
+                               is_block_[index(tracker_.body_of(pair.b))];
+        renew(of_blocks ? of_joints : of_boundary, pair, found, of_blocks ? joints : boundary);
+      },
+      [](const Pair&) {});
+  for (const Contact& c : of_interface.contacts)
+    add(c, {of_interface.points.data() + c.first, index(c.last - c.first)}, interface);
+}
+
+template <int Dim>
+auto ContactUpdate<Dim>::as_moving(const Contacts& group) const -> Springs {
+  Springs moving{group.has_many_laws, {}, {}, {}, {}};
+  for (const ReferenceContact<Dim>& c : group.contacts) {
+    const Pose<Dim>&a = then(c.a), &b = then(c.b);
+    Contact contact;
+    contact.frame = transposed(a.rotation) * contact_frame<Dim>(c.normal, c.tangents);
+    contact.a = c.a;
+    contact.b = c.b;
+    contact.first = c.first;
+    contact.last = c.last;
+    contact.law = c.law;
+    const auto at = contact.place(a, b);
+    for (int k = c.first; k < c.last; ++k) {
+      const ReferencePoint<Dim>& p = group.points[index(k)];
+      Point point{};
+      point.place = transposed_product(b.rotation, Vec<Dim>(c.arm_b + c.offset_of(p)));
+      point.weight = p.weight;
+      point.initial = p.initial;
+      point.state.number = k;
+      point.zero = zeros<Vec<Dim>>();
+      const PointMotion<Dim> raw = point.motion(at);
+      Vec<Dim> motion = p.start;
+      if (found_at_.size() > 0) motion += c.linear_motion(p, found_at_.data());
+      point.zero = stacked(raw.opening - motion[0], raw.slip - part<Dim - 1>(motion, 1));
+      moving.points.push_back(point);
+    }
+    moving.contacts.push_back(contact);
+    moving.bodies.emplace_back(std::minmax(c.a, c.b));
+  }
+  moving.order = order_of_pairs(moving.bodies, static_cast<int>(bodies_.size()));
+  return moving;
+}
+
+template <int Dim>
+auto ContactUpdate<Dim>::nearest(const Springs& group, int a, int b, const Vec<Dim>& normal,
+                                 const Vec<Dim>& place) const -> const Contact* {
+  const std::pair<int, int> wanted = std::minmax(a, b);
+  auto it = std::lower_bound(
+      group.order.begin(), group.order.end(), wanted,
+      [&](int x, const std::pair<int, int>& value) { return group.bodies[index(x)] < value; });
+  const Contact* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (; it != group.order.end() && group.bodies[index(*it)] == wanted; ++it) {
+    const Contact& c = group.contacts[index(*it)];
+    const Vec<Dim> was = now(c.a).rotation * column(c.frame, 0);
+    if (std::abs(was.dot(normal)) < 0.5) continue;
+    for (int k = c.first; k < c.last; ++k) {
+      const double distance = (now(c.b)(group.points[index(k)].place) - place).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      best = &c;
+    }
+  }
+  return best;
+}
+
+template <int Dim>
+void ContactUpdate<Dim>::renew(const Springs& group, const Pair& pair,
+                               const voussoir::Contact<Dim>& found, Contacts& to) const {
+  const bool of_a = found.touch != Touch::face_b;
+  const std::size_t owner = of_a ? pair.a : pair.b;
+  const int a = tracker_.body_of(owner), b = tracker_.body_of(of_a ? pair.b : pair.a);
+  Vec<Dim> middle = zeros<Vec<Dim>>();
+  for (const Vec<Dim>& p : found.polygon) middle += p;
+  middle /= static_cast<double>(found.polygon.size());
+  // Where a joint gapes it closes at an edge: only corner points lie there.
+  const Rotation<Dim> turn = transposed(now(a).rotation) * now(b).rotation;
+  const bool gapes = (turn - diagonal_of<Dim>(1)).norm() > gaping;
+  const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
+  const Contact* const old = nearest(group, a, b, found.normal, middle);
+  std::vector<Point> points;
+  Contact contact = ContactRenewal<Dim, FormerPoint>(bodies_, group.points)
+                        .run(found, tracker_.shapes()[owner], a, b, rule, old, points);
+  contact.law = old != nullptr ? old->law
+                : group.has_many_laws
+                    ? law_of(owner, a, of_a ? found.normal : Vec<Dim>(-found.normal))
+                    : 0;
+  if (!points.empty()) add(contact, points, to);
+}
+
+template <int Dim>
+int ContactUpdate<Dim>::law_of(std::size_t owner, int a, const Vec<Dim>& normal) const {
+  if (law_of_cut_ == nullptr) return 0;
+  const int cut = cut_facing(*parts_[owner], Vec<Dim>(transposed(now(a).rotation) * normal));
+  return cut >= 0 && index(cut) < law_of_cut_->size() ? (*law_of_cut_)[index(cut)] : 0;
+}
+
+template <int Dim>
+void ContactUpdate<Dim>::add(const Contact& c, std::span<const Point> points, Contacts& to) const {
+  const Pose<Dim>&a = now(c.a), &b = now(c.b);
+  const Rotation<Dim> frame = a.rotation * c.frame;
+  ReferenceContact<Dim> contact{};
+  contact.normal = column(frame, 0);
+  contact.tangents = frame.template rightCols<Dim - 1>();
+  contact.a = c.a;
+  contact.b = c.b;
+  contact.first = static_cast<int>(to.points.size());
+  contact.last = contact.first + static_cast<int>(points.size());
+  contact.law = c.law;
+  Vec<Dim> middle = zeros<Vec<Dim>>();
+  double whole = 0;
+  for (const Point& p : points) {
+    middle += p.weight * b(p.place);
+    whole += p.weight;
+  }
+  middle /= whole;
+  contact.arm_a = middle - a.position;
+  contact.arm_b = middle - b.position;
+  const auto at = c.place(a, b);
+  for (const Point& p : points) {
+    ReferencePoint<Dim> point{};
+    point.offset = transposed(frame) * (b(p.place) - middle);
+    point.weight = p.weight;
+    point.initial = p.initial;
+    const PointMotion<Dim> motion = p.motion(at);
+    point.start = stacked(motion.opening, motion.slip);
+    point.start -= contact.linear_motion(point, displacement_.data());
+    to.points.push_back(point);
+    to.former.push_back(p.state);
+  }
+  to.contacts.push_back(contact);
+}
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactUpdate<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactUpdate<3>;
+#endif
+
+}  // namespace voussoir::detail

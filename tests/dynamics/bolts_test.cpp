@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Bolts between blocks that move: forces against closed forms f.7, energy, turning of the whole.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/model/moving_bolts.hpp>
+
+#include "support/blocks.hpp"
+
+namespace bolts_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+using voussoir_test::rectangle;
+
+namespace {
+
+using Run = Dynamics<2, CoulombJoint>;
+using Bolts = MovingBolts<2, AxialBolt>;
+const CoulombJoint joint({5e9, 5e8, 35 * degree});
+
+/// A bolt between the centres of two bodies, `initial` long, free of force.
+std::shared_ptr<Bolts> between(const Run& run, int a, int b, const Vec2& initial,
+                               const AxialBolt& law) {
+  auto bolts = std::make_shared<Bolts>(law);
+  Bolts::Spring spring{};
+  spring.a = a;
+  spring.b = b;
+  spring.initial = run.pose(a).rotation.transpose() * initial;
+  spring.axis = spring.initial.normalized();
+  spring.share = 1;
+  bolts->add(spring);
+  return bolts;
+}
+
+}  // namespace
+
+TEST_SUITE("dynamics/bolts") {
+  TEST_CASE("a block hung from a bolt swings up and down with its period, energy kept") {
+    Run run(joint, {.safety = 0.02});
+    const int roof = run.add_fixed_block(rectangle({0, 3}, 1, 1));
+    const int block = run.add_block(rectangle({0, 0}, 1, 1), 2700);
+    const double stiffness = 2e6, mass = 2700;
+    const auto bolts =
+        between(run, roof, block, {0, -3}, AxialBolt({.axial_stiffness = stiffness}));
+    run.add_support(bolts);
+    // Let go: it falls by twice m g / K and comes back after 2 pi sqrt(m / K).
+    const double period = 2 * std::numbers::pi * std::sqrt(mass / stiffness);
+    run.advance(0.5 * period);
+    CHECK(-run.position(block).y() == doctest::Approx(2 * mass * 9.81 / stiffness).epsilon(1e-4));
+    CHECK(bolts->springs()[0].axial == doctest::Approx(2 * mass * 9.81).epsilon(1e-4));
+    CHECK(std::abs(run.energy().relative_imbalance()) < 1e-4);
+    run.advance(0.5 * period);
+    CHECK(std::abs(run.position(block).y()) < 1e-5);
+  }
+
+  TEST_CASE("a run that goes back to its last sound state takes its bolts with it") {
+    Run run(joint, {.gravity = 0, .speed_limit = 10});
+    const int a = run.add_fixed_block(rectangle({0, 0}, 1, 1));
+    const int b = run.add_block(rectangle({2, 0}, 1, 1), 2700);
+    const auto bolts =
+        between(run, a, b, {2, 0}, AxialBolt({.axial_stiffness = 1e8, .rupture_force = 5e4}));
+    run.add_support(bolts);
+    run.advance_steps(1);
+    run.set_velocity(b, {50, 0});
+    CHECK_THROWS_AS(run.advance_steps(200), NumericalFault);
+    CHECK(run.steps() == 0);
+    CHECK(!bolts->springs()[0].broken);
+    CHECK(bolts->springs()[0].axial == 0);
+    CHECK(run.energy().supports == 0);
+  }
+
+  TEST_CASE("its force follows the line between anchors far apart, as the closed form says") {
+    // Pulled across by s: K (sqrt(d^2 + s^2) - d), most of it across only when s is large.
+    const double stiffness = 2e8, d = 0.77;
+    for (const double s : {0.01, 0.1, 0.5}) {
+      Run run(joint, {.gravity = 0});
+      const int a = run.add_fixed_block(rectangle({0, 0}, 0.4, 0.4));
+      const int b = run.add_block(rectangle({s, d}, 0.2, 0.2), 2700);
+      const auto bolts = between(run, a, b, {0, d}, AxialBolt({.axial_stiffness = stiffness}));
+      run.add_support(bolts);
+      CHECK(run.stable_step() < 1);
+      CHECK(bolts->springs()[0].axial ==
+            doctest::Approx(stiffness * (std::sqrt(d * d + s * s) - d)).epsilon(1e-12));
+    }
+  }
+
+  TEST_CASE("turning everything strains no bolt; rupture lets go and keeps the account") {
+    Run run(joint, {.gravity = 0, .safety = 0.05});
+    const int a = run.add_block(rectangle({0, 0}, 1, 1), 2700);
+    const int b = run.add_block(rectangle({2, 0}, 1, 1), 2700);
+    const AxialBolt law({.axial_stiffness = 1e7, .rupture_force = 5e4});
+    const auto bolts = between(run, a, b, {2, 0}, law);
+    run.add_support(bolts);
+    // As one rigid body about the middle, slowly enough for the centrifugal force.
+    const double spin = 2, centrifugal = 2700 * spin * spin * 1;
+    run.set_velocity(a, {0, -spin}, Spin<2>(spin));
+    run.set_velocity(b, {0, spin}, Spin<2>(spin));
+    double largest = 0;
+    for (int k = 0; k < 200; ++k) {
+      run.advance(0.005);
+      largest = std::max(largest, bolts->springs()[0].axial);
+    }
+    CHECK(run.body(a).angle > 1.5);
+    CHECK(largest < 2.2 * centrifugal);  // it swings about the centrifugal force
+    CHECK(!bolts->springs()[0].broken);
+    CHECK(std::abs(run.energy().imbalance()) < 1e-5 * run.kinetic_energy());
+    // Torn apart: the work done on the bolt up to rupture is F^2 / 2K, and stays lost.
+    Run torn(joint, {.gravity = 0, .safety = 0.02});
+    const int c = torn.add_block(rectangle({0, 0}, 1, 1), 2700);
+    const int e = torn.add_block(rectangle({2, 0}, 1, 1), 2700);
+    const auto other = between(torn, c, e, {2, 0}, law);
+    torn.add_support(other);
+    torn.set_velocity(e, {1, 0});
+    torn.advance(0.3);
+    CHECK(other->springs()[0].broken);
+    CHECK(torn.energy().supports == doctest::Approx(5e4 * 5e4 / (2 * 1e7)).epsilon(0.05));
+    CHECK(-torn.energy().kinetic == doctest::Approx(torn.energy().supports).epsilon(0.01));
+  }
+}
+
+}  // namespace bolts_test
