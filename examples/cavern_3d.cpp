@@ -86,9 +86,10 @@ void write_pictures(const Cavern& cavern, const std::vector<SpatialLine>& bars,
   const std::vector<double> pull = largest_bolt_forces(cavern);
   for (std::size_t k = 0; k < bars.size(); ++k)
     view.bolts.push_back({bars[k].start, bars[k].end, pull[k]});
-  for (const auto& frame : system.frames)
-    view.lining.push_back({system.body(frame.i).centre, system.body(frame.j).centre,
-                           frame.end_forces(system.displacement.data())[0]});
+  if (const auto* lining = cavern.lining())
+    for (const auto& member : lining->members())
+      view.lining.push_back({system.body(member.i).centre, system.body(member.j).centre,
+                             member.end_forces(system.displacement.data())[0]});
   grid.add_values("displacement [m]", 3, moved);
   grid.add_values("block", 1, number);
   write_atomically(name + ".svg", draw_tunnel_view(cavern.mass(), view));

@@ -284,8 +284,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   const int node = run.tunnel.first_lining_node();
   if (node >= 0 && !run.tunnel.system().body(node).movable)
     warn("the lining was lost with the rock that held it: nothing touches it any more");
-  const auto& system = run.tunnel.system();
-  if (!system.frames.empty() && system.frames.size() + 1 == lining_forces(run.tunnel).size())
+  const auto* lining = run.tunnel.lining();
+  if (lining != nullptr && !lining->members().empty() &&
+      lining->members().size() + 1 == static_cast<std::size_t>(lining->node_count()))
     warn(
         "the lining is open and its feet stand on nothing: it carries what friction on the rock "
         "gives it, next to no thrust");

@@ -293,7 +293,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
     const double middle = 0.5 * (input.tunnel.crown() + input.tunnel.invert());
     const double depth = tunnel.mass().domain.surface() - middle;
     drawn.reference_thrust = tunnel.in_situ().vertical(depth) * input.tunnel.half_width();
-    drawn.is_ring = system.frames.size() == lining.size();
+    drawn.is_ring = tunnel.lining()->members().size() == lining.size();
     for (std::size_t k = 0; k < lining.size(); ++k) {
       // Across the line through the neighbours: right for corners as for circles.
       const std::size_t n = lining.size();

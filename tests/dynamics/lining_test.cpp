@@ -15,7 +15,7 @@
 #include <voussoir/geometry/slab_behind.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/lining/beams.hpp>
-#include <voussoir/model/moving_lining.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 
 #include "support/blocks.hpp"
@@ -40,7 +40,7 @@ struct Ring {
   static constexpr double radius = 2.5, thickness = 0.1, density = 2400;
   LiningSection section = LiningSection::rectangular(thickness, 30e9);
   Run run;
-  std::shared_ptr<MovingLining<Planar>> lining;
+  std::shared_ptr<LiningMembers<Planar>> lining;
 
   explicit Ring(const DynamicsSettings& settings) : run(joint, settings) {
     section.mass = density * thickness;
@@ -56,7 +56,7 @@ struct Ring {
       members.push_back({first + k, first + next, length, frame_axes<2>(along, Vec2::Zero()),
                          EulerBernoulliBeam::stiffness<3>(section, length)});
     }
-    lining = std::make_shared<MovingLining<Planar>>(members, first, count);
+    lining = std::make_shared<LiningMembers<Planar>>(members, first, count);
     run.add_support(lining);
   }
   [[nodiscard]] static Vec2 place(int k) {
@@ -72,7 +72,7 @@ struct Beam {
   LiningSection section = LiningSection::rectangular(thickness, 30e9);
   Run run;
   int middle;
-  std::shared_ptr<MovingLining<Planar>> lining;
+  std::shared_ptr<LiningMembers<Planar>> lining;
 
   /// @param density  small against that of what falls on it, where closed forms leave it out
   Beam(const DynamicsSettings& settings, double density) : run(joint, settings) {
@@ -94,7 +94,7 @@ struct Beam {
     for (int k = 0; k < elements; ++k)
       members.push_back({first + k, first + k + 1, length, Rotation<2>::Identity(),
                          EulerBernoulliBeam::stiffness<3>(section, length)});
-    lining = std::make_shared<MovingLining<Planar>>(members, first, elements + 1);
+    lining = std::make_shared<LiningMembers<Planar>>(members, first, elements + 1);
     run.add_support(lining);
     run.fix(first);
     run.fix(first + elements);

@@ -26,7 +26,7 @@ constexpr double mass = 1000, gravity = 9.81, spring = 1e6;
 constexpr double kn = 2e10, ks = 2e10;
 
 /// A spring along x between two bodies, in tension and compression, at the level of the ground.
-class LevelSpring : public Support<2> {
+class LevelSpring : public SupportModel<LevelSpring, 2> {
  public:
   LevelSpring(int from, int to, double rest) : from_(from), to_(to), rest_(rest) {}
   [[nodiscard]] double extension(const Bodies& bodies) const {
@@ -46,6 +46,12 @@ class LevelSpring : public Support<2> {
     const auto& body = bodies[at(from_)];
     sums[at(from_)] += spring * (1 / body.mass + height * height / body.inertia[0]);
   }
+  // Nothing here is at rest.
+  void remove(const BodyMarks&) override {}
+  void add_forces(const double*, double*, const BodyMarks*) const override {}
+  void add_stiffness(const StiffnessSink&) const override {}
+  void add_tangent(const double*, const BodyMarks*, const StiffnessSink&) const override {}
+  void set_reference(const Poses&, const Poses&, const double*, const double*) override {}
   static constexpr double height = 0.02;  ///< of the centre: low, so that it does not rock
 
  private:

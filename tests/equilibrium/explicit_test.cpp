@@ -15,7 +15,7 @@ using namespace voussoir;
 
 namespace {
 
-using Masses = System<Planar, CoulombJoint, AxialBolt>;
+using Masses = System<Planar, CoulombJoint>;
 
 constexpr double stiffness = 3e6;
 
@@ -24,9 +24,9 @@ Masses two_masses() {
   Masses system(CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units));
   system.add_body({Vec2(0, 0), 1, 1, true});
   system.add_body({Vec2(1, 0), 1, 1, true});
-  system.bolt_laws.push_back(
+  auto bolts = std::make_shared<BoltSet<2, AxialBolt>>(
       AxialBolt({.axial_stiffness = stiffness, .carries_compression = true}));
-  BoltSpring<Planar, AxialBolt> spring{};
+  BoltSpring<2, AxialBolt> spring{};
   spring.a = 0;
   spring.b = 1;
   spring.arm_a = spring.arm_b = Vec2::Zero();
@@ -34,7 +34,8 @@ Masses two_masses() {
   spring.joint_b = {-0.5, 0};
   spring.span = {{1, 0}, {1, 0}, {0, 0}};
   spring.share = 1;
-  system.bolts.push_back(spring);
+  bolts->add(spring);
+  system.supports.add(bolts);
   return system;
 }
 

@@ -27,7 +27,7 @@ using voussoir_test::degree;
 
 namespace {
 
-using Plane = System<Planar, CoulombJoint, AxialBolt>;
+using Plane = System<Planar, CoulombJoint>;
 
 constexpr double kn = 5e9, ks = 5e8, density = 2700, gravity = 9.81;
 
@@ -138,8 +138,9 @@ TEST_SUITE("equilibrium/finite_displacement") {
     system.joints.set_initial([](const auto&, const Vec2&) {
       return Stress<2>{{1e6, 2e5}, {2e5, 1e6}};
     });
-    system.bolt_laws.push_back(AxialBolt({.axial_stiffness = 1e8, .pretension = 3e4}));
-    BoltSpring<Planar, AxialBolt> bolt{};
+    auto bolts = std::make_shared<BoltSet<2, AxialBolt>>(
+        AxialBolt({.axial_stiffness = 1e8, .pretension = 3e4}));
+    BoltSpring<2, AxialBolt> bolt{};
     bolt.a = 0;
     bolt.b = 1;
     bolt.arm_a = {0.1, 0.3};
@@ -148,13 +149,15 @@ TEST_SUITE("equilibrium/finite_displacement") {
     bolt.span.initial = Vec2(0.1, 0.5);
     bolt.joint_a = bolt.joint_b = bolt.span.motion = Vec2::Zero();
     bolt.share = 1;
-    system.bolts.push_back(bolt);
+    bolts->add(bolt);
+    system.supports.add(bolts);
     const auto node = [&](Vec2 at) { return system.add_body({at, 0, 1, true, false}); };
     const int i = node({1.2, -0.5}), j = node({1.3, 0.6});
     const Vec2 along = system.body(j).centre - system.body(i).centre;
-    system.frames.push_back(
-        {i, j, along.norm(), frame_axes<2>(along, Vec2::Zero()),
-         EulerBernoulliBeam::stiffness<3>(LiningSection::rectangular(0.1, 25e9), along.norm())});
+    const FrameElement<Planar> member{
+        i, j, along.norm(), frame_axes<2>(along, Vec2::Zero()),
+        EulerBernoulliBeam::stiffness<3>(LiningSection::rectangular(0.1, 25e9), along.norm())};
+    system.supports.add(std::make_shared<LiningMembers<Planar>>(std::vector{member}, i, 2));
     Eigen::VectorXd& u = system.displacement;
     // A strain besides, so that bolt and frame have forces: 1 mm of the upper block and node.
     u.segment<3>(3) = Vec<3>(2e-4, 1e-3, 1e-4);

@@ -26,8 +26,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-template <class Bolt>
-using PlaneSystem = System<Planar, CoulombJoint, Bolt>;
+using PlaneSystem = System<Planar, CoulombJoint>;
 
 Stress<2> turn_by(double angle) {
   Stress<2> turn;
@@ -46,6 +45,8 @@ Stress<2> turn_by(double angle) {
 /// Everything is under 1 MPa all round, and turned by `angle`.
 template <class Bolt>
 struct Wall {
+  using Bolts = BoltSet<2, Bolt>;
+
   explicit Wall(const Bolt& bolt, double friction = 80 * degree, double angle = 0,
                 bool isolated = false)
       : turn(turn_by(angle)),
@@ -76,19 +77,21 @@ struct Wall {
     system.boundary.set_initial(pressure);
     system.interface.set_initial(pressure);
     const Vec2 a = system.body(4).centre, b = system.body(5).centre;
-    system.frames.push_back(
-        {4, 5, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
-         EulerBernoulliBeam::stiffness<3>(LiningSection::rectangular(0.1, 25e9), (b - a).norm())});
-    system.bolt_laws.push_back(bolt);
-    bolt_between(0, 1, -0.5);
-    bolt_between(1, 2, 0.5);
+    const FrameElement<Planar> member{
+        4, 5, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
+        EulerBernoulliBeam::stiffness<3>(LiningSection::rectangular(0.1, 25e9), (b - a).norm())};
+    system.supports.add(std::make_shared<LiningMembers<Planar>>(std::vector{member}, 4, 2));
+    auto through = std::make_shared<Bolts>(bolt);
+    through->add(bolt_between(0, 1, -0.5));
+    through->add(bolt_between(1, 2, 0.5));
+    system.supports.add(through);
   }
 
   /// A bolt that crosses the joint at x under 20 degrees, gripping 0.2 m on either side of it.
-  void bolt_between(int a, int b, double x) {
+  [[nodiscard]] typename Bolts::Spring bolt_between(int a, int b, double x) const {
     const Vec2 axis = turn * Vec2(std::cos(20 * degree), std::sin(20 * degree));
     const Vec2 at = turn * Vec2(x, 0.1);
-    BoltSpring<Planar, Bolt> spring{};
+    typename Bolts::Spring spring{};
     spring.a = a;
     spring.b = b;
     spring.arm_a = at - 0.2 * axis - system.body(a).centre;
@@ -97,7 +100,20 @@ struct Wall {
     spring.joint_b = at - system.body(b).centre;
     spring.span = {0.4 * axis, axis, Vec2::Zero()};
     spring.share = 1 / 1.25;
-    system.bolts.push_back(spring);
+    return spring;
+  }
+
+  [[nodiscard]] const std::vector<typename Bolts::Spring>& springs() const {
+    return system.supports.template first<Bolts>()->springs();
+  }
+  /// With other bolts, all of the same law, in place of those there are.
+  void replace_bolts(const Bolt& law, const std::vector<typename Bolts::Spring>& springs) {
+    SupportSet<2> others;
+    others.add(system.supports.template first<LiningMembers<Planar>>()->copy());
+    auto bolts = std::make_shared<Bolts>(law);
+    for (const auto& spring : springs) bolts->add(spring);
+    others.add(bolts);
+    system.supports = others;
   }
 
   /// A displacement of this size that is as good as random, the same for every angle but turned.
@@ -116,7 +132,7 @@ struct Wall {
   }
 
   Stress<2> turn;
-  PlaneSystem<Bolt> system;
+  PlaneSystem system;
 };
 
 AxialBolt bar() { return AxialBolt({.axial_stiffness = 2e8, .carries_compression = true}); }
@@ -127,7 +143,8 @@ std::vector<double> history(const SystemType& system) {
   std::vector<double> slips;
   for (const auto& p : system.joints.points()) slips.push_back(p.state.plastic_slip[0]);
   for (const auto& p : system.interface.points()) slips.push_back(p.state.plastic_slip[0]);
-  for (const auto& b : system.bolts) slips.push_back(b.state.plastic_extension);
+  for (const auto& b : system.supports.template first<BoltSet<2, AxialBolt>>()->springs())
+    slips.push_back(b.state.plastic_extension);
   return slips;
 }
 
@@ -197,7 +214,7 @@ TEST_SUITE("model/system") {
 
   TEST_CASE("contacts and lining balance in moment at the reference positions") {
     Wall wall(bar(), 30 * degree, 0.3, true);
-    wall.system.bolts.clear();
+    wall.replace_bolts(bar(), {});
     for (const double size : {1e-6, 1e-4, 1e-3}) {
       Eigen::VectorXd f;
       wall.system.forces(wall.motion(size), f);
@@ -209,11 +226,9 @@ TEST_SUITE("model/system") {
     // It pulls along the line of the displaced anchors, so blocks shifted without turning must be
     // taken at their shifted centres; at the reference positions F times the shear would be left.
     Wall wall(bar(), 30 * degree, 0, true);
-    PlaneSystem<AxialBolt> bare(CoulombJoint({1, 1, 0}, any_units), 1,
-                                CoulombJoint({1, 1, 0}, any_units));
+    PlaneSystem bare(CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units));
     for (int b = 0; b < 3; ++b) bare.add_body(wall.system.body(b));
-    bare.bolt_laws = wall.system.bolt_laws;
-    bare.bolts = wall.system.bolts;
+    bare.supports.add(wall.system.supports.first<BoltSet<2, AxialBolt>>()->copy());
     Eigen::VectorXd u = Eigen::VectorXd::Zero(9), f;
     u.segment<2>(3) = Vec2(2e-3, -1e-3);
     u.segment<2>(6) = Vec2(5e-3, 3e-3);
@@ -254,7 +269,7 @@ TEST_SUITE("model/system") {
             {.axial = {.axial_stiffness = 2e8, .carries_compression = true}, .shear_stiffness = 0}),
         80 * degree, 0, true);
     const Eigen::VectorXd felt = (k - dense(without.system.elastic_stiffness())) * shear;
-    const Vec2 bar_axis = wall.system.bolts[1].span.axis;
+    const Vec2 bar_axis = wall.springs()[1].span.axis;
     const Vec2 across = Vec2(0, 1e-5) - bar_axis * bar_axis.y() * 1e-5;
     CHECK((felt.segment<2>(3 * 2) - 3e8 / 1.25 * across).norm() <= 1e-9 * felt.norm());
   }
@@ -321,12 +336,11 @@ TEST_SUITE("model/system") {
 
   TEST_CASE("three springs in series pull with a third of K_a") {
     const double stiffness = 0.2e9, load = 1e5;
-    PlaneSystem<AxialBolt> chain(CoulombJoint({1, 1, 0}, any_units), 1,
-                                 CoulombJoint({1, 1, 0}, any_units));
+    PlaneSystem chain(CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units));
     for (int b = 0; b < 4; ++b) chain.add_body({Vec2(0.5 * b, 0), 1, 1, b > 0});
-    chain.bolt_laws.push_back(AxialBolt({.axial_stiffness = stiffness}));
+    auto bolts = std::make_shared<BoltSet<2, AxialBolt>>(AxialBolt({.axial_stiffness = stiffness}));
     for (int b = 0; b < 3; ++b) {
-      BoltSpring<Planar, AxialBolt> spring{};
+      BoltSpring<2, AxialBolt> spring{};
       spring.a = b;
       spring.b = b + 1;
       spring.arm_a = {0.2, 0};
@@ -335,8 +349,9 @@ TEST_SUITE("model/system") {
       spring.joint_b = {-0.25, 0};
       spring.span = {{0.1, 0}, {1, 0}, {0, 0}};
       spring.share = 1;
-      chain.bolts.push_back(spring);
+      bolts->add(spring);
     }
+    chain.supports.add(bolts);
     const Eigen::MatrixXd k = dense(chain.elastic_stiffness());
     Eigen::Matrix3d along;  // the bolts resist nothing but motion along them
     for (int i = 0; i < 3; ++i)
@@ -353,9 +368,11 @@ TEST_SUITE("model/system") {
 
   TEST_CASE("a bolt spaced further apart acts less per metre, in proportion") {
     Wall wall(bar()), sparse(bar());
-    for (auto& b : sparse.system.bolts) b.share = 0.5 * wall.system.bolts.front().share;
+    auto halved = sparse.springs();
+    for (auto& b : halved) b.share = 0.5 * wall.springs().front().share;
+    sparse.replace_bolts(bar(), halved);
     Wall none(bar());
-    none.system.bolts.clear();
+    none.replace_bolts(bar(), {});
     const Eigen::VectorXd u = wall.motion(1e-3);
     Eigen::VectorXd f, half, zero;
     wall.system.forces(u, f);
@@ -413,7 +430,7 @@ TEST_SUITE("model/system") {
     CHECK(wall.system.joints.points().size() == 2);
     CHECK(wall.system.boundary.contacts().size() == 1);
     CHECK(wall.system.interface.contacts().size() == 1);
-    CHECK(wall.system.bolts.size() == 1);
+    CHECK(wall.springs().size() == 1);
     CHECK(wall.system.unsupported().empty());  // B stands on the base; the node hangs on the frame
     wall.system.remove({0});
     CHECK(wall.system.movable_bodies() == std::vector<int>{1, 4, 5});
@@ -436,9 +453,10 @@ TEST_SUITE("model/system") {
     CHECK(system.unsupported() == std::vector<int>{one, other});
     system.remove({1, 2});  // the blocks under the lining: its two nodes hang on each other
     CHECK(system.unsupported() == std::vector<int>{4, 5, one, other});
-    CHECK(system.frames.size() == 1);
+    const auto& members = system.supports.first<LiningMembers<Planar>>()->members();
+    CHECK(members.size() == 1);
     system.remove({4});
-    CHECK(system.frames.empty());
+    CHECK(members.empty());
   }
 
   TEST_CASE("a broken bolt has no stiffness") {
@@ -447,14 +465,13 @@ TEST_SUITE("model/system") {
     wall.system.displacement[3 * 2] = 3e-3;  // C away from B: the second bolt breaks
     REQUIRE(wall.system.commit() == 1);
     const Eigen::MatrixXd rest = dense(wall.system.elastic_stiffness());
-    wall.system.bolts.pop_back();
+    wall.replace_bolts(bar(), {wall.springs().front()});
     CHECK(rest == dense(wall.system.elastic_stiffness()));
     CHECK((whole - rest).norm() > 1e7);
   }
 
   TEST_CASE("how far lining nodes move is not how far the rock moves") {
-    PlaneSystem<AxialBolt> system(CoulombJoint({1, 1, 0}, any_units), 1,
-                                  CoulombJoint({1, 1, 0}, any_units));
+    PlaneSystem system(CoulombJoint({1, 1, 0}, any_units), 1, CoulombJoint({1, 1, 0}, any_units));
     const int block = system.add_body({Vec2(0, 0), 1e4, 0.3, true});
     const int node = system.add_body({Vec2(1, 0), 0, 0.3, true, false});
     Eigen::VectorXd u = Eigen::VectorXd::Zero(6);

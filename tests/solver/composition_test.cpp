@@ -114,11 +114,11 @@ TEST_SUITE("solver/composition") {
     near.excavate(opening);
     midway.excavate(opening);
     CHECK(near.install_bolt(bar, bolt) == midway.install_bolt(bar, bolt));
-    REQUIRE(near.system().bolts.size() > 2);
-    for (const auto& spring : near.system().bolts)
+    REQUIRE(near.bolts()->springs().size() > 2);
+    for (const auto& spring : near.bolts()->springs())
       CHECK(spring.span.initial.norm() <= 0.0672 + 1e-12);  // twice 1.2 diameters of 28 mm
     // Anchors midway in the blocks: between two joints lies one block, and an anchor in its middle.
-    const auto& springs = midway.system().bolts;
+    const auto& springs = midway.bolts()->springs();
     for (std::size_t k = 1; k < springs.size(); ++k) {
       const Vec2 before = midway.system().body(springs[k - 1].b).centre + springs[k - 1].arm_b;
       const Vec2 after = midway.system().body(springs[k].a).centre + springs[k].arm_a;

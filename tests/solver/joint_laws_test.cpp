@@ -53,9 +53,9 @@ Lined lined() {
   const auto report = tunnel.equilibrium();
   CHECK(report.verdict == Verdict::stable);
   double sum = 0;
-  for (const auto& frame : tunnel.system().frames)
+  for (const auto& frame : tunnel.lining()->members())
     sum += frame.end_forces(tunnel.system().displacement.data())[0];
-  return {crown(tunnel), sum / static_cast<double>(tunnel.system().frames.size())};
+  return {crown(tunnel), sum / static_cast<double>(tunnel.lining()->members().size())};
 }
 
 }  // namespace

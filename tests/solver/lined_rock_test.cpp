@@ -140,7 +140,7 @@ TEST_SUITE("solver/lined_rock") {
     const auto frame = lining_frame(still.mass(), ribs);
     still.install_lining(frame, sections, interface_law);
     REQUIRE(still.equilibrium().verdict == Verdict::stable);
-    const double at_rest = mean_thrust(still.system().frames, 40, [&](const auto& member) {
+    const double at_rest = mean_thrust(still.lining()->members(), 40, [&](const auto& member) {
       return member.end_forces(still.system().displacement.data());
     });
     auto run = moving_rock(still.mass(), joint, deep,

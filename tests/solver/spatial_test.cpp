@@ -199,7 +199,7 @@ TEST_SUITE("solver/spatial") {
     for (const SpatialLine& bar :
          bolt_bars({.length = 3, .angular_spacing = 20 * degree}, opening, 1, 0, 6))
       crossings += bolted.install_bolt(bar, AxialBolt({.axial_stiffness = 2e8}));
-    CHECK(crossings == static_cast<int>(bolted.system().bolts.size()));
+    CHECK(crossings == static_cast<int>(bolted.bolts()->springs().size()));
     CHECK(crossings > 60);
     const auto moved = [](Cavern& cavern) {
       const auto report = cavern.equilibrium();

@@ -27,23 +27,26 @@ constexpr double half = pi / count;  // half the angle of a chord
 
 /// A ring of frame elements alone, in the place of a solver: what the measurements ask of one.
 struct RingAlone {
-  using SystemType = System<Planar, CoulombJoint, AxialBolt>;
+  using SystemType = System<Planar, CoulombJoint>;
 
   explicit RingAlone(const LiningSection& given) : section(given) {
     for (int k = 0; k < count; ++k) bodies.add_body({position(k), 0, 1, true});
+    std::vector<FrameElement<Planar>> members;
     for (int k = 0; k < count; ++k) {
       const Vec2 a = position(k), b = position(k + 1);
-      bodies.frames.push_back({k, (k + 1) % count, (b - a).norm(),
-                               frame_axes<2>(b - a, Vec2::Zero()),
-                               EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
+      members.push_back({k, (k + 1) % count, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
+                         EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
     }
+    bodies.supports.add(std::make_shared<LiningMembers<Planar>>(members, 0, count));
   }
   [[nodiscard]] static double angle(int k) { return 2 * pi * k / count; }
   [[nodiscard]] static Vec2 position(int k) {
     return radius * Vec2(std::cos(angle(k)), std::sin(angle(k)));
   }
   [[nodiscard]] const SystemType& system() const { return bodies; }
-  [[nodiscard]] int first_lining_node() const { return 0; }
+  [[nodiscard]] const LiningMembers<Planar>* lining() const {
+    return bodies.supports.first<LiningMembers<Planar>>();
+  }
   [[nodiscard]] Vec2 displacement_of(int body, const Vec2& point) const {
     return displacement_at<2>(bodies.displacement.data() + 3 * body,
                               Vec2(point - bodies.body(body).centre));
@@ -53,7 +56,7 @@ struct RingAlone {
   template <class Load>
   void load_radially(Load&& outward) {
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * count, 3 * count);
-    for (const auto& e : bodies.frames)
+    for (const auto& e : lining()->members())
       e.add_stiffness([&](int i, int j, const auto& ii, const auto& ij, const auto& jj) {
         k.block<3, 3>(3 * i, 3 * i) += ii;
         k.block<3, 3>(3 * j, 3 * j) += jj;
@@ -134,22 +137,23 @@ TEST_SUITE("tunnel/measurements") {
     //   P = K_L l (u0 - u),  N = P / (2 sin(pi/n)),  u = N R cos(pi/n) / (E A)
     const double modulus = 1e9, came_in = 2e-3;
     const LiningSection section = shotcrete();
-    System<Planar, CoulombJoint, AxialBolt> system(CoulombJoint({1, 1, 0}, any_units), 1,
-                                                   CoulombJoint({modulus, modulus, 30 * degree}));
+    System<Planar, CoulombJoint> system(CoulombJoint({1, 1, 0}, any_units), 1,
+                                        CoulombJoint({modulus, modulus, 30 * degree}));
     const auto vertex = [](int k) { return RingAlone::position(k); };
     for (int k = 0; k < count; ++k)
       system.add_body({0.5 * (vertex(k) + vertex(k + 1)), 0, 1, true});
     for (int k = 0; k < count; ++k) system.add_body({1.2 * system.body(k).centre, 0, 1, false});
+    std::vector<FrameElement<Planar>> members;
     for (int k = 0; k < count; ++k) {
       const Vec2 a = system.body(k).centre, b = system.body((k + 1) % count).centre;
-      system.frames.push_back({k, (k + 1) % count, (b - a).norm(),
-                               frame_axes<2>(b - a, Vec2::Zero()),
-                               EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
+      members.push_back({k, (k + 1) % count, (b - a).norm(), frame_axes<2>(b - a, Vec2::Zero()),
+                         EulerBernoulliBeam::stiffness<3>(section, (b - a).norm())});
       const Segment facet{vertex(k), vertex(k + 1)};
       const FacetPoint<2> point{Vec2::Zero(), facet.length()};
       system.interface.add(k, count + k, facet, a, system.body(count + k).centre, {&point, 1});
       system.displacement.segment<2>(3 * (count + k)) = -came_in * a.normalized();
     }
+    system.supports.add(std::make_shared<LiningMembers<Planar>>(members, 0, count));
     Eigen::VectorXd f;
     system.forces(system.displacement, f);
     BlockCholesky<3>(system.elastic_stiffness()).solve_in_place(f);
@@ -160,7 +164,7 @@ TEST_SUITE("tunnel/measurements") {
     const double thrust_per_force = 1 / (2 * std::sin(half));
     const double give = thrust_per_force * radius * std::cos(half) / section.axial_stiffness;
     const double force = stiffness * came_in / (1 + stiffness * give);
-    for (const auto& frame : system.frames) {
+    for (const auto& frame : members) {
       const auto ends = frame.end_forces(system.displacement.data());
       CHECK(std::abs(ends[0] - thrust_per_force * force) <= 1e-9 * thrust_per_force * force);
       CHECK(std::abs(ends[2]) <= 1e-8 * force);

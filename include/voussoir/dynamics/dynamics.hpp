@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -190,7 +189,7 @@ class Dynamics : public MovingBodies<Dim> {
     Network network;
     ContactTracker<Dim> tracker;
     EnergyBalance audit;
-    std::function<void()> supports;  ///< restores their histories
+    SupportSet<Dim> supports;
     double kinetic_given, time;
     std::int64_t steps;
   };
@@ -361,8 +360,8 @@ void Dynamics<Dim, JointLaw>::check() {
   audit_.highest_kinetic =
       std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
   if (fault.empty()) {
-    sound_.emplace(Sound{bodies_, network_, *tracker_, audit_, supports_.keep(), kinetic_given_,
-                         time_, steps_});
+    sound_.emplace(
+        Sound{bodies_, network_, *tracker_, audit_, supports_, kinetic_given_, time_, steps_});
     return;
   }
   const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
@@ -371,7 +370,7 @@ void Dynamics<Dim, JointLaw>::check() {
   network_ = sound_->network;
   tracker_ = sound_->tracker;
   audit_ = sound_->audit;
-  sound_->supports();
+  supports_.restore(sound_->supports);
   kinetic_given_ = sound_->kinetic_given;
   time_ = sound_->time;
   steps_ = checked_ = sound_->steps;

@@ -10,8 +10,8 @@
 #include <voussoir/geometry/slab_behind.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
-#include <voussoir/model/moving_bolts.hpp>
-#include <voussoir/model/moving_lining.hpp>
+#include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/edge_slabs.hpp>
 #include <voussoir/rockmass/in_situ.hpp>
@@ -63,13 +63,13 @@ template <class Geometry, class JointLaw>
 /// @return  the bolts, which the run holds too: forces are read there
 /// @throws InvalidInput  spacing out of range, or a bar without length
 template <class Geometry, class JointLaw, class BoltLaw, class Anchors>
-std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
+std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
     Dynamics<Geometry::dim, JointLaw>& run, const RockMass<Geometry>& mass,
     const std::vector<typename Geometry::Line>& bars, const BoltLaw& law, double spacing,
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
   require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
-  auto bolts = std::make_shared<MovingBolts<dim, BoltLaw>>(law);
+  auto bolts = std::make_shared<BoltSet<dim, BoltLaw>>(law);
   int number = 0;
   for (const auto& bar : bars) {
     require(bar.length() > 0 && std::isfinite(bar.length()), "bolt length", bar.length(), "> 0 m");
@@ -80,20 +80,21 @@ std::shared_ptr<MovingBolts<Geometry::dim, BoltLaw>> add_bolts(
       const auto in = [](const Pose<dim>& pose, const Vec<dim>& p) {
         return transposed(pose.rotation) * (p - pose.position);
       };
-      typename MovingBolts<dim, BoltLaw>::Spring spring{};
+      typename BoltSet<dim, BoltLaw>::Spring spring{};
       spring.a = at.a;
       spring.b = at.b;
       spring.bolt = number;
       spring.position = at.position;
-      spring.anchor_a = in(a, at.joint_a - at.before * axis);
-      spring.anchor_b = in(b, at.joint_b + at.after * axis);
+      spring.arm_a = in(a, at.joint_a - at.before * axis);
+      spring.arm_b = in(b, at.joint_b + at.after * axis);
       spring.joint_a = in(a, at.joint_a);
       spring.joint_b = in(b, at.joint_b);
-      spring.initial = transposed(a.rotation) * at.initial;
+      spring.span.initial = transposed(a.rotation) * at.initial;
       if (run.steps() > 0)
-        spring.initial = transposed(run.pose(at.a).rotation) *
-                         (run.pose(at.b)(spring.anchor_b) - run.pose(at.a)(spring.anchor_a));
-      spring.axis = transposed(a.rotation) * axis;
+        spring.span.initial = transposed(run.pose(at.a).rotation) *
+                              (run.pose(at.b)(spring.arm_b) - run.pose(at.a)(spring.arm_a));
+      spring.span.axis = transposed(a.rotation) * axis;
+      spring.span.motion = zeros<Vec<dim>>();
       spring.share = dim == 2 ? 1 / spacing : 1;
       bolts->add(spring);
     }
@@ -175,11 +176,11 @@ class LiningTiles {
 /// @throws InvalidInput  there is one already; a thickness or mass out of range; a member without
 ///                       length or section; no rock at the wall
 template <class Lining, class Geometry, class JointLaw>
-std::shared_ptr<MovingLining<Geometry>> add_lining(Dynamics<Geometry::dim, JointLaw>& run,
-                                                   const LiningFrame<Geometry>& frame,
-                                                   const std::vector<LiningSection>& sections,
-                                                   const CoulombJoint& interface_law,
-                                                   double thickness) {
+std::shared_ptr<LiningMembers<Geometry>> add_lining(Dynamics<Geometry::dim, JointLaw>& run,
+                                                    const LiningFrame<Geometry>& frame,
+                                                    const std::vector<LiningSection>& sections,
+                                                    const CoulombJoint& interface_law,
+                                                    double thickness) {
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");
@@ -213,8 +214,8 @@ std::shared_ptr<MovingLining<Geometry>> add_lining(Dynamics<Geometry::dim, Joint
                        frame_axes<dim>(along, member.outward), stiffness});
   }
   run.add_lining_nodes(nodes, interface_law);
-  auto lining = std::make_shared<MovingLining<Geometry>>(std::move(members), first,
-                                                         static_cast<int>(nodes.size()));
+  auto lining = std::make_shared<LiningMembers<Geometry>>(std::move(members), first,
+                                                          static_cast<int>(nodes.size()));
   run.add_support(lining);
   return lining;
 }

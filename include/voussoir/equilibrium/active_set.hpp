@@ -47,10 +47,6 @@ class ActiveSet {
     collect(system.joints.contacts(), joints_);
     collect(system.boundary.contacts(), boundary_);
     collect(system.interface.contacts(), interface_);
-    for (std::size_t k = 0; k < system.bolts.size(); ++k)
-      if (active(system.bolts[k].a) || active(system.bolts[k].b)) bolts_.push_back(k);
-    for (std::size_t k = 0; k < system.frames.size(); ++k)
-      if (active(system.frames[k].i) || active(system.frames[k].j)) frames_.push_back(k);
   }
 
   [[nodiscard]] const std::vector<int>& bodies() const { return bodies_; }
@@ -66,13 +62,7 @@ class ActiveSet {
     system_->joints.template add_forces<History>(joints_, u.data(), f.data());
     system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
     system_->interface.template add_forces<History>(interface_, u.data(), f.data());
-    for (const std::size_t k : bolts_) {
-      auto& bolt = system_->bolts[k];
-      const auto& law = system_->bolt_laws[static_cast<std::size_t>(bolt.law)];
-      if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
-      bolt.add_force(law, u.data(), f.data());
-    }
-    for (const std::size_t k : frames_) system_->frames[k].add_force(u.data(), f.data());
+    system_->template add_support_forces<History>(u.data(), f.data(), &active_);
   }
 
   /// Largest out-of-balance force ratio of an active body.
@@ -138,15 +128,7 @@ class ActiveSet {
     system_->joints.add_tangent(joints_, u.data(), sink);
     system_->boundary.add_tangent(boundary_, u.data(), sink);
     system_->interface.add_tangent(interface_, u.data(), sink);
-    for (const std::size_t k : bolts_) {
-      const auto& bolt = system_->bolts[k];
-      bolt.add_tangent(system_->bolt_laws[static_cast<std::size_t>(bolt.law)], u.data(), sink);
-    }
-    for (const std::size_t k : frames_)
-      system_->frames[k].add_stiffness(
-          [&](int a, int b, const Block& aa, const Block& ab, const Block& bb) {
-            sink(a, b, aa, ab, transposed(ab), bb);
-          });
+    for (const auto& support : system_->supports) support->add_tangent(u.data(), &active_, sink);
     for (const int number : order_of_pairs(places, static_cast<int>(bodies_.size()))) {
       const auto k = static_cast<std::size_t>(number);
       const std::pair<int, int> pair(places[k].second, places[k].first);
@@ -167,17 +149,18 @@ class ActiveSet {
   }
 
  private:
-  [[nodiscard]] bool active(int b) const { return active_[static_cast<std::size_t>(b)] != 0; }
+  [[nodiscard]] bool active(int b) const { return is_marked(active_, b); }
 
   void grow() {
-    std::vector<char> wider = active_;
+    BodyMarks wider = active_;
     const auto spread = [&](int a, int b) {
       if (active(a)) wider[static_cast<std::size_t>(b)] = 1;
       if (active(b)) wider[static_cast<std::size_t>(a)] = 1;
     };
     for (const auto& c : system_->joints.contacts()) spread(c.a, c.b);
     for (const auto& c : system_->interface.contacts()) spread(c.a, c.b);
-    for (const auto& e : system_->frames) spread(e.i, e.j);
+    for (const auto& support : system_->supports)
+      for (const auto& [a, b] : support->links()) spread(a, b);
     active_ = std::move(wider);
   }
 
@@ -189,10 +172,9 @@ class ActiveSet {
 
   System* system_;
   double lightest_ = 0;
-  std::vector<char> active_;
+  BodyMarks active_;
   std::vector<int> number_;  ///< among the active bodies, -1: fixed
   std::vector<int> bodies_, joints_, boundary_, interface_;
-  std::vector<std::size_t> bolts_, frames_;
 };
 
 }  // namespace voussoir

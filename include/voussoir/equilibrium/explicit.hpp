@@ -87,7 +87,7 @@ EquilibriumReport Explicit::find(System& system, const SearchContext& context) c
   detail::until_stopped(report, [&] { step_on(system, context, report); });
   if (report.verdict == Verdict::undecided && report.reason.empty())
     report.reason = message({"step limit of ", params_.max_steps, " reached"});
-  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  report.broken_bolts = system.supports.broken_count();
   return report;
 }
 

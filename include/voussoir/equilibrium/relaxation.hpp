@@ -84,7 +84,7 @@ void Relaxation::follow(System& system, const SearchContext& context,
   detail::until_stopped(report, [&] { step_on(system, context, report); });
   if (report.verdict == Verdict::undecided && report.reason.empty())
     report.reason = message({"step limit of ", params_.max_steps, " reached"});
-  for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+  report.broken_bolts = system.supports.broken_count();
   report.largest_displacement = system.largest_translation(system.displacement);
 }
 

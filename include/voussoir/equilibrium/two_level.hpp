@@ -88,7 +88,7 @@ class TwoLevel {
     EquilibriumReport report;
     detail::until_stopped(
         report, [&] { search_anew(system, context, give_up_at_a_fall, elastic, report); });
-    for (const auto& bolt : system.bolts) report.broken_bolts += bolt.broken;
+    report.broken_bolts = system.supports.broken_count();
     return report;
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 #include <vector>
-#include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
@@ -38,9 +37,8 @@ template <class Geometry, class JointLaw>
 struct Press {
   static constexpr int dim = Geometry::dim, dof = Geometry::dof;
 
-  // There are neither bolts nor a lining: the laws named for them are never used.
-  System<Geometry, JointLaw, AxialBolt> system;
-  std::vector<double> measures;  ///< of the bodies [m^2], [m^3]
+  System<Geometry, JointLaw> system;  // there are no supports
+  std::vector<double> measures;       ///< of the bodies [m^2], [m^3]
   int platen = -1;
   Vec<dim> outward = zeros<Vec<dim>>();  ///< of the loaded side
   double platen_area = 0, lateral_area = 0, length = 0, wall_stiffness;

@@ -4,92 +4,122 @@
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/small_displacement.hpp>
 
 namespace voussoir {
 
 /// A bolt at one joint: a spring between its anchors in two bodies, and its dowel at the joint.
-template <class Geometry, class Law>
+///
+/// Arms and spans are in the axes of the reference configuration; in a run, those of its body's
+/// frame. The span at installation turns with the first body, so that turning the rock as a whole
+/// does not strain the bolt.
+template <int Dim, class Law>
 struct BoltSpring {
-  static constexpr int dim = Geometry::dim;
-  static constexpr int dof = Geometry::dof;
+  static constexpr int dim = Dim;
+  static constexpr int dof = Dim + spin_count<Dim>;
+  using Block = Fixed<dof, dof>;
 
-  int a, b;                   ///< body towards the head, body towards the tip
-  int bolt;                   ///< number of the bolt
-  double position;            ///< of the joint, from the head [m]
-  Vec<dim> arm_a, arm_b;      ///< from the centres of the bodies to the anchors [m]
-  Vec<dim> joint_a, joint_b;  ///< from there to where the bar crosses the joint [m]
-  BoltSpan<dim> span;         ///< at installation; `motion`, `jump`: those then present, negated
-  double share;               ///< 1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
-  int law;                    ///< index into the laws of the system
+  int a = 0, b = 0;     ///< body towards the head, body towards the tip
+  int bolt = 0;         ///< number of the bolt
+  double position = 0;  ///< of the joint, from the head [m]
+  /// From the centres of the bodies to the anchors [m].
+  Vec<Dim> arm_a = zeros<Vec<Dim>>(), arm_b = zeros<Vec<Dim>>();
+  /// From there to where the bar crosses the joint [m].
+  Vec<Dim> joint_a = zeros<Vec<Dim>>(), joint_b = zeros<Vec<Dim>>();
+  /// At installation; `motion`, `jump`: those then present, negated.
+  BoltSpan<Dim> span{zeros<Vec<Dim>>(), zeros<Vec<Dim>>(), zeros<Vec<Dim>>()};
+  double share = 1;  ///< 1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
+  int law = 0;       ///< index into the laws of the set
   typename Law::State state{};
   bool broken = false;  ///< it has no stiffness any more
 
-  [[nodiscard]] BoltSpan<dim> span_at(const double* u) const {
+  /// At small displacements `u`.
+  [[nodiscard]] BoltSpan<Dim> span_at(const double* u) const {
     const double *ua = u + dof * a, *ub = u + dof * b;
-    BoltSpan<dim> now = span;
-    now.motion += displacement_at<dim>(ub, arm_b) - displacement_at<dim>(ua, arm_a);
-    now.jump += displacement_at<dim>(ub, joint_b) - displacement_at<dim>(ua, joint_a);
+    BoltSpan<Dim> now = span;
+    now.motion += displacement_at<Dim>(ub, arm_b) - displacement_at<Dim>(ua, arm_a);
+    now.jump += displacement_at<Dim>(ub, joint_b) - displacement_at<Dim>(ua, joint_a);
+    return now;
+  }
+  /// With the bodies anywhere.
+  [[nodiscard]] BoltSpan<Dim> span_at(const Pose<Dim>& at_a, const Pose<Dim>& at_b) const {
+    BoltSpan<Dim> now;
+    now.initial = at_a.rotation * span.initial;
+    now.axis = at_a.rotation * span.axis;
+    now.motion = at_b(arm_b) - at_a(arm_a) - now.initial + at_a.rotation * span.motion;
+    now.jump = at_b(joint_b) - at_a(joint_a) + at_a.rotation * span.jump;
     return now;
   }
   void add_force(const Law& spring, const double* u, double* f) const {
-    const BoltForce<dim> force = spring.force(span_at(u), state);
-    add_force_at<dim>(f + dof * a, arm_a, share * force.pull);
-    add_force_at<dim>(f + dof * b, arm_b, -share * force.pull);
-    add_force_at<dim>(f + dof * a, joint_a, share * force.dowel);
-    add_force_at<dim>(f + dof * b, joint_b, -share * force.dowel);
+    const BoltForce<Dim> force = spring.force(span_at(u), state);
+    add_force_at<Dim>(f + dof * a, arm_a, share * force.pull);
+    add_force_at<Dim>(f + dof * b, arm_b, -share * force.pull);
+    add_force_at<Dim>(f + dof * a, joint_a, share * force.dowel);
+    add_force_at<Dim>(f + dof * b, joint_b, -share * force.dowel);
   }
 
-  /// @return  true if it breaks now
-  bool commit(const Law& spring, const double* u) {
-    const bool breaks = spring.commit(span_at(u), state);
+  /// Brings its history up to date. @return  true if it breaks now
+  bool commit(const Law& spring, const BoltSpan<Dim>& now) {
+    const bool breaks = spring.commit(now, state);
     broken = broken || breaks;
     return breaks;
   }
 
-  using Block = Fixed<dof, dof>;
-  /// The stiffness at installation, none if broken: sink(a, b, aa, ab, bb).
+  /// The stiffness at installation, none if broken: sink(a, b, aa, ab, ba, bb).
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
     if (broken) return;
-    const Stress<dim> pull = share * spring.stiffness(span),
-                      dowel = derivative(spring, span, {}, &BoltSpan<dim>::jump,
-                                         &BoltForce<dim>::dowel);
-    hand_over(pull, dowel, [&](const Block& aa, const Block& ab, const Block&, const Block& bb) {
-      sink(a, b, aa, ab, bb);
-    });
+    hand_over(share * spring.stiffness(span),
+              derivative(spring, span, {}, &BoltSpan<Dim>::jump, &BoltForce<Dim>::dowel), sink);
   }
-  /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent):
-  /// sink(a, b, aa, ab, ba, bb).
+  /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent).
   template <class Sink>
   void add_tangent(const Law& spring, const double* u, Sink&& sink) const {
-    const BoltSpan<dim> now = span_at(u);
-    hand_over(derivative(spring, now, state, &BoltSpan<dim>::motion, &BoltForce<dim>::pull),
-              derivative(spring, now, state, &BoltSpan<dim>::jump, &BoltForce<dim>::dowel),
-              [&](const Block& aa, const Block& ab, const Block& ba, const Block& bb) {
-                sink(a, b, aa, ab, ba, bb);
-              });
+    const BoltSpan<Dim> now = span_at(u);
+    hand_over(derivative(spring, now, state, &BoltSpan<Dim>::motion, &BoltForce<Dim>::pull),
+              derivative(spring, now, state, &BoltSpan<Dim>::jump, &BoltForce<Dim>::dowel), sink);
+  }
+
+  /// See `Support::set_reference`; of its two bodies.
+  void set_reference(const Pose<Dim>& then_a, const Pose<Dim>& now_a, const Pose<Dim>& then_b,
+                     const Pose<Dim>& now_b, const double* u_then, const double* u_now) {
+    const BoltSpan<Dim> was = u_then != nullptr ? span_at(u_then) : span;
+    const Rotation<Dim> turn_a = now_a.rotation * transposed(then_a.rotation),
+                        turn_b = now_b.rotation * transposed(then_b.rotation);
+    // Of a point of b against one of a, since that reference.
+    const auto moved = [&](const Vec<Dim>& on_a, const Vec<Dim>& on_b) {
+      return Vec<Dim>((now_b.position + turn_b * on_b) - (then_b.position + on_b) -
+                      (now_a.position + turn_a * on_a) + (then_a.position + on_a));
+    };
+    const Vec<Dim> reach = was.initial + was.motion + moved(arm_a, arm_b);
+    const Vec<Dim> jump = was.jump + moved(joint_a, joint_b);
+    for (Vec<Dim>* arm : {&arm_a, &joint_a}) *arm = turn_a * *arm;
+    for (Vec<Dim>* arm : {&arm_b, &joint_b}) *arm = turn_b * *arm;
+    span = {turn_a * was.initial, turn_a * was.axis, zeros<Vec<Dim>>()};
+    const BoltSpan<Dim> linear = span_at(u_now);
+    span.motion = reach - span.initial - linear.motion;
+    span.jump = jump - linear.jump;
   }
 
  private:
-  using Lever = Fixed<dof, dim>;
-  [[nodiscard]] static Lever lever(const Vec<dim>& arm) {
+  using Lever = Fixed<dof, Dim>;
+  [[nodiscard]] static Lever lever(const Vec<Dim>& arm) {
     Lever l;
-    for (int k = 0; k < dim; ++k) {
-      const Vec<dim> axis = axis_vector<dim>(k);
+    for (int k = 0; k < Dim; ++k) {
+      const Vec<Dim> axis = axis_vector<Dim>(k);
       set_column(l, k, stacked(axis, moment_of(arm, axis)));
     }
     return l;
   }
   /// Of a part of the force with respect to a part of the span, times the share.
-  [[nodiscard]] Stress<dim> derivative(const Law& spring, const BoltSpan<dim>& at,
+  [[nodiscard]] Stress<Dim> derivative(const Law& spring, const BoltSpan<Dim>& at,
                                        const typename Law::State& remembered,
-                                       Vec<dim> BoltSpan<dim>::*in,
-                                       Vec<dim> BoltForce<dim>::*out) const {
+                                       Vec<Dim> BoltSpan<Dim>::*in,
+                                       Vec<Dim> BoltForce<Dim>::*out) const {
     constexpr double step = 1e-8;
-    Stress<dim> k;
-    for (int l = 0; l < dim; ++l) {
-      BoltSpan<dim> more = at, less = at;
+    Stress<Dim> k;
+    for (int l = 0; l < Dim; ++l) {
+      BoltSpan<Dim> more = at, less = at;
       (more.*in)[l] += step;
       (less.*in)[l] -= step;
       set_column(k, l,
@@ -100,12 +130,12 @@ struct BoltSpring {
     return k;
   }
   template <class Sink>
-  void hand_over(const Stress<dim>& pull, const Stress<dim>& dowel, Sink&& sink) const {
+  void hand_over(const Stress<Dim>& pull, const Stress<Dim>& dowel, Sink&& sink) const {
     const Lever pa = lever(arm_a), pb = lever(arm_b), da = lever(joint_a), db = lever(joint_b);
     const auto block = [&](const Lever& p, const Lever& q, const Lever& d, const Lever& e) {
       return Block(p * pull * transposed(q) + d * dowel * transposed(e));
     };
-    sink(block(pa, pa, da, da), Block(-block(pa, pb, da, db)), Block(-block(pb, pa, db, da)),
+    sink(a, b, block(pa, pa, da, da), Block(-block(pa, pb, da, db)), Block(-block(pb, pa, db, da)),
          block(pb, pb, db, db));
   }
 };

@@ -12,21 +12,9 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
+#include <voussoir/model/small_displacement.hpp>
 
 namespace voussoir {
-
-/// Small displacement of the point at `arm` from the centre of a body with these values.
-template <int Dim>
-[[nodiscard]] Vec<Dim> displacement_at(const double* body, const Vec<Dim>& arm) {
-  return vector_at<Dim>(body) + turned(vector_at<spin_count<Dim>>(body + Dim), arm);
-}
-
-/// Adds a force that acts at `arm` from the centre to the force and moment of a body.
-template <int Dim>
-void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
-  add_at<Dim>(body, force);
-  add_at<spin_count<Dim>>(body + Dim, moment_of(arm, force));
-}
 
 /// A point of a contact in the reference configuration, but for what the contact law remembers.
 template <int Dim>

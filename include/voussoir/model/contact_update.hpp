@@ -44,9 +44,7 @@ class FoundAgain {
              interface = without_laws(system_.interface);
     update_.run(joints, boundary, interface, progress);
     // From here on nothing stops: the system is as it was or as it will be.
-    for (auto& frame : system_.frames)
-      frame.follow(update_.now(frame.i), update_.now(frame.j), system_.displacement.data());
-    for (auto& bolt : system_.bolts) turn(bolt);
+    turn_supports();
     replace(system_.joints, joints);
     replace(system_.boundary, boundary);
     replace(system_.interface, interface);
@@ -83,27 +81,15 @@ class FoundAgain {
     group = std::move(next);
   }
 
-  template <class Bolt>
-  void turn(Bolt& bolt) const {
-    const double* u = system_.displacement.data();
+  void turn_supports() const {
+    std::vector<Pose<dim>> then, now;
+    for (int b = 0; b < system_.body_count(); ++b) {
+      then.push_back(update_.then(b));
+      now.push_back(update_.now(b));
+    }
     const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
-    const BoltSpan<dim> was = found_at != nullptr ? bolt.span_at(found_at) : bolt.span;
-    const Vec<dim> initial = was.initial;
-    const Rotation<dim> turn_a = update_.turn_of(bolt.a), turn_b = update_.turn_of(bolt.b);
-    // Of a point of b against one of a, since contacts were found.
-    const auto moved = [&](const Vec<dim>& on_a, const Vec<dim>& on_b) {
-      return Vec<dim>(
-          (update_.now(bolt.b).position + turn_b * on_b) - (update_.then(bolt.b).position + on_b) -
-          (update_.now(bolt.a).position + turn_a * on_a) + (update_.then(bolt.a).position + on_a));
-    };
-    const Vec<dim> span = initial + was.motion + moved(bolt.arm_a, bolt.arm_b);
-    const Vec<dim> jump = was.jump + moved(bolt.joint_a, bolt.joint_b);
-    for (Vec<dim>* arm : {&bolt.arm_a, &bolt.joint_a}) *arm = turn_a * *arm;
-    for (Vec<dim>* arm : {&bolt.arm_b, &bolt.joint_b}) *arm = turn_b * *arm;
-    bolt.span = {turn_a * initial, turn_a * was.axis, zeros<Vec<dim>>()};
-    const BoltSpan<dim> linear = bolt.span_at(u);
-    bolt.span.motion = span - bolt.span.initial - linear.motion;
-    bolt.span.jump = jump - linear.jump;
+    for (const auto& support : system_.supports)
+      support->set_reference(then, now, found_at, system_.displacement.data());
   }
 
   System& system_;
@@ -113,7 +99,7 @@ class FoundAgain {
 }  // namespace detail
 
 /// Finds the contacts of a system again where its bodies are now, history carried over, and turns
-/// bolts and frames with them: displacements from here on are small against this state.
+/// supports with them: displacements from here on are small against this state.
 ///
 /// A lining keeps its contacts with the rock, which turn with it; blocks that leave their place do
 /// not find it elsewhere.

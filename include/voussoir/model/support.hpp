@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
+#include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/moving_body.hpp>
 
@@ -18,39 +20,153 @@ struct Load {
   Spin<Dim> moment = zeros<Spin<Dim>>();  ///< [N m]
 };
 
-/// What holds moving bodies besides contacts: bolts, a lining, a spring of a test.
+/// Marks for some of the bodies, by their number.
+using BodyMarks = std::vector<char>;
+[[nodiscard]] inline bool is_marked(const BodyMarks& marks, int body) {
+  return marks[static_cast<std::size_t>(body)] != 0;
+}
+
+/// What holds bodies besides contacts, at rest and in motion: bolts, a lining, a spring of a test.
 ///
-/// Few against the contacts: a virtual call a step costs nothing, and any of them can join a run.
+/// The search for equilibrium knows bodies by small displacements from the reference configuration,
+/// the time stepper by their poses. A support answers both, from one state: a new kind of support
+/// is one class, derived from `SupportModel`.
+///
+/// Few against the contacts: a virtual call for each evaluation costs nothing.
 template <int Dim>
 class Support {
  public:
+  static constexpr int dof = Dim + spin_count<Dim>;
   using Bodies = std::vector<MovingBody<Dim>>;
+  using Poses = std::vector<Pose<Dim>>;
+  using Block = Fixed<dof, dof>;
+  /// Takes the stiffness between two bodies, by its four parts: minus the force on one for a
+  /// displacement of the other.
+  using StiffnessSink = std::function<void(int a, int b, const Block& aa, const Block& ab,
+                                           const Block& ba, const Block& bb)>;
+
   virtual ~Support() = default;
-  /// The bodies that it acts on; always the same.
+  [[nodiscard]] virtual std::shared_ptr<Support> copy() const = 0;
+  /// Takes the state of a copy that was made before.
+  virtual void restore(const Support& copy) = 0;
+  /// The bodies that it acts on, each once.
   [[nodiscard]] virtual std::vector<int> bodies() const = 0;
+  /// The pairs of bodies that cannot part or turn against each other without straining it. A bolt
+  /// alone does not hold: a block could still turn about it.
+  [[nodiscard]] virtual std::vector<std::pair<int, int>> links() const { return {}; }
+  /// Forgets what it was to these bodies.
+  virtual void remove(const BodyMarks& gone) = 0;
+  /// For every element that can break, whether it has.
+  virtual void list_broken(std::vector<bool>& /*broken*/) const {}
+
+  // ---- at rest: `u`, dof values a body, are small displacements from the reference --------------
+
+  /// Adds its forces; of what acts on no chosen body it need not.
+  /// @param chosen  null: all bodies
+  virtual void add_forces(const double* u, double* f, const BodyMarks* chosen) const = 0;
+  /// Brings its history up to date; of what acts on no chosen body it must not.
+  /// @return  elements that broke: equilibrium must then be sought again
+  virtual int commit(const double* /*u*/, const BodyMarks* /*chosen*/) { return 0; }
+  /// Its elastic stiffness; none of what is broken.
+  virtual void add_stiffness(const StiffnessSink& sink) const = 0;
+  /// Its stiffness at a displacement, history held: the negative derivative of the forces.
+  virtual void add_tangent(const double* u, const BodyMarks* chosen,
+                           const StiffnessSink& sink) const = 0;
+  /// Where bodies are now becomes the reference; displacements go on counting from where they did.
+  /// @param then, now  of all bodies: the reference so far, and the new one
+  /// @param u_then     displacement at the reference so far; null: zero
+  /// @param u_now      the present one
+  virtual void set_reference(const Poses& then, const Poses& now, const double* u_then,
+                             const double* u_now) = 0;
+
+  // ---- in motion --------------------------------------------------------------------------------
+
   /// Adds its forces to `loads`, one for every body of the run, and brings its history up to date.
   virtual void act(const Bodies& bodies, std::vector<Load<Dim>>& loads) = 0;
   /// Energy that it holds, and has lost to yield [J].
   [[nodiscard]] virtual double energy(const Bodies& bodies) const = 0;
-  /// What brings its history back to what it is now, where it has one.
-  [[nodiscard]] virtual std::function<void()> keep() {
-    return [] {};
-  }
   /// Adds to every body's number a bound on the largest eigenvalue of M^-1 K [1/s^2], K its own
   /// stiffness with all other bodies fixed.
   virtual void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const = 0;
 };
 
-/// All supports of a run, and what they do to its bodies.
+/// What every support is derived from: it copies itself.
+template <class Derived, int Dim>
+class SupportModel : public Support<Dim> {
+ public:
+  [[nodiscard]] std::shared_ptr<Support<Dim>> copy() const final {
+    return std::make_shared<Derived>(static_cast<const Derived&>(*this));
+  }
+  void restore(const Support<Dim>& copy) final {
+    static_cast<Derived&>(*this) = static_cast<const Derived&>(copy);
+  }
+};
+
+/// All supports of a model. A copy of the set has copies of them.
 template <int Dim>
 class SupportSet {
  public:
-  using Bodies = typename Support<Dim>::Bodies;
+  using Kind = Support<Dim>;
+  using Bodies = typename Kind::Bodies;
 
-  void add(std::shared_ptr<Support<Dim>> support, const Bodies& bodies) {
-    at_start_ += support->energy(bodies);
-    supports_.push_back(std::move(support));
+  SupportSet() = default;
+  SupportSet(const SupportSet& other) { *this = other; }
+  SupportSet(SupportSet&&) = default;
+  SupportSet& operator=(const SupportSet& other) {
+    if (this == &other) return *this;
+    supports_.clear();
+    for (const auto& support : other.supports_) supports_.push_back(support->copy());
+    loads_ = other.loads_;
+    at_start_ = other.at_start_;
+    return *this;
   }
+  SupportSet& operator=(SupportSet&&) = default;
+  ~SupportSet() = default;
+
+  void add(std::shared_ptr<Kind> support) { supports_.push_back(std::move(support)); }
+  /// The same in a run: what it holds already is no work of the run.
+  void add(std::shared_ptr<Kind> support, const Bodies& bodies) {
+    at_start_ += support->energy(bodies);
+    add(std::move(support));
+  }
+  /// The first of a kind; null if there is none.
+  template <class Wanted>
+  [[nodiscard]] Wanted* first() const {
+    for (const auto& support : supports_)
+      if (auto* found = dynamic_cast<Wanted*>(support.get())) return found;
+    return nullptr;
+  }
+  /// All of a kind, in the order in which they came.
+  template <class Wanted>
+  [[nodiscard]] std::vector<const Wanted*> all() const {
+    std::vector<const Wanted*> found;
+    for (const auto& support : supports_)
+      if (const auto* it = dynamic_cast<const Wanted*>(support.get())) found.push_back(it);
+    return found;
+  }
+  [[nodiscard]] auto begin() const { return supports_.begin(); }
+  [[nodiscard]] auto end() const { return supports_.end(); }
+
+  /// Every support takes back the state that it had in a copy of this set. The supports stay the
+  /// same objects: others may hold them too.
+  void restore(const SupportSet& copy) {
+    for (std::size_t k = 0; k < supports_.size(); ++k) supports_[k]->restore(*copy.supports_[k]);
+    at_start_ = copy.at_start_;
+  }
+
+  /// For every element that can break, whether it has.
+  [[nodiscard]] std::vector<bool> broken() const {
+    std::vector<bool> broken;
+    for (const auto& support : supports_) support->list_broken(broken);
+    return broken;
+  }
+  [[nodiscard]] int broken_count() const {
+    const std::vector<bool> all = broken();
+    return static_cast<int>(std::count(all.begin(), all.end(), true));
+  }
+
+  // ---- in motion --------------------------------------------------------------------------------
+
   /// Computes the loads on all bodies, histories brought up to date.
   void act(const Bodies& bodies) {
     if (supports_.empty()) return;
@@ -68,14 +184,6 @@ class SupportSet {
   /// Stored, and lost to yield, since each of them was added or `start` was called [J].
   [[nodiscard]] double energy(const Bodies& bodies) const { return sum(bodies) - at_start_; }
   void start(const Bodies& bodies) { at_start_ = sum(bodies); }
-  /// What brings all histories back to what they are now.
-  [[nodiscard]] std::function<void()> keep() const {
-    std::vector<std::function<void()>> kept;
-    for (const auto& support : supports_) kept.push_back(support->keep());
-    return [kept = std::move(kept)] {
-      for (const auto& restore : kept) restore();
-    };
-  }
   void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const {
     for (const auto& support : supports_) support->add_stiffness_over_mass(bodies, sums);
   }
@@ -87,7 +195,7 @@ class SupportSet {
     return energy;
   }
 
-  std::vector<std::shared_ptr<Support<Dim>>> supports_;
+  std::vector<std::shared_ptr<Kind>> supports_;
   std::vector<Load<Dim>> loads_;
   double at_start_ = 0;
 };

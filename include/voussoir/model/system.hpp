@@ -21,9 +21,8 @@
 #include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/linear/block_matrix.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
-#include <voussoir/lining/frame_element.hpp>
-#include <voussoir/model/bolt_spring.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/support.hpp>
 
 namespace voussoir {
 
@@ -46,7 +45,7 @@ struct SystemBody {
 /// Rotations are small and the contact topology is that of the reference position.
 ///
 /// A copy is a full snapshot: about 2 kB per block.
-template <class Geometry, class JointLaw, class BoltLaw>
+template <class Geometry, class JointLaw>
 class System {
  public:
   using GeometryType = Geometry;
@@ -69,9 +68,7 @@ class System {
   Joints joints;        ///< rock on rock
   Boundary boundary;    ///< rock on the fixed edge of the domain
   Interface interface;  ///< rock on lining
-  std::vector<BoltLaw> bolt_laws;
-  std::vector<BoltSpring<Geometry, BoltLaw>> bolts;
-  std::vector<FrameElement<Geometry>> frames;
+  SupportSet<dim> supports;
   /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
   /// contacts cannot be updated. What it points to, it keeps alive.
   std::shared_ptr<const Shapes> shapes;
@@ -100,7 +97,7 @@ class System {
   [[nodiscard]] bool has_found_again() const { return found_at_.size() > 0; }
   /// The displacement at which they were; empty if never.
   [[nodiscard]] const Eigen::VectorXd& found_at() const { return found_at_; }
-  /// Takes note that contacts, bolts and frames are now those of the present displacement.
+  /// Takes note that contacts and supports are now those of the present displacement.
   void set_found() {
     std::vector<Rotation<dim>> turned;
     for (int b = 0; b < body_count(); ++b) turned.push_back(pose(b).rotation);
@@ -140,15 +137,19 @@ class System {
     joints.template add_forces<History>(u.data(), f.data());
     boundary.template add_forces<History>(u.data(), f.data());
     interface.template add_forces<History>(u.data(), f.data());
-    for (auto& bolt : bolts) {
-      const BoltLaw& law = bolt_laws[static_cast<std::size_t>(bolt.law)];
-      // First: a bolt that breaks here holds nothing any more.
-      if constexpr (std::is_same_v<History, Committing>) bolt.commit(law, u.data());
-      bolt.add_force(law, u.data(), f.data());
-    }
-    for (const auto& frame : frames) frame.add_force(u.data(), f.data());
+    add_support_forces<History>(u.data(), f.data(), nullptr);
     for (int b = 0; b < body_count(); ++b)
       if (!body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
+  }
+
+  /// Those of the supports alone, on chosen bodies (null: all).
+  template <class History>
+  void add_support_forces(const double* u, double* f, const BodyMarks* chosen) {
+    for (const auto& support : supports) {
+      // First: a bolt that breaks here holds nothing any more.
+      if constexpr (std::is_same_v<History, Committing>) support->commit(u, chosen);
+      support->add_forces(u, f, chosen);
+    }
   }
 
   /// Brings all history up to date with the present displacement.
@@ -157,8 +158,7 @@ class System {
   int commit() {
     int changed = joints.commit(displacement.data()) + boundary.commit(displacement.data()) +
                   interface.commit(displacement.data());
-    for (auto& bolt : bolts)
-      changed += bolt.commit(bolt_laws[static_cast<std::size_t>(bolt.law)], displacement.data());
+    for (const auto& support : supports) changed += support->commit(displacement.data(), nullptr);
     return changed;
   }
 
@@ -174,12 +174,13 @@ class System {
     return ElasticSolver<dof>(elastic_stiffness(progress), centres(), settings, progress, patterns);
   }
 
-  /// Takes bodies out for good: their contacts, bolts and frames go, and they stop moving.
+  /// Takes bodies out for good: their contacts and what supports were to them go, and they stop
+  /// moving.
   void remove(const std::vector<int>& gone);
 
-  /// Movable bodies without a chain of contacts and frames to a body that cannot move: they fall
-  /// whatever the forces, alone or as a group that holds nothing but itself. Bolts alone do not
-  /// hold: a block could still turn about them.
+  /// Movable bodies without a chain of contacts and lining members to a body that cannot move: they
+  /// fall whatever the forces, alone or as a group that holds nothing but itself. Bolts alone do
+  /// not hold: a block could still turn about them.
   [[nodiscard]] std::vector<int> unsupported() const;
 
   /// Weight of the lightest block: the scale for weightless lining nodes [N].
@@ -237,8 +238,8 @@ class System {
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 
-template <class Geometry, class JointLaw, class BoltLaw>
-int System<Geometry, JointLaw, BoltLaw>::add_bodies(std::span<const Body> bodies) {
+template <class Geometry, class JointLaw>
+int System<Geometry, JointLaw>::add_bodies(std::span<const Body> bodies) {
   const int first = body_count();
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
@@ -252,8 +253,8 @@ int System<Geometry, JointLaw, BoltLaw>::add_bodies(std::span<const Body> bodies
   return first;
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-auto System<Geometry, JointLaw, BoltLaw>::pose(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw>
+auto System<Geometry, JointLaw>::pose(int b) const -> Pose<dim> {
   Pose<dim> at = pose_when_found(b);
   if (!body(b).movable) return at;
   at.position = body(b).centre + part<dim>(displacement, dof * b);
@@ -263,8 +264,8 @@ auto System<Geometry, JointLaw, BoltLaw>::pose(int b) const -> Pose<dim> {
   return at;
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-auto System<Geometry, JointLaw, BoltLaw>::pose_when_found(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw>
+auto System<Geometry, JointLaw>::pose_when_found(int b) const -> Pose<dim> {
   Pose<dim> at;
   at.position = body(b).centre;
   if (static_cast<std::size_t>(b) < turned_.size()) {
@@ -274,8 +275,8 @@ auto System<Geometry, JointLaw, BoltLaw>::pose_when_found(int b) const -> Pose<d
   return at;
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-double System<Geometry, JointLaw, BoltLaw>::moved_since_found() const {
+template <class Geometry, class JointLaw>
+double System<Geometry, JointLaw>::moved_since_found() const {
   double farthest = 0;
   for (int b = 0; b < body_count(); ++b) {
     if (!body(b).movable || !body(b).is_block) continue;
@@ -287,9 +288,8 @@ double System<Geometry, JointLaw, BoltLaw>::moved_since_found() const {
   return farthest;
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-auto System<Geometry, JointLaw, BoltLaw>::elastic_stiffness(const Progress& progress) const
-    -> Matrix {
+template <class Geometry, class JointLaw>
+auto System<Geometry, JointLaw>::elastic_stiffness(const Progress& progress) const -> Matrix {
   StopCheck stop(progress);
   Matrix k(body_count());
   const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
@@ -302,34 +302,33 @@ auto System<Geometry, JointLaw, BoltLaw>::elastic_stiffness(const Progress& prog
   joints.add_stiffness(sink);
   boundary.add_stiffness(sink);
   interface.add_stiffness(sink);
-  for (const auto& bolt : bolts)
-    bolt.add_stiffness(bolt_laws[static_cast<std::size_t>(bolt.law)], sink);
-  for (const auto& frame : frames) frame.add_stiffness(sink);
+  for (const auto& support : supports)
+    support->add_stiffness([&](int a, int b, const auto& aa, const auto& ab, const auto&,
+                               const auto& bb) { sink(a, b, aa, ab, bb); });
   for (int b = 0; b < body_count(); ++b)
     if (!body(b).movable) k.add(b, diagonal_of<dof>(1));
   k.compress();
   return k;
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-void System<Geometry, JointLaw, BoltLaw>::remove(const std::vector<int>& gone) {
-  std::vector<char> is_gone(bodies_.size(), 0);
+template <class Geometry, class JointLaw>
+void System<Geometry, JointLaw>::remove(const std::vector<int>& gone) {
+  BodyMarks is_gone(bodies_.size(), 0);
   for (const int b : gone) {
     is_gone[static_cast<std::size_t>(b)] = 1;
     bodies_[static_cast<std::size_t>(b)].movable = false;
     bodies_[static_cast<std::size_t>(b)].is_gone = true;
     set_part<dof>(displacement, dof * b, zeros<Fixed<dof, 1>>());
   }
-  const auto test = [&](int b) { return is_gone[static_cast<std::size_t>(b)] != 0; };
+  const auto test = [&](int b) { return is_marked(is_gone, b); };
   joints.remove(test);
   boundary.remove(test);
   interface.remove(test);
-  std::erase_if(bolts, [&](const auto& bolt) { return test(bolt.a) || test(bolt.b); });
-  std::erase_if(frames, [&](const auto& frame) { return test(frame.i) || test(frame.j); });
+  for (const auto& support : supports) support->remove(is_gone);
 }
 
-template <class Geometry, class JointLaw, class BoltLaw>
-std::vector<int> System<Geometry, JointLaw, BoltLaw>::unsupported() const {
+template <class Geometry, class JointLaw>
+std::vector<int> System<Geometry, JointLaw>::unsupported() const {
   // Groups as trees: every body points towards the root of its group, that of the ground is
   // `fixed`.
   const std::size_t fixed = bodies_.size();
@@ -347,7 +346,8 @@ std::vector<int> System<Geometry, JointLaw, BoltLaw>::unsupported() const {
   for (const auto& c : joints.contacts()) link(c.a, c.b);
   for (const auto& c : boundary.contacts()) link(c.a, c.b);
   for (const auto& c : interface.contacts()) link(c.a, c.b);
-  for (const auto& f : frames) link(f.i, f.j);
+  for (const auto& support : supports)
+    for (const auto& [a, b] : support->links()) link(a, b);
   std::vector<int> loose;
   for (int b = 0; b < body_count(); ++b)
     if (root(static_cast<std::size_t>(b)) != root(fixed)) loose.push_back(b);

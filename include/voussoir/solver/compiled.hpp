@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
@@ -44,12 +43,11 @@ VOUSSOIR_PLANAR_TEMPLATE class ContactGroup<Planar, SmoothWall>;
 VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, CoulombJoint>;
 VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, SmoothWall>;
 
-VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialBolt)
+VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint)
 VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
                                               AxialBolt, EulerBernoulliBeam, TwoLevel>;
-VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint, AxialShearBolt)
 
-VOUSSOIR_SEARCHES(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, CoulombJoint, AxialBolt)
+VOUSSOIR_SEARCHES(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, CoulombJoint)
 VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,
                                                AxialBolt, EulerBernoulliBeam, TwoLevel>;
 VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,

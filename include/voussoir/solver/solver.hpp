@@ -11,8 +11,10 @@
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
+#include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -33,7 +35,9 @@ template <class Geometry, class Detector, class JointLaw, class Anchors, class B
           class Lining, class Method>
 class ComposedSolver {
  public:
-  using SystemType = System<Geometry, JointLaw, BoltLaw>;
+  using SystemType = System<Geometry, JointLaw>;
+  using BoltsType = BoltSet<Geometry::dim, BoltLaw>;
+  using LiningType = LiningMembers<Geometry>;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
@@ -130,6 +134,14 @@ class ComposedSolver {
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
   [[nodiscard]] const SystemType& system() const { return system_; }
   [[nodiscard]] SystemType& system() { return system_; }
+  /// The bolts installed so far; null if there are none.
+  [[nodiscard]] const BoltsType* bolts() const {
+    return system_.supports.template first<BoltsType>();
+  }
+  /// The members of the lining; null without lining.
+  [[nodiscard]] const LiningType* lining() const {
+    return system_.supports.template first<LiningType>();
+  }
   [[nodiscard]] int bolt_count() const { return bolt_count_; }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
@@ -275,11 +287,16 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
                  " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
                  text_of<dim>(domain.high), " m"}));
   const Vec<dim> axis = (bar.end - bar.start) / length;
-  system_.bolt_laws.push_back(law);
+  auto* bolts = system_.supports.template first<BoltsType>();
+  if (bolts == nullptr) {
+    system_.supports.add(std::make_shared<BoltsType>());
+    bolts = system_.supports.template first<BoltsType>();
+  }
+  const int law_index = bolts->add_law(law);
   const auto crossings =
       bolt_crossings(intersections_of_present_rock(bar), bar, anchors, domain.tolerance());
   for (const BoltCrossingPoint<dim>& at : crossings) {
-    BoltSpring<Geometry, BoltLaw> spring{};
+    typename BoltsType::Spring spring{};
     spring.a = at.a;
     spring.b = at.b;
     spring.bolt = bolt_count_;
@@ -293,8 +310,8 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
     spring.span.motion = -present.motion;
     spring.span.jump = -present.jump;
     spring.share = dim == 2 ? 1.0 / spacing : 1.0;
-    spring.law = static_cast<int>(system_.bolt_laws.size()) - 1;
-    system_.bolts.push_back(spring);
+    spring.law = law_index;
+    bolts->add(spring);
   }
   ++bolt_count_;
   started_ = true;
@@ -319,15 +336,18 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
     system_.load[dof * node + dim - 1] = -weight;
     measures_.push_back(0.0);
   }
+  std::vector<typename LiningType::Element> members;
   for (const auto& member : frame.members) {
     const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(member.first)];
     const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
     const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
     const double length = (b - a).norm();
-    system_.frames.push_back({first_node_ + member.first, first_node_ + member.second, length,
-                              frame_axes<dim>(b - a, member.outward),
-                              Lining::template stiffness<dof>(section, length)});
+    members.push_back({first_node_ + member.first, first_node_ + member.second, length,
+                       frame_axes<dim>(b - a, member.outward),
+                       Lining::template stiffness<dof>(section, length)});
   }
+  system_.supports.add(std::make_shared<LiningType>(std::move(members), first_node_,
+                                                    static_cast<int>(frame.nodes.size())));
   typename SystemType::Interface interface({interface_law});
   for (const int k : order_by_bodies(frame.contacts, [this](const LiningContact<Geometry>& c) {
          return std::pair<int, int>(c.body, first_node_ + c.node);

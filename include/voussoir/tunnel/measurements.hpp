@@ -10,7 +10,7 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/planar.hpp>
-#include <voussoir/model/moving_lining.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/solver/solver.hpp>
 
@@ -72,9 +72,11 @@ template <class Solver>
 [[nodiscard]] std::vector<CrossingForce> bolt_forces(const Solver& solver) {
   std::vector<CrossingForce> forces;
   const auto& system = solver.system();
-  for (const auto& spring : system.bolts) {
+  const auto* bolts = solver.bolts();
+  if (bolts == nullptr) return forces;
+  for (const auto& spring : bolts->springs()) {
     const auto span = spring.span_at(system.displacement.data());
-    const auto& law = system.bolt_laws[static_cast<std::size_t>(spring.law)];
+    const auto& law = bolts->law_of(spring);
     // Anchors on the joint have no distance that could change: what opens the joint stretches them.
     const double initial = span.initial.norm();
     const double extension =
@@ -146,10 +148,11 @@ template <class Elements, class EndForces>
 template <class Solver>
 [[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
   const auto& system = solver.system();
-  const int first = solver.first_lining_node();
-  if (first < 0) return {};
+  const auto* lining = solver.lining();
+  if (lining == nullptr) return {};
+  const int first = lining->first_node();
   auto forces = detail::mean_of_members(
-      system.frames, first, system.body_count() - first,
+      lining->members(), first, lining->node_count(),
       [&](const auto& element) { return element.end_forces(system.displacement.data()); });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = first + static_cast<int>(k);
@@ -164,7 +167,7 @@ template <class Solver>
 template <class Run, class Geometry>
 requires(Geometry::dim == 2)
     [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
-                                                         const MovingLining<Geometry>& lining) {
+                                                         const LiningMembers<Geometry>& lining) {
   const int first = lining.first_node();
   auto forces = detail::mean_of_members(
       lining.members(), first, lining.node_count(), [&](const auto& element) {

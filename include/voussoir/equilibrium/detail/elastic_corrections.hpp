@@ -24,8 +24,7 @@ class ElasticCorrections {
   void prepare(const System& system, const Fire::Params& fire, const LinearSettings& linear,
                const Progress& progress, EquilibriumReport& report) {
     std::vector<int> bodies = system.movable_bodies();
-    std::vector<bool> broken;
-    for (const auto& bolt : system.bolts) broken.push_back(bolt.broken);
+    std::vector<bool> broken = system.supports.broken();
     const Eigen::VectorXd& found_at = system.found_at();
     const bool same_place = found_at.size() == found_at_.size() && found_at == found_at_;
     if (solver_ && bodies == bodies_ && broken == broken_ && same_place) return;
@@ -62,7 +61,7 @@ class ElasticCorrections {
   std::optional<Fire> fire_;
   LinearReport before_;       ///< of solvers that are gone
   std::vector<int> bodies_;   ///< that could move when it was made
-  std::vector<bool> broken_;  ///< bolts then
+  std::vector<bool> broken_;  ///< supports then
   Eigen::VectorXd found_at_;  ///< the displacement at which contacts had been found
 };
 

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+#include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/model/bolt_spring.hpp>
+#include <voussoir/model/support.hpp>
+
+namespace voussoir {
+
+/// Bolts: at every joint that one crosses a spring between two anchors, fixed in the blocks on
+/// either side.
+template <int Dim, class Law>
+class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
+  using Base = Support<Dim>;
+
+ public:
+  using typename Base::Bodies;
+  using typename Base::Poses;
+  using typename Base::StiffnessSink;
+  using Spring = BoltSpring<Dim, Law>;
+
+  BoltSet() = default;
+  explicit BoltSet(Law law) { add_law(std::move(law)); }
+
+  /// @return  its index
+  int add_law(Law law) {
+    laws_.push_back(std::move(law));
+    return static_cast<int>(laws_.size()) - 1;
+  }
+  void add(Spring spring) {
+    springs_.push_back(std::move(spring));
+    travels_.emplace_back();
+  }
+  [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
+  [[nodiscard]] const Law& law_of(const Spring& s) const {
+    return laws_[static_cast<std::size_t>(s.law)];
+  }
+  /// Axial force of a spring at the last step of a run, of the bolt [N].
+  [[nodiscard]] double axial_force(std::size_t spring) const { return travels_[spring].axial; }
+
+  [[nodiscard]] std::vector<int> bodies() const override {
+    std::vector<int> held;
+    for (const Spring& s : springs_) {
+      held.push_back(s.a);
+      held.push_back(s.b);
+    }
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    return held;
+  }
+  void remove(const BodyMarks& gone) override {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      if (is_marked(gone, springs_[k].a) || is_marked(gone, springs_[k].b)) continue;
+      springs_[kept] = springs_[k];
+      travels_[kept++] = travels_[k];
+    }
+    springs_.resize(kept, Spring{});
+    travels_.resize(kept);
+  }
+  void list_broken(std::vector<bool>& broken) const override {
+    for (const Spring& s : springs_) broken.push_back(s.broken);
+  }
+
+  void add_forces(const double* u, double* f, const BodyMarks* chosen) const override {
+    for (const Spring& s : springs_)
+      if (is_chosen(s, chosen)) s.add_force(law_of(s), u, f);
+  }
+  int commit(const double* u, const BodyMarks* chosen) override {
+    int broke = 0;
+    for (Spring& s : springs_)
+      if (is_chosen(s, chosen)) broke += s.commit(law_of(s), s.span_at(u));
+    return broke;
+  }
+  void add_stiffness(const StiffnessSink& sink) const override {
+    for (const Spring& s : springs_) s.add_stiffness(law_of(s), sink);
+  }
+  void add_tangent(const double* u, const BodyMarks* chosen,
+                   const StiffnessSink& sink) const override {
+    for (const Spring& s : springs_)
+      if (is_chosen(s, chosen)) s.add_tangent(law_of(s), u, sink);
+  }
+  void set_reference(const Poses& then, const Poses& now, const double* u_then,
+                     const double* u_now) override {
+    for (Spring& s : springs_)
+      s.set_reference(then[index(s.a)], now[index(s.a)], then[index(s.b)], now[index(s.b)], u_then,
+                      u_now);
+  }
+
+  void act(const Bodies& bodies, std::vector<Load<Dim>>& loads) override {
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      Spring& s = springs_[k];
+      const Pose<Dim>&a = bodies[index(s.a)].pose, &b = bodies[index(s.b)].pose;
+      const BoltSpan<Dim> span = s.span_at(a, b);
+      s.commit(law_of(s), span);
+      const BoltForce<Dim> force = law_of(s).force(span, s.state);
+      const Vec<Dim> pull = s.share * force.pull, dowel = s.share * force.dowel;
+      travels_[k].go_to(span.initial + span.motion, pull, force.axial);
+      push(loads[index(s.a)], a.rotation * s.arm_a, pull);
+      push(loads[index(s.b)], b.rotation * s.arm_b, -pull);
+      push(loads[index(s.a)], a.rotation * s.joint_a, dowel);
+      push(loads[index(s.b)], b.rotation * s.joint_b, -dowel);
+    }
+  }
+  [[nodiscard]] double energy(const Bodies&) const override {
+    double sum = 0;
+    for (const Travel& travel : travels_) sum += travel.work;
+    return sum;
+  }
+  void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const override {
+    for (const Spring& s : springs_) {
+      if (s.broken) continue;
+      const BoltSpan<Dim> span{s.span.initial, s.span.axis, zeros<Vec<Dim>>()};
+      // Of a symmetric matrix without negative eigenvalues the trace bounds the largest; a dowel
+      // may be as stiff again.
+      const double stiffness = 2 * s.share * law_of(s).stiffness(span).trace();
+      for (const auto& [b, arm] : {std::pair{s.a, &s.arm_a}, std::pair{s.b, &s.arm_b}}) {
+        const auto& body = bodies[index(b)];
+        if (body.movable())
+          sums[index(b)] +=
+              stiffness * (1 / body.mass + arm->squaredNorm() / smallest_entry(body.inertia));
+      }
+    }
+  }
+
+ private:
+  /// What a run knows of a spring: the work done on it, step by step.
+  struct Travel {
+    Vec<Dim> pull = zeros<Vec<Dim>>();  ///< on the first anchor at the last step, shared [N]
+    Vec<Dim> span = zeros<Vec<Dim>>();  ///< from anchor to anchor then [m]
+    bool is_under_way = false;
+    double axial = 0;  ///< then, of the bolt [N]
+    double work = 0;   ///< done on the bolt so far, shared [J]
+
+    void go_to(const Vec<Dim>& now, const Vec<Dim>& pull_now, double axial_now) {
+      // The force on a does the bolt's work with the opposite sign; dowels have a span of their own
+      // but move with the same joint.
+      if (is_under_way) work += 0.5 * (pull + pull_now).dot(now - span);
+      is_under_way = true;
+      span = now;
+      pull = pull_now;
+      axial = axial_now;
+    }
+  };
+
+  [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
+  [[nodiscard]] static bool is_chosen(const Spring& s, const BodyMarks* chosen) {
+    return chosen == nullptr || is_marked(*chosen, s.a) || is_marked(*chosen, s.b);
+  }
+  static void push(Load<Dim>& load, const Vec<Dim>& arm, const Vec<Dim>& force) {
+    load.force += force;
+    load.moment += moment_of(arm, force);
+  }
+
+  std::vector<Law> laws_;
+  std::vector<Spring> springs_;
+  std::vector<Travel> travels_;  ///< of each spring
+};
+
+}  // namespace voussoir

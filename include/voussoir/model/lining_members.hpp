@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+#include <voussoir/lining/frame_element.hpp>
+#include <voussoir/model/support.hpp>
+
+namespace voussoir {
+
+/// The members of a lining, whose nodes are bodies: elastic, strained by the change of their chord
+/// and the turns of their nodes against it, however far the lining as a whole moves.
+///
+/// Nodes do not lie turned when they are added.
+template <class Geometry>
+class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim> {
+  static constexpr int dim = Geometry::dim, dof = Geometry::dof;
+  using Base = Support<dim>;
+
+ public:
+  using Element = FrameElement<Geometry>;
+  using typename Base::Block;
+  using typename Base::Bodies;
+  using typename Base::Poses;
+  using typename Base::StiffnessSink;
+
+  /// @param members  between bodies, free of force where these are now
+  /// @param first    body that is the first node;  @param count  of nodes
+  LiningMembers(std::vector<Element> members, int first, int count)
+      : members_(std::move(members)), first_(first), count_(count) {}
+
+  [[nodiscard]] const std::vector<Element>& members() const { return members_; }
+  [[nodiscard]] int first_node() const { return first_; }
+  [[nodiscard]] int node_count() const { return count_; }
+
+  [[nodiscard]] std::vector<int> bodies() const override {
+    std::vector<int> held(static_cast<std::size_t>(count_));
+    for (int k = 0; k < count_; ++k) held[static_cast<std::size_t>(k)] = first_ + k;
+    return held;
+  }
+  [[nodiscard]] std::vector<std::pair<int, int>> links() const override {
+    std::vector<std::pair<int, int>> pairs;
+    for (const Element& m : members_) pairs.emplace_back(m.i, m.j);
+    return pairs;
+  }
+  void remove(const BodyMarks& gone) override {
+    std::erase_if(members_,
+                  [&](const Element& m) { return is_marked(gone, m.i) || is_marked(gone, m.j); });
+  }
+
+  void add_forces(const double* u, double* f, const BodyMarks* chosen) const override {
+    for (const Element& m : members_)
+      if (is_chosen(m, chosen)) m.add_force(u, f);
+  }
+  void add_stiffness(const StiffnessSink& sink) const override {
+    add_tangent(nullptr, nullptr, sink);
+  }
+  void add_tangent(const double*, const BodyMarks* chosen,
+                   const StiffnessSink& sink) const override {
+    for (const Element& m : members_)
+      if (is_chosen(m, chosen))
+        m.add_stiffness([&](int i, int j, const Block& ii, const Block& ij, const Block& jj) {
+          sink(i, j, ii, ij, transposed(ij), jj);
+        });
+  }
+  void set_reference(const Poses&, const Poses& now, const double*, const double* u_now) override {
+    for (Element& m : members_) m.follow(now[index(m.i)], now[index(m.j)], u_now);
+  }
+
+  void act(const Bodies& bodies, std::vector<Load<dim>>& loads) override {
+    for (const Element& m : members_) {
+      const auto push = m.push(pose(bodies, m.i), pose(bodies, m.j));
+      for (const int end : {0, 1}) {
+        Load<dim>& load = loads[index(end == 0 ? m.i : m.j)];
+        load.force += part<dim>(push, dof * end);
+        load.moment += part<dof - dim>(push, dof * end + dim);
+      }
+    }
+  }
+  [[nodiscard]] double energy(const Bodies& bodies) const override {
+    double sum = 0;
+    for (const Element& m : members_) sum += m.energy(pose(bodies, m.i), pose(bodies, m.j));
+    return sum;
+  }
+  void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const override {
+    for (const Element& m : members_)
+      for (const int end : {0, 1}) {
+        const std::size_t b = index(end == 0 ? m.i : m.j);
+        if (bodies[b].movable()) sums[b] += largest_row(m, end, bodies[b]);
+      }
+  }
+
+ private:
+  [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
+  [[nodiscard]] static const Pose<dim>& pose(const Bodies& bodies, int b) {
+    return bodies[index(b)].pose;
+  }
+  [[nodiscard]] static bool is_chosen(const Element& m, const BodyMarks* chosen) {
+    return chosen == nullptr || is_marked(*chosen, m.i) || is_marked(*chosen, m.j);
+  }
+  /// Of M^-1/2 K M^-1/2 for one of its ends, by absolute values [1/s^2].
+  [[nodiscard]] static double largest_row(const Element& m, int end, const MovingBody<dim>& body) {
+    const double by_mass = 1 / std::sqrt(body.mass);
+    const double by_inertia = 1 / std::sqrt(smallest_entry(body.inertia));
+    const auto root = [&](int k) { return k < dim ? by_mass : by_inertia; };
+    double largest = 0;
+    for (int r = 0; r < dof; ++r) {
+      double sum = 0;
+      for (int c = 0; c < dof; ++c)
+        sum += std::abs(root(r) * m.local(dof * end + r, dof * end + c) * root(c));
+      largest = std::max(largest, sum);
+    }
+    return largest;
+  }
+
+  std::vector<Element> members_;
+  int first_, count_;
+};
+
+}  // namespace voussoir
