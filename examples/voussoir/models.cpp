@@ -81,9 +81,11 @@ std::string composition_of(const Input& input) {
                                                                 : AxialShearBolt::name);
   }
   if (input.lining)
-    text.append(", ").append(input.lining->beam == LiningBeam::euler_bernoulli
-                                 ? EulerBernoulliBeam::name
-                                 : TimoshenkoBeam::name);
+    text.append(", ")
+        .append(input.lining->beam == LiningBeam::euler_bernoulli ? EulerBernoulliBeam::name
+                                                                  : TimoshenkoBeam::name)
+        .append(" on ")
+        .append(CoulombJoint::name);
   switch (input.run.method) {
     case RunMethod::two_level:
       return text + ", " + TwoLevel::name;
@@ -97,7 +99,4 @@ std::string composition_of(const Input& input) {
 
 }  // namespace voussoir::program
 
-template class voussoir::ComposedSolver<voussoir::Planar, voussoir::CutContacts,
-                                        voussoir::CoulombJoint, voussoir::program::ChosenAnchors,
-                                        voussoir::AxialShearBolt, voussoir::TimoshenkoBeam,
-                                        voussoir::program::ChosenMethod>;
+template class voussoir::ComposedSolver<voussoir::program::Tunnel::Parts::Models>;

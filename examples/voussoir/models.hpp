@@ -65,7 +65,4 @@ using Tunnel =
 }  // namespace voussoir::program
 
 /// Compiled once, in models.cpp, for every file of the program and of the paper's analyses.
-extern template class voussoir::ComposedSolver<
-    voussoir::Planar, voussoir::CutContacts, voussoir::CoulombJoint,
-    voussoir::program::ChosenAnchors, voussoir::AxialShearBolt, voussoir::TimoshenkoBeam,
-    voussoir::program::ChosenMethod>;
+extern template class voussoir::ComposedSolver<voussoir::program::Tunnel::Parts::Models>;

@@ -11,6 +11,7 @@
 #include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/literals.hpp>
 #include <voussoir/core/random.hpp>

@@ -386,7 +386,7 @@ TEST_SUITE("model/system") {
     Wall wall(bar());
     auto& lining = wall.system.interface;
     const Eigen::VectorXd u = wall.motion(1e-3);
-    lining.start_from(u.data());
+    lining.touch_at(u.data(), 0);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
     lining.template add_forces<Frozen>(u.data(), f.data());
     CHECK(f.norm() <= 1e-15 * 8 * 1e9 * 1e-3);  // rounding of k w u

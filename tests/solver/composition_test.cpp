@@ -57,13 +57,13 @@ static_assert(ContactLaw<Welded, 2>);
 
 TEST_SUITE("solver/composition") {
   TEST_CASE("a solver says what it is made of, defaults included") {
-    CHECK(
-        Solver<>::composition() ==
-        "Planar, CutContacts, CoulombJoint, LorigAnchors, AxialBolt, EulerBernoulliBeam, TwoLevel");
-    CHECK(
-        Composition<Explicit, TimoshenkoBeam, AxialShearBolt, GargaWangAnchors,
-                    Welded>::describe() ==
-        "Planar, CutContacts, Welded, GargaWangAnchors, AxialShearBolt, TimoshenkoBeam, Explicit");
+    CHECK(Solver<>::composition() ==
+          "Planar, CutContacts, CoulombJoint, LorigAnchors, AxialBolt, EulerBernoulliBeam on "
+          "CoulombJoint, TwoLevel");
+    CHECK(Composition<Explicit, TimoshenkoBeam, RockOnLining<SmoothWall>, AxialShearBolt,
+                      GargaWangAnchors, Welded>::describe() ==
+          "Planar, CutContacts, Welded, GargaWangAnchors, AxialShearBolt, TimoshenkoBeam on "
+          "SmoothWall, Explicit");
   }
 
   TEST_CASE("the order of the policies does not matter") {

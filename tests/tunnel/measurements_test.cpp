@@ -28,6 +28,7 @@ constexpr double half = pi / count;  // half the angle of a chord
 /// A ring of frame elements alone, in the place of a solver: what the measurements ask of one.
 struct RingAlone {
   using SystemType = System<Planar, CoulombJoint>;
+  using LiningType = LiningMembers<Planar>;
 
   explicit RingAlone(const LiningSection& given) : section(given) {
     for (int k = 0; k < count; ++k) bodies.add_body({position(k), 0, 1, true});

@@ -16,6 +16,9 @@ struct ContactDetector {
 struct ContactLaw {
   static constexpr const char* name = "contact law";
 };
+struct InterfaceLaw {
+  static constexpr const char* name = "interface law";
+};
 struct BoltAnchors {
   static constexpr const char* name = "bolt anchors";
 };

@@ -36,15 +36,16 @@ namespace voussoir {
 ///
 /// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
 /// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
-template <int Dim, class JointLaw>
+template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint>
 class Dynamics : public MovingBodies<Dim> {
   static_assert(explain_contact_law<JointLaw, Dim>());
+  static_assert(explain_contact_law<InterfaceLaw, Dim>());
   using Base = MovingBodies<Dim>;
 
  public:
   using typename Base::Body;
   using typename Base::Shape;
-  using Network = ContactNetwork<Dim, JointLaw>;
+  using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw>;
 
   /// @throws InvalidInput  a setting out of range
   explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
@@ -71,12 +72,12 @@ class Dynamics : public MovingBodies<Dim> {
   /// Adds the nodes of a lining; what joins them is a support.
   /// @param interface_law  rock on lining
   /// @return  number of the first
-  /// @throws InvalidInput  there is one already; a node without mass or inertia
+  /// @throws InvalidInput  a node without mass or inertia
   int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
-                       const CoulombJoint& interface_law) {
+                       const InterfaceLaw& interface_law) {
     for (const auto& node : nodes) node.check();
-    network_.set_interface_law(interface_law);
     const int first = this->body_count();
+    network_.set_interface_law(interface_law, first, static_cast<int>(nodes.size()));
     for (const auto& node : nodes) this->add_node(node, BodyRole::lining);
     return first;
   }
@@ -234,7 +235,7 @@ class Dynamics : public MovingBodies<Dim> {
            (std::sqrt(1 + zeta * zeta) - zeta);
   }
   [[nodiscard]] double choose_step();
-  [[nodiscard]] detail::ForcesOnBodies<Dim, JointLaw> forces() {
+  [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces() {
     return {bodies_, network_,       supports_,         loads_,
             held_,   held_fraction_, settings_.gravity, settings_.local_damping};
   }
@@ -248,7 +249,7 @@ class Dynamics : public MovingBodies<Dim> {
   DynamicsSettings settings_;
   std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
-  detail::Stepping<Dim, JointLaw> stepping_;
+  detail::Stepping<Dim, Network> stepping_;
   static constexpr int lining_family = -1;
 
   using Base::bodies_;
@@ -273,8 +274,8 @@ class Dynamics : public MovingBodies<Dim> {
   std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
 
-template <int Dim, class JointLaw>
-void Dynamics<Dim, JointLaw>::hold() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void Dynamics<Dim, JointLaw, InterfaceLaw>::hold() {
   begin();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto [force, moment] = network_.gather(b);
@@ -284,8 +285,8 @@ void Dynamics<Dim, JointLaw>::hold() {
   set_held(1);
 }
 
-template <int Dim, class JointLaw>
-double Dynamics<Dim, JointLaw>::unbalance_over_weight() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+double Dynamics<Dim, JointLaw, InterfaceLaw>::unbalance_over_weight() {
   begin();
   const auto all = forces();
   double worst = 0;
@@ -299,8 +300,8 @@ double Dynamics<Dim, JointLaw>::unbalance_over_weight() {
   return worst;
 }
 
-template <int Dim, class JointLaw>
-void Dynamics<Dim, JointLaw>::advance(double time) {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void Dynamics<Dim, JointLaw, InterfaceLaw>::advance(double time) {
   require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
   const double end = time_ + time;
   while (end - time_ > 1e-12 * std::max(time, step_)) {
@@ -313,8 +314,8 @@ void Dynamics<Dim, JointLaw>::advance(double time) {
   time_ = end;
 }
 
-template <int Dim, class JointLaw>
-void Dynamics<Dim, JointLaw>::take_in() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void Dynamics<Dim, JointLaw, InterfaceLaw>::take_in() {
   if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
   const bool is_first = known_bodies_ == 0;
   if (is_first) {
@@ -336,8 +337,8 @@ void Dynamics<Dim, JointLaw>::take_in() {
   if (is_first) start_audit();
 }
 
-template <int Dim, class JointLaw>
-void Dynamics<Dim, JointLaw>::find_contacts() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void Dynamics<Dim, JointLaw, InterfaceLaw>::find_contacts() {
   const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
     if (law_of_cut_.empty()) return 0;
     const auto& [part, b] = shapes_[shape];
@@ -351,8 +352,8 @@ void Dynamics<Dim, JointLaw>::find_contacts() {
   fresh_ = false;
 }
 
-template <int Dim, class JointLaw>
-void Dynamics<Dim, JointLaw>::check() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void Dynamics<Dim, JointLaw, InterfaceLaw>::check() {
   const std::string fault = detail::RunDiagnostics<Dim>(bodies_, roles_, origin_,
                                                         sizes_.speed_limit, settings_.overlap_limit)
                                 .fault(std::as_const(network_), step_);
@@ -379,8 +380,8 @@ void Dynamics<Dim, JointLaw>::check() {
   throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
 }
 
-template <int Dim, class JointLaw>
-double Dynamics<Dim, JointLaw>::choose_step() {
+template <int Dim, class JointLaw, class InterfaceLaw>
+double Dynamics<Dim, JointLaw, InterfaceLaw>::choose_step() {
   take_in();
   if (!sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
@@ -407,12 +408,12 @@ double Dynamics<Dim, JointLaw>::choose_step() {
   return step_;
 }
 
-template <int Dim, class JointLaw>
-int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
+template <int Dim, class JointLaw, class InterfaceLaw>
+int Dynamics<Dim, JointLaw, InterfaceLaw>::run_batch(int count, double step) {
   begin();
   step_ = step;
   constexpr double never = std::numeric_limits<double>::infinity();
-  typename detail::Stepping<Dim, JointLaw>::Ways ways{never, never};
+  typename detail::Stepping<Dim, Network>::Ways ways{never, never};
   if (settings_.find_contacts) ways = {sizes_.travel_limit(), 0.25 * sizes_.reach};
   const int made = stepping_.run(forces(), count, step, ways, audit_);
   steps_ += made;
@@ -424,10 +425,10 @@ int Dynamics<Dim, JointLaw>::run_batch(int count, double step) {
 
 #ifdef VOUSSOIR_COMPILED
 VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, CoulombJoint>;
-VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, ContactNetwork<2, CoulombJoint>>;
 VOUSSOIR_PLANAR_TEMPLATE class Dynamics<2, CoulombJoint>;
 VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, CoulombJoint>;
-VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, ContactNetwork<3, CoulombJoint>>;
 VOUSSOIR_SPATIAL_TEMPLATE class Dynamics<3, CoulombJoint>;
 #endif
 

@@ -23,16 +23,17 @@ namespace voussoir {
 ///
 /// What an opening carved out of it has taken away is put back as a load on its wall
 /// (`Dynamics::hold`); `set_held(0)` takes it off at once. Block b of the mass is body b.
-template <class Geometry, class JointLaw>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw> moving_rock(const RockMass<Geometry>& mass,
-                                                            const LawsBySet<JointLaw>& laws,
-                                                            const InSitu& in_situ,
-                                                            DynamicsSettings settings = {}) {
+///
+/// @tparam InterfaceLaw  of the linings that it may get
+template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
+[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> moving_rock(
+    const RockMass<Geometry>& mass, const LawsBySet<JointLaw>& laws, const InSitu& in_situ,
+    DynamicsSettings settings = {}) {
   constexpr int dim = Geometry::dim;
   in_situ.check();
   settings.gravity = in_situ.gravity;
-  Dynamics<dim, JointLaw> run(laws, laws.all().size() > 1 ? laws.of_cuts(mass) : std::vector<int>{},
-                              settings);
+  Dynamics<dim, JointLaw, InterfaceLaw> run(
+      laws, laws.all().size() > 1 ? laws.of_cuts(mass) : std::vector<int>{}, settings);
   for (const auto& body : mass.bodies) run.add_block(body.parts, in_situ.density);
   for (const auto& slab : edge_slabs(mass.domain)) run.add_wall(slab);
   if (in_situ.surcharge > 0)
@@ -48,12 +49,11 @@ template <class Geometry, class JointLaw>
   return run;
 }
 
-template <class Geometry, class JointLaw>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw> moving_rock(const RockMass<Geometry>& mass,
-                                                            const JointLaw& law,
-                                                            const InSitu& in_situ,
-                                                            DynamicsSettings settings = {}) {
-  return moving_rock(mass, LawsBySet<JointLaw>(law), in_situ, settings);
+template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
+[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> moving_rock(
+    const RockMass<Geometry>& mass, const JointLaw& law, const InSitu& in_situ,
+    DynamicsSettings settings = {}) {
+  return moving_rock<InterfaceLaw>(mass, LawsBySet<JointLaw>(law), in_situ, settings);
 }
 
 /// Installs bolts in the rock as it lies now, free of force but for their pretension.
@@ -62,9 +62,9 @@ template <class Geometry, class JointLaw>
 /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
 /// @return  the bolts, which the run holds too: forces are read there
 /// @throws InvalidInput  spacing out of range, or a bar without length
-template <class Geometry, class JointLaw, class BoltLaw, class Anchors>
+template <class Geometry, class JointLaw, class InterfaceLaw, class BoltLaw, class Anchors>
 std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
-    Dynamics<Geometry::dim, JointLaw>& run, const RockMass<Geometry>& mass,
+    Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass,
     const std::vector<typename Geometry::Line>& bars, const BoltLaw& law, double spacing,
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
@@ -121,12 +121,11 @@ namespace detail {
 /// On rock lies a slab for every piece of wall, as sprayed; where rock is missing, or is further
 /// away than the thickness, a slab on the whole panel of the node, set back by a fifth of the
 /// thickness so that what touches the one does not touch the other.
-template <class Geometry, class JointLaw>
+template <class Geometry, class Run>
 class LiningTiles {
   static constexpr int dim = Geometry::dim;
 
  public:
-  using Run = Dynamics<dim, JointLaw>;
   using Shape = typename Run::Shape;
 
   LiningTiles(const Run& run, const LiningFrame<Geometry>& frame, double thickness)
@@ -173,14 +172,13 @@ class LiningTiles {
 /// @param interface_law  rock on lining
 /// @param thickness  [m], > 0
 /// @return  the lining, which the run holds too: forces are read there
-/// @throws InvalidInput  there is one already; a thickness or mass out of range; a member without
+/// @throws InvalidInput  a thickness or mass out of range; a member without
 ///                       length or section; no rock at the wall
-template <class Lining, class Geometry, class JointLaw>
-std::shared_ptr<LiningMembers<Geometry>> add_lining(Dynamics<Geometry::dim, JointLaw>& run,
-                                                    const LiningFrame<Geometry>& frame,
-                                                    const std::vector<LiningSection>& sections,
-                                                    const CoulombJoint& interface_law,
-                                                    double thickness) {
+template <class Lining, class Geometry, class JointLaw, class InterfaceLaw>
+std::shared_ptr<LiningMembers<Geometry>> add_lining(
+    Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const LiningFrame<Geometry>& frame,
+    const std::vector<LiningSection>& sections, const InterfaceLaw& interface_law,
+    double thickness) {
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");
@@ -190,7 +188,8 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(Dynamics<Geometry::dim, Join
             section.mass, "> 0 kg per metre of it");
   constexpr bool is_pinned = requires { Lining::is_pinned; };
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
-  const detail::LiningTiles<Geometry, JointLaw> tiles(run, frame, thickness);
+  const detail::LiningTiles<Geometry, std::remove_reference_t<decltype(run)>> tiles(run, frame,
+                                                                                    thickness);
   std::vector<LiningNode<dim>> nodes;
   for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
     const double length = shares[k].length;

@@ -10,17 +10,17 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/dynamics/kick.hpp>
-#include <voussoir/model/contact_network.hpp>
 #include <voussoir/model/moving_body.hpp>
+#include <voussoir/model/moving_contacts.hpp>
 #include <voussoir/model/support.hpp>
 
 namespace voussoir::detail {
 
 /// The bodies of a run and all that acts on them; nothing is owned.
-template <int Dim, class JointLaw>
+template <int Dim, class Network>
 struct ForcesOnBodies {
   std::vector<MovingBody<Dim>>& bodies;
-  ContactNetwork<Dim, JointLaw>& network;
+  Network& network;
   SupportSet<Dim>& supports;
   const std::vector<Load<Dim>>& loads;  ///< given to each body
   const std::vector<Load<Dim>>& held;   ///< what would keep each body in equilibrium
@@ -51,10 +51,10 @@ struct ForcesOnBodies {
 ///
 /// Contacts are computed first and then summed body by body in a fixed order: the result does not
 /// depend on the number of threads, to the last bit.
-template <int Dim, class JointLaw>
+template <int Dim, class Network>
 class Stepping {
  public:
-  using Forces = ForcesOnBodies<Dim, JointLaw>;
+  using Forces = ForcesOnBodies<Dim, Network>;
 
   explicit Stepping(unsigned threads) : team_(std::make_unique<ThreadTeam>(threads)) {}
 
@@ -119,9 +119,9 @@ class Stepping {
   std::vector<MemberSums> sums_;
 };
 
-template <int Dim, class JointLaw>
-int Stepping<Dim, JointLaw>::run(const Forces& forces, int count, double step, const Ways& ways,
-                                 EnergyBalance& audit) {
+template <int Dim, class Network>
+int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, const Ways& ways,
+                                EnergyBalance& audit) {
   std::vector<MovingBody<Dim>>& bodies = forces.bodies;
   sums_.assign(team_->size(), {});
   int made = 0;

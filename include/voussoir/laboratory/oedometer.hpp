@@ -46,10 +46,7 @@ struct Press {
   template <class Detector>
   Press(const RockMass<Geometry>& mass, const JointLaw& joint_law, const OedometerParams& params,
         const Detector&)
-      : system(joint_law, params.wall_stiffness_ratio * joint_law.joint_normal_stiffness(),
-               CoulombJoint(
-                   {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0},
-                   any_units)),
+      : system(joint_law, params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()),
         wall_stiffness(params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()) {
     for (const auto& body : mass.bodies) {
       // What an out-of-balance force is compared with: the force of the stresses that are meant.

@@ -21,8 +21,9 @@ template <int Dim>
 struct ReferencePoint {
   Vec<Dim> offset;          ///< from the centre of the facet, along normal and tangents [m]
   double weight;            ///< [m] or [m^2]
-  PointForce<Dim> initial;  ///< in the in-situ state, or minus what the installation must not feel
-  /// Opening and slips at displacement zero: not zero once contacts have been updated [m].
+  PointForce<Dim> initial;  ///< in the in-situ state
+  /// Opening and slips at displacement zero: not zero once contacts have been updated, or where
+  /// the contact has been made on ground that had already moved [m].
   Vec<Dim> start = zeros<Vec<Dim>>();
 };
 
@@ -105,6 +106,11 @@ class ContactGroup {
   explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  /// @return  its index
+  int add_law(Law law) {
+    laws_.push_back(std::move(law));
+    return static_cast<int>(laws_.size()) - 1;
+  }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
     return laws_[static_cast<std::size_t>(c.law)];
   }
@@ -140,14 +146,16 @@ class ContactGroup {
     });
   }
 
-  /// Makes the present displacement the one at which the elastic springs are free of force:
-  /// for contacts that are installed on ground which has already moved.
-  void start_from(const double* u) {
-    for_each_point([&](const Contact& c, Point& p, const Vec<dim>& offset) {
-      const PointMotion<dim> motion = c.motion(p, offset, u);
-      p.initial = {law_of(c).joint_normal_stiffness() * p.weight * motion.opening,
-                   law_of(c).joint_shear_stiffness() * p.weight * motion.slip};
-    });
+  /// Makes `u` the displacement at which contacts first, first + 1, ... touch without force: for
+  /// those that are installed on ground which has already moved.
+  void touch_at(const double* u, std::size_t first) {
+    for (std::size_t k = first; k < contacts_.size(); ++k) {
+      const Contact& c = contacts_[k];
+      for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
+        points_[i].initial = {};
+        points_[i].start = -c.linear_motion(points_[i], u);
+      }
+    }
   }
 
   /// Adds the contact forces at displacement `u` to `f`, both dof values per body.

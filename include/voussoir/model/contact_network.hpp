@@ -25,14 +25,14 @@ namespace voussoir {
 ///
 /// Contacts are numbered in one row, group after group. Every body has the list of its contacts, in
 /// which their forces are summed: always in the same order.
-template <int Dim, class JointLaw>
+template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint>
 class ContactNetwork {
  public:
   using Body = MovingBody<Dim>;
   using Bodies = std::vector<Body>;
   using Joints = MovingContacts<Dim, JointLaw>;
   using Walls = MovingContacts<Dim, SmoothWall>;
-  using Interface = MovingContacts<Dim, CoulombJoint>;
+  using Interface = MovingContacts<Dim, InterfaceLaw>;
   using Tracker = ContactTracker<Dim>;
   static constexpr int dof = Dim + spin_count<Dim>;
 
@@ -64,10 +64,12 @@ class ContactNetwork {
     });
   }
 
-  /// @throws InvalidInput  there is a lining already
-  void set_interface_law(const CoulombJoint& law) {
-    if (!interface().laws().empty()) throw InvalidInput("lining: there is already one");
-    std::get<2>(groups_) = Interface({law});
+  /// Rock touches these bodies, nodes of one lining, by this law.
+  /// @param first  of the bodies;  @param count  of them
+  void set_interface_law(const InterfaceLaw& law, int first, int count) {
+    const std::int32_t number = std::get<2>(groups_).add_law(law);
+    interface_law_of_.resize(index(first + count), -1);
+    std::fill(interface_law_of_.begin() + first, interface_law_of_.end(), number);
   }
 
   /// Gives every contact that is open by no more than `closed` [m] the traction of a stress field,
@@ -112,15 +114,14 @@ class ContactNetwork {
     tracker.update(
         bodies,
         [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
-          group_of_kind(kind_of(pair), [&](auto& group, bool is_of_joints) {
-            const bool in_place =
-                renew(group, tracker, pair, found, bodies, is_of_joints, law_of, refound);
+          group_of_kind(kind_of(pair), [&](auto& group, std::size_t kind) {
+            const bool in_place = renew(group, tracker, pair, found, bodies, kind, law_of, refound);
             relisted = relisted || !in_place;
           });
           changed = true;
         },
         [&](typename Tracker::Pair& pair) {
-          group_of_kind(kind_of(pair), [&](auto& group, bool) {
+          group_of_kind(kind_of(pair), [&](auto& group, std::size_t) {
             refound -= group.stored_energy(index(pair.contact), bodies);
             auto& contact = group.contacts()[index(pair.contact)];
             contact.last = contact.first;
@@ -187,13 +188,13 @@ class ContactNetwork {
   void each_group(Visit&& visit) const {
     std::apply([&](const auto&... group) { (visit(group), ...); }, groups_);
   }
-  /// Calls visit(group, whether it is that of the joints).
+  /// Calls visit(group, kind).
   /// @param kind  0: joints, 1: walls, 2: interface
   template <class Visit>
   void group_of_kind(std::size_t kind, Visit&& visit) {
     std::size_t k = 0;
     each_group([&](auto& group) {
-      if (k++ == kind) visit(group, kind == 0);
+      if (k++ == kind) visit(group, kind);
     });
   }
 
@@ -201,7 +202,7 @@ class ContactNetwork {
   /// @return  true if the contact has kept its place in the lists
   template <class Group, class LawOf>
   bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
-             const Contact<Dim>& found, const Bodies& bodies, bool has_many_laws, LawOf&& law_of,
+             const Contact<Dim>& found, const Bodies& bodies, std::size_t kind, LawOf&& law_of,
              double& refound) {
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
     const std::size_t owner = of_a ? pair.a : pair.b;
@@ -214,8 +215,10 @@ class ContactNetwork {
             .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
     if (known)
       contact.law = old->law;
-    else if (has_many_laws)
+    else if (kind == 0)
       contact.law = law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
+    else if (kind == 2)
+      contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
     if (viscous_damping_ > 0)
       contact.viscosity = viscosity(
           bodies[index(a)], bodies[index(b)],
@@ -240,6 +243,11 @@ class ContactNetwork {
     refound += group.stored_energy(index(pair.contact), bodies);
     is_stale_[index(a)] = is_stale_[index(b)] = 1;
     return in_place;
+  }
+
+  /// -1: no node of a lining.
+  [[nodiscard]] std::int32_t interface_law_of(int body) const {
+    return index(body) < interface_law_of_.size() ? interface_law_of_[index(body)] : -1;
   }
 
   /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the
@@ -312,6 +320,7 @@ class ContactNetwork {
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
+  std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
   ContactPoints rule_;
   double viscous_damping_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
@@ -322,9 +331,9 @@ class ContactNetwork {
   std::vector<double> stiffest_;  ///< [1/s^2]
 };
 
-template <int Dim, class JointLaw>
-void ContactNetwork<Dim, JointLaw>::react(std::size_t first, std::size_t last, const Bodies& bodies,
-                                          Dissipation& lost) {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void ContactNetwork<Dim, JointLaw, InterfaceLaw>::react(std::size_t first, std::size_t last,
+                                                        const Bodies& bodies, Dissipation& lost) {
   std::size_t before = 0;
   each_group([&](auto& group) {
     const std::size_t end = std::min(last, before + group.size());
@@ -334,8 +343,9 @@ void ContactNetwork<Dim, JointLaw>::react(std::size_t first, std::size_t last, c
   });
 }
 
-template <int Dim, class JointLaw>
-auto ContactNetwork<Dim, JointLaw>::gather(std::size_t b) const -> std::pair<Vec<Dim>, Spin<Dim>> {
+template <int Dim, class JointLaw, class InterfaceLaw>
+auto ContactNetwork<Dim, JointLaw, InterfaceLaw>::gather(std::size_t b) const
+    -> std::pair<Vec<Dim>, Spin<Dim>> {
   Vec<Dim> force = zeros<Vec<Dim>>();
   Spin<Dim> moment = zeros<Spin<Dim>>();
   for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
@@ -347,8 +357,8 @@ auto ContactNetwork<Dim, JointLaw>::gather(std::size_t b) const -> std::pair<Vec
   return {force, moment};
 }
 
-template <int Dim, class JointLaw>
-void ContactNetwork<Dim, JointLaw>::list(std::size_t body_count) {
+template <int Dim, class JointLaw, class InterfaceLaw>
+void ContactNetwork<Dim, JointLaw, InterfaceLaw>::list(std::size_t body_count) {
   reactions_.resize(size());
   first_end_.assign(body_count + 1, 0);
   each([this](const auto&, const auto& c) {
@@ -368,8 +378,9 @@ void ContactNetwork<Dim, JointLaw>::list(std::size_t body_count) {
   });
 }
 
-template <int Dim, class JointLaw>
-double ContactNetwork<Dim, JointLaw>::largest_row(std::size_t b, const Bodies& bodies) const {
+template <int Dim, class JointLaw, class InterfaceLaw>
+double ContactNetwork<Dim, JointLaw, InterfaceLaw>::largest_row(std::size_t b,
+                                                                const Bodies& bodies) const {
   Stiffness sum = zeros<Stiffness>();
   for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
     std::size_t before = 0;

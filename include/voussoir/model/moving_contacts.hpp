@@ -83,6 +83,11 @@ class MovingContacts {
   explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) {}
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  /// @return  its index
+  std::int32_t add_law(Law law) {
+    laws_.push_back(std::move(law));
+    return static_cast<std::int32_t>(laws_.size()) - 1;
+  }
   /// @throws InvalidInput  not as many as there are
   void set_laws(std::vector<Law> laws) {
     require(laws.size() == laws_.size(), "number of contact laws", static_cast<double>(laws.size()),

@@ -111,7 +111,7 @@ class SupportSet {
 
   SupportSet() = default;
   SupportSet(const SupportSet& other) { *this = other; }
-  SupportSet(SupportSet&&) = default;
+  SupportSet(SupportSet&&) noexcept = default;
   SupportSet& operator=(const SupportSet& other) {
     if (this == &other) return *this;
     supports_.clear();
@@ -120,7 +120,7 @@ class SupportSet {
     at_start_ = other.at_start_;
     return *this;
   }
-  SupportSet& operator=(SupportSet&&) = default;
+  SupportSet& operator=(SupportSet&&) noexcept = default;
   ~SupportSet() = default;
 
   void add(std::shared_ptr<Kind> support) { supports_.push_back(std::move(support)); }

@@ -45,7 +45,7 @@ struct SystemBody {
 /// Rotations are small and the contact topology is that of the reference position.
 ///
 /// A copy is a full snapshot: about 2 kB per block.
-template <class Geometry, class JointLaw>
+template <class Geometry, class JointLaw, class InterfaceLaw = CoulombJoint>
 class System {
  public:
   using GeometryType = Geometry;
@@ -55,15 +55,17 @@ class System {
   using Matrix = BlockMatrix<dof>;
   using Joints = ContactGroup<Geometry, JointLaw>;
   using Boundary = ContactGroup<Geometry, SmoothWall>;
-  using Interface = ContactGroup<Geometry, CoulombJoint>;
+  using Interface = ContactGroup<Geometry, InterfaceLaw>;
   using Shape = typename PlacedShapes<dim>::Shape;
   using Shapes = std::vector<std::span<const Shape>>;
 
+  System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness)
+      : joints(joint_laws.all()), boundary({SmoothWall(boundary_stiffness)}), interface({}) {}
   System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness,
-         const CoulombJoint& interface_law)
-      : joints(joint_laws.all()),
-        boundary({SmoothWall(boundary_stiffness)}),
-        interface({interface_law}) {}
+         const InterfaceLaw& interface_law)
+      : System(joint_laws, boundary_stiffness) {
+    interface.add_law(interface_law);
+  }
 
   Joints joints;        ///< rock on rock
   Boundary boundary;    ///< rock on the fixed edge of the domain
@@ -238,8 +240,8 @@ class System {
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 
-template <class Geometry, class JointLaw>
-int System<Geometry, JointLaw>::add_bodies(std::span<const Body> bodies) {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+int System<Geometry, JointLaw, InterfaceLaw>::add_bodies(std::span<const Body> bodies) {
   const int first = body_count();
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
@@ -253,8 +255,8 @@ int System<Geometry, JointLaw>::add_bodies(std::span<const Body> bodies) {
   return first;
 }
 
-template <class Geometry, class JointLaw>
-auto System<Geometry, JointLaw>::pose(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+auto System<Geometry, JointLaw, InterfaceLaw>::pose(int b) const -> Pose<dim> {
   Pose<dim> at = pose_when_found(b);
   if (!body(b).movable) return at;
   at.position = body(b).centre + part<dim>(displacement, dof * b);
@@ -264,8 +266,8 @@ auto System<Geometry, JointLaw>::pose(int b) const -> Pose<dim> {
   return at;
 }
 
-template <class Geometry, class JointLaw>
-auto System<Geometry, JointLaw>::pose_when_found(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+auto System<Geometry, JointLaw, InterfaceLaw>::pose_when_found(int b) const -> Pose<dim> {
   Pose<dim> at;
   at.position = body(b).centre;
   if (static_cast<std::size_t>(b) < turned_.size()) {
@@ -275,8 +277,8 @@ auto System<Geometry, JointLaw>::pose_when_found(int b) const -> Pose<dim> {
   return at;
 }
 
-template <class Geometry, class JointLaw>
-double System<Geometry, JointLaw>::moved_since_found() const {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+double System<Geometry, JointLaw, InterfaceLaw>::moved_since_found() const {
   double farthest = 0;
   for (int b = 0; b < body_count(); ++b) {
     if (!body(b).movable || !body(b).is_block) continue;
@@ -288,8 +290,9 @@ double System<Geometry, JointLaw>::moved_since_found() const {
   return farthest;
 }
 
-template <class Geometry, class JointLaw>
-auto System<Geometry, JointLaw>::elastic_stiffness(const Progress& progress) const -> Matrix {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+auto System<Geometry, JointLaw, InterfaceLaw>::elastic_stiffness(const Progress& progress) const
+    -> Matrix {
   StopCheck stop(progress);
   Matrix k(body_count());
   const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
@@ -311,8 +314,8 @@ auto System<Geometry, JointLaw>::elastic_stiffness(const Progress& progress) con
   return k;
 }
 
-template <class Geometry, class JointLaw>
-void System<Geometry, JointLaw>::remove(const std::vector<int>& gone) {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+void System<Geometry, JointLaw, InterfaceLaw>::remove(const std::vector<int>& gone) {
   BodyMarks is_gone(bodies_.size(), 0);
   for (const int b : gone) {
     is_gone[static_cast<std::size_t>(b)] = 1;
@@ -327,8 +330,8 @@ void System<Geometry, JointLaw>::remove(const std::vector<int>& gone) {
   for (const auto& support : supports) support->remove(is_gone);
 }
 
-template <class Geometry, class JointLaw>
-std::vector<int> System<Geometry, JointLaw>::unsupported() const {
+template <class Geometry, class JointLaw, class InterfaceLaw>
+std::vector<int> System<Geometry, JointLaw, InterfaceLaw>::unsupported() const {
   // Groups as trees: every body points towards the root of its group, that of the ground is
   // `fixed`.
   const std::size_t fixed = bodies_.size();

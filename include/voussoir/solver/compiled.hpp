@@ -44,14 +44,17 @@ VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, CoulombJoint>;
 VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, SmoothWall>;
 
 VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint)
-VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<Planar, CutContacts, CoulombJoint, LorigAnchors,
-                                              AxialBolt, EulerBernoulliBeam, TwoLevel>;
+VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<
+    ModelsOfRoles<Planar, CutContacts, CoulombJoint, CoulombJoint, LorigAnchors, AxialBolt,
+                  EulerBernoulliBeam, TwoLevel>>;
 
 VOUSSOIR_SEARCHES(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, CoulombJoint)
-VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,
-                                               AxialBolt, EulerBernoulliBeam, TwoLevel>;
-VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<Spatial, CutContacts, CoulombJoint, LorigAnchors,
-                                               AxialBolt, TimoshenkoBeam, TwoLevel>;
+VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<
+    ModelsOfRoles<Spatial, CutContacts, CoulombJoint, CoulombJoint, LorigAnchors, AxialBolt,
+                  EulerBernoulliBeam, TwoLevel>>;
+VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<
+    ModelsOfRoles<Spatial, CutContacts, CoulombJoint, CoulombJoint, LorigAnchors, AxialBolt,
+                  TimoshenkoBeam, TwoLevel>>;
 
 }  // namespace voussoir
 

@@ -6,6 +6,7 @@
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/detection/contact_detector.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
@@ -35,9 +36,9 @@ struct Pick<Role, Default, First, Rest...> {
 template <class Policy>
 inline constexpr bool fills_some_role =
     Fills<Policy, roles::Geometry> || Fills<Policy, roles::ContactDetector> ||
-    Fills<Policy, roles::ContactLaw> || Fills<Policy, roles::BoltAnchors> ||
-    Fills<Policy, roles::BoltLaw> || Fills<Policy, roles::Lining> ||
-    Fills<Policy, roles::Equilibrium>;
+    Fills<Policy, roles::ContactLaw> || Fills<Policy, roles::InterfaceLaw> ||
+    Fills<Policy, roles::BoltAnchors> || Fills<Policy, roles::BoltLaw> ||
+    Fills<Policy, roles::Lining> || Fills<Policy, roles::Equilibrium>;
 
 /// A policy with the parts of one role that declares another would be asked for the parts of that.
 template <class Policy, class Geometry>
@@ -69,18 +70,33 @@ inline constexpr int fillers = (0 + ... + (Fills<Policies, Role> ? 1 : 0));
 
 }  // namespace detail
 
+/// One model for every role.
+template <class GeometryModel, class DetectorModel, class JointLawModel, class InterfaceLawModel,
+          class AnchorsModel, class BoltLawModel, class LiningModel, class MethodModel>
+struct ModelsOfRoles {
+  using Geometry = GeometryModel;
+  using Detector = DetectorModel;
+  using JointLaw = JointLawModel;
+  using InterfaceLaw = InterfaceLawModel;
+  using Anchors = AnchorsModel;
+  using BoltLaw = BoltLawModel;
+  using Lining = LiningModel;
+  using Method = MethodModel;
+};
+
 /// The physics of a solver: one model per role, from policies in any order; a role left out has
 /// its default. This is the one place where every requirement is spelled out to the user.
 ///
-/// | role               | default            |
-/// |--------------------|--------------------|
-/// | geometry           | Planar             |
-/// | contact detector   | CutContacts        |
-/// | contact law        | CoulombJoint       |
-/// | bolt anchors       | LorigAnchors       |
-/// | bolt law           | AxialBolt          |
-/// | lining             | EulerBernoulliBeam |
-/// | equilibrium method | TwoLevel           |
+/// | role               | default                    |
+/// |--------------------|----------------------------|
+/// | geometry           | Planar                     |
+/// | contact detector   | CutContacts                |
+/// | contact law        | CoulombJoint               |
+/// | interface law      | RockOnLining<CoulombJoint> |
+/// | bolt anchors       | LorigAnchors               |
+/// | bolt law           | AxialBolt                  |
+/// | lining             | EulerBernoulliBeam         |
+/// | equilibrium method | TwoLevel                   |
 template <class... Policies>
 struct Composition {
   static_assert((detail::fills_some_role<Policies> && ...),
@@ -90,6 +106,8 @@ struct Composition {
                 "Solver: two contact detectors given");
   static_assert(detail::fillers<roles::ContactLaw, Policies...> <= 1,
                 "Solver: two contact laws given");
+  static_assert(detail::fillers<roles::InterfaceLaw, Policies...> <= 1,
+                "Solver: two interface laws given");
   static_assert(detail::fillers<roles::BoltAnchors, Policies...> <= 1,
                 "Solver: two kinds of bolt anchors given");
   static_assert(detail::fillers<roles::BoltLaw, Policies...> <= 1, "Solver: two bolt laws given");
@@ -100,6 +118,8 @@ struct Composition {
   using Geometry = typename detail::Pick<roles::Geometry, Planar, Policies...>::type;
   using Detector = typename detail::Pick<roles::ContactDetector, CutContacts, Policies...>::type;
   using JointLaw = typename detail::Pick<roles::ContactLaw, CoulombJoint, Policies...>::type;
+  using Interface =
+      typename detail::Pick<roles::InterfaceLaw, RockOnLining<CoulombJoint>, Policies...>::type;
   using Anchors = typename detail::Pick<roles::BoltAnchors, LorigAnchors, Policies...>::type;
   using BoltLaw = typename detail::Pick<roles::BoltLaw, AxialBolt, Policies...>::type;
   using Lining = typename detail::Pick<roles::Lining, EulerBernoulliBeam, Policies...>::type;
@@ -109,17 +129,22 @@ struct Composition {
   static_assert((detail::explain_declared_role<Policies, Geometry>() && ...));
   static_assert(explain_contact_detector<Detector, RockMass<Geometry>, Geometry>());
   static_assert(explain_contact_law<JointLaw, Geometry::dim>());
+  static_assert(explain_interface_law<Interface, Geometry::dim>());
   static_assert(explain_bolt_anchors<Anchors>());
   static_assert(explain_bolt_law<BoltLaw, Geometry::dim>());
   static_assert(explain_lining_model<Lining, Geometry::dof>());
+
+  /// The same whatever the order in which the policies were named.
+  using Models = ModelsOfRoles<Geometry, Detector, JointLaw, typename Interface::Law, Anchors,
+                               BoltLaw, Lining, Method>;
 
   /// For the first line of every log: "Planar, CutContacts, CoulombJoint, ...".
   [[nodiscard]] static std::string describe() {
     std::string text = Geometry::name;
     for (const char* name :
-         {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name, Lining::name, Method::name})
+         {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name, Lining::name})
       text.append(", ").append(name);
-    return text;
+    return text.append(" on ").append(Interface::name).append(", ").append(Method::name);
   }
 };
 

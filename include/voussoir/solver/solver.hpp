@@ -31,11 +31,20 @@ namespace voussoir {
 /// History is committed when an equilibrium is found.
 ///
 /// 2-D forces are per metre of tunnel; a bolt's values are per bolt, shared over its spacing.
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
+///
+/// @tparam Models  one for every role, see `ModelsOfRoles`
+template <class Models>
 class ComposedSolver {
  public:
-  using SystemType = System<Geometry, JointLaw>;
+  using Geometry = typename Models::Geometry;
+  using Detector = typename Models::Detector;
+  using JointLaw = typename Models::JointLaw;
+  using InterfaceLaw = typename Models::InterfaceLaw;
+  using Anchors = typename Models::Anchors;
+  using BoltLaw = typename Models::BoltLaw;
+  using Lining = typename Models::Lining;
+  using Method = typename Models::Method;
+  using SystemType = System<Geometry, JointLaw, InterfaceLaw>;
   using BoltsType = BoltSet<Geometry::dim, BoltLaw>;
   using LiningType = LiningMembers<Geometry>;
   static constexpr int dim = Geometry::dim;
@@ -79,17 +88,18 @@ class ComposedSolver {
   int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
                    const Anchors& anchors = {});
 
-  /// Installs a lining on the wall in its present position, free of force.
+  /// Installs a lining on the wall in its present position, free of force. There may be several, on
+  /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
   /// @param interface_law  rock on lining
-  /// @throws InvalidInput  a lining is already there, a member has no length, or no rock touches it
+  /// @throws InvalidInput  a member has no length, or no rock touches it
   void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
-                      const CoulombJoint& interface_law) {
+                      const InterfaceLaw& interface_law) {
     install_lining(frame, std::vector<LiningSection>{section}, interface_law);
   }
   /// The same with members of several sections: ribs and what joins them.
   void install_lining(const LiningFrame<Geometry>& frame,
                       const std::vector<LiningSection>& sections,
-                      const CoulombJoint& interface_law);
+                      const InterfaceLaw& interface_law);
 
   /// Lets the rock and its supports find their equilibrium at a residual wall traction
   /// on the wall (relaxation before support: > 0; the final state: 0).
@@ -138,15 +148,22 @@ class ComposedSolver {
   [[nodiscard]] const BoltsType* bolts() const {
     return system_.supports.template first<BoltsType>();
   }
-  /// The members of the lining; null without lining.
+  /// The linings installed so far, in that order.
+  [[nodiscard]] std::vector<const LiningType*> linings() const {
+    return system_.supports.template all<LiningType>();
+  }
+  /// The first of them; null without lining.
   [[nodiscard]] const LiningType* lining() const {
     return system_.supports.template first<LiningType>();
   }
   [[nodiscard]] int bolt_count() const { return bolt_count_; }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
-  /// Number of the first lining node among the bodies of the system; -1 without lining.
-  [[nodiscard]] int first_lining_node() const { return first_node_; }
+  /// Number of the first node of the first lining among the bodies of the system; -1 without
+  /// lining.
+  [[nodiscard]] int first_lining_node() const {
+    return lining() != nullptr ? lining()->first_node() : -1;
+  }
   /// Number of the fixed ground among the bodies of the system.
   [[nodiscard]] int ground() const { return static_cast<int>(mass_->bodies.size()); }
 
@@ -154,12 +171,6 @@ class ComposedSolver {
   [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const;
 
  private:
-  /// A stand-in until a lining is installed: there are no contacts that could use it.
-  [[nodiscard]] static CoulombJoint free_interface() {
-    return CoulombJoint(
-        {.joint_normal_stiffness = 1, .joint_shear_stiffness = 1, .friction_angle = 0}, any_units);
-  }
-
   /// Takes what there is, and checks it; `build` makes the model of it.
   struct Unbuilt {};
   ComposedSolver(Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
@@ -181,26 +192,17 @@ class ComposedSolver {
   std::vector<double> measures_;
   std::vector<int> fallen_;
   int bolt_count_ = 0;
-  int first_node_ = -1;
   bool started_ = false;
 };
-
-namespace detail {
-template <class Parts>
-using Composed =
-    ComposedSolver<typename Parts::Geometry, typename Parts::Detector, typename Parts::JointLaw,
-                   typename Parts::Anchors, typename Parts::BoltLaw, typename Parts::Lining,
-                   typename Parts::Method>;
-}  // namespace detail
 
 /// A solver composed from policies in any order (see `Composition`). Whatever the order, the type
 /// behind it is the same one, so that a program which spells a composition in two ways pays for it
 /// once.
 template <class... Policies>
-class Solver : public detail::Composed<Composition<Policies...>> {
+class Solver : public ComposedSolver<typename Composition<Policies...>::Models> {
  public:
   using Parts = Composition<Policies...>;
-  using Base = detail::Composed<Parts>;
+  using Base = ComposedSolver<typename Parts::Models>;
   using Base::Base;
   using SystemType = typename Base::SystemType;
   static_assert(explain_equilibrium_method<typename Parts::Method, SystemType>());
@@ -213,70 +215,64 @@ class Solver : public detail::Composed<Composition<Policies...>> {
   [[nodiscard]] static std::string composition() { return Parts::describe(); }
 };
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
-    Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-    ContactPoints points)
+template <class Models>
+ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
+                                       LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
+                                       ContactPoints points)
     : mass_(std::make_shared<RockMass<Geometry>>(std::move(mass))),
       joint_laws_(std::move(joint_laws)),
       in_situ_(in_situ),
       points_(points),
-      system_(joint_laws_, joint_laws_.stiffest(), free_interface()) {
+      system_(joint_laws_, joint_laws_.stiffest()) {
   in_situ_.check();
   if (mass_->bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
-    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-    ContactPoints points, const Progress& progress)
+template <class Models>
+ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
+                                       const InSitu& in_situ, ContactPoints points,
+                                       const Progress& progress)
     : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points) {
   build(progress);
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::ComposedSolver(
-    RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-    const typename Geometry::Opening& opening, double smallest_piece, ContactPoints points,
-    const Progress& progress)
+template <class Models>
+ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
+                                       const InSitu& in_situ,
+                                       const typename Geometry::Opening& opening,
+                                       double smallest_piece, ContactPoints points,
+                                       const Progress& progress)
     : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points) {
   *mass_ = carve(std::move(*mass_), opening, smallest_piece, progress);
   build(progress);
   hold_wall();
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::excavate(
-    const typename Geometry::Opening& opening, double smallest_piece, const Progress& progress) {
+template <class Models>
+void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
+                                      double smallest_piece, const Progress& progress) {
   if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
   system_.shapes.reset();  // they are those of the mass
   const bool is_shared = mass_.use_count() > 1;
   mass_ = std::make_shared<RockMass<Geometry>>(
       carve(is_shared ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
-  system_ = SystemType(joint_laws_, joint_laws_.stiffest(), free_interface());
+  system_ = SystemType(joint_laws_, joint_laws_.stiffest());
   build(progress);
   hold_wall();
 }
 
 /// All that the rock in the opening has exerted on the wall goes on acting.
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::hold_wall() {
+template <class Models>
+void ComposedSolver<Models>::hold_wall() {
   Eigen::VectorXd f;
   system_.forces(system_.displacement, f);
   system_.wall_load = opposite(f);
   system_.wall_fraction = 1;
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::install_bolt(
-    const typename Geometry::Line& bar, const BoltLaw& law, double spacing,
-    const Anchors& anchors) {
+template <class Models>
+int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, const BoltLaw& law,
+                                         double spacing, const Anchors& anchors) {
   require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
   const double length = bar.length();
   require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
@@ -318,16 +314,14 @@ int ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Metho
   return static_cast<int>(crossings.size());
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::install_lining(
-    const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-    const CoulombJoint& interface_law) {
-  if (first_node_ >= 0) throw InvalidInput("lining: there is already one");
+template <class Models>
+void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
+                                            const std::vector<LiningSection>& sections,
+                                            const InterfaceLaw& interface_law) {
   if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
                    [this](const auto& c) { return system_.body(c.body).movable; }))
     throw InvalidInput("lining: no rock touches it");
-  first_node_ = system_.body_count();
+  const int first_node = system_.body_count();
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
   for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
     const double weight = shares[k].mass * in_situ_.gravity;
@@ -342,34 +336,33 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
     const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
     const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
     const double length = (b - a).norm();
-    members.push_back({first_node_ + member.first, first_node_ + member.second, length,
+    members.push_back({first_node + member.first, first_node + member.second, length,
                        frame_axes<dim>(b - a, member.outward),
                        Lining::template stiffness<dof>(section, length)});
   }
-  system_.supports.add(std::make_shared<LiningType>(std::move(members), first_node_,
+  system_.supports.add(std::make_shared<LiningType>(std::move(members), first_node,
                                                     static_cast<int>(frame.nodes.size())));
-  typename SystemType::Interface interface({interface_law});
-  for (const int k : order_by_bodies(frame.contacts, [this](const LiningContact<Geometry>& c) {
-         return std::pair<int, int>(c.body, first_node_ + c.node);
+  const int law = system_.interface.add_law(interface_law);
+  const std::size_t before = system_.interface.contacts().size();
+  for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
+         return std::pair<int, int>(c.body, first_node + c.node);
        })) {
     const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
     if (!system_.body(c.body).movable) continue;  // that block is detached
     const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
-    const int node = first_node_ + c.node;
+    const int node = first_node + c.node;
     // A pin is pushed in its middle, wherever on its stretch the rock touches it.
     Vec<dim> centre = system_.body(node).centre;
     if constexpr (requires { Lining::is_pinned; }) centre = c.facet.centre();
-    interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1});
+    system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1},
+                          law);
   }
-  interface.start_from(system_.displacement.data());
-  system_.interface = std::move(interface);
+  system_.interface.touch_at(system_.displacement.data(), before);
   started_ = true;
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-EquilibriumReport ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
-                                 Method>::equilibrium(double wall_fraction, const Method& method,
+template <class Models>
+EquilibriumReport ComposedSolver<Models>::equilibrium(double wall_fraction, const Method& method,
                                                       const Acceptance& acceptance,
                                                       const Progress& progress) {
   require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
@@ -382,10 +375,8 @@ EquilibriumReport ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw,
   return report;
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
-                    Method>::displacement_of(int body, const Vec<dim>& point) const -> Vec<dim> {
+template <class Models>
+auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) const -> Vec<dim> {
   const Vec<dim> arm = point - system_.body(body).centre;
   if (system_.has_found_again()) {
     const Pose<dim> now = system_.pose(body);
@@ -394,10 +385,8 @@ auto ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
   return displacement_at<dim>(system_.displacement.data() + dof * body, arm);
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Method>::build(
-    const Progress& progress) {
+template <class Models>
+void ComposedSolver<Models>::build(const Progress& progress) {
   detail::InitialModel<Detector, SystemType> model(*mass_, in_situ_, points_, system_, progress);
   model.add_bodies(measures_);
   model.add_contacts(joint_laws_);
@@ -406,11 +395,9 @@ void ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining, Meth
   model.set_initial_stress();
 }
 
-template <class Geometry, class Detector, class JointLaw, class Anchors, class BoltLaw,
-          class Lining, class Method>
-std::vector<BlockIntersection>
-ComposedSolver<Geometry, Detector, JointLaw, Anchors, BoltLaw, Lining,
-               Method>::intersections_of_present_rock(const typename Geometry::Line& bar) const {
+template <class Models>
+std::vector<BlockIntersection> ComposedSolver<Models>::intersections_of_present_rock(
+    const typename Geometry::Line& bar) const {
   std::vector<BlockIntersection> intersections = block_intersections(*mass_, bar);
   std::erase_if(intersections,
                 [this](const BlockIntersection& p) { return !system_.body(p.body).movable; });

@@ -144,15 +144,15 @@ template <class Elements, class EndForces>
 
 }  // namespace detail
 
-/// One entry per node: the mean of the two members that meet there.
+/// Of one lining of a solver (see `linings()`); one entry per node: the mean of the two members
+/// that meet there.
 template <class Solver>
-[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver,
+                                                     const typename Solver::LiningType& lining) {
   const auto& system = solver.system();
-  const auto* lining = solver.lining();
-  if (lining == nullptr) return {};
-  const int first = lining->first_node();
+  const int first = lining.first_node();
   auto forces = detail::mean_of_members(
-      lining->members(), first, lining->node_count(),
+      lining.members(), first, lining.node_count(),
       [&](const auto& element) { return element.end_forces(system.displacement.data()); });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = first + static_cast<int>(k);
@@ -163,9 +163,17 @@ template <class Solver>
   return forces;
 }
 
+/// Of the first lining; none without one.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+  const auto* lining = solver.lining();
+  if (lining == nullptr) return {};
+  return lining_forces(solver, *lining);
+}
+
 /// The same of a lining that moves; position is where the node is now.
 template <class Run, class Geometry>
-requires(Geometry::dim == 2)
+requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
     [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
                                                          const LiningMembers<Geometry>& lining) {
   const int first = lining.first_node();
