@@ -87,10 +87,8 @@ void settle(const std::string& what, Dynamics<2, CoulombJoint>& run, const Bolts
     run.advance(0.05);
     unbalance = run.unbalance_over_weight();
   }
-  std::vector<double> largest(bolt_bars(pattern, opening).size(), 0.0);
-  for (const auto& spring : bolts->springs())
-    largest[static_cast<std::size_t>(spring.bolt)] =
-        std::max(largest[static_cast<std::size_t>(spring.bolt)], spring.axial);
+  const std::vector<double> largest = largest_bolt_forces(
+      bolt_forces(run, *bolts), static_cast<int>(bolt_bars(pattern, opening).size()));
   print(what, statistics(largest), (before - run.position(crown)).y(), unbalance, start);
 }
 

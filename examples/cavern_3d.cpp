@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/io/atomic_file.hpp>
-#include <voussoir/io/tunnel_view.hpp>
+#include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/voussoir.hpp>
 using namespace voussoir;
@@ -61,7 +61,8 @@ std::size_t block_count(const Cavern& cavern) {
 
 void write_pictures(const Cavern& cavern, const std::vector<SpatialLine>& bars,
                     const std::string& name, const EquilibriumReport& report) {
-  TunnelView view;
+  const TunnelState<Spatial> state = state_of(cavern);
+  TunnelView view = picture_of(state, bars);
   view.header.title = "Tunnel in jointed rock, three dimensions";
   view.header.key_numbers = {
       {"blocks", std::to_string(block_count(cavern))},
@@ -72,24 +73,14 @@ void write_pictures(const Cavern& cavern, const std::vector<SpatialLine>& bars,
   std::vector<double> moved, number;
   for (std::size_t b = 0; b < cavern.mass().bodies.size(); ++b) {
     const auto& body = cavern.mass().bodies[b];
-    const Vec3 u = cavern.displacement_of(static_cast<int>(b), body.properties.centroid);
-    view.displacement.push_back(u.norm());
-    view.is_gone.push_back(!cavern.system().body(static_cast<int>(b)).movable);
-    if (view.is_gone.back()) continue;
+    if (state.blocks[b].is_gone) continue;
+    const Vec3& u = state.blocks[b].displacement;
     for (const auto& part : body.parts) {
       grid.add(part);
       moved.insert(moved.end(), u.data(), u.data() + 3);
       number.push_back(static_cast<double>(b));
     }
   }
-  const auto& system = cavern.system();
-  const std::vector<double> pull = largest_bolt_forces(cavern);
-  for (std::size_t k = 0; k < bars.size(); ++k)
-    view.bolts.push_back({bars[k].start, bars[k].end, pull[k]});
-  if (const auto* lining = cavern.lining())
-    for (const auto& member : lining->members())
-      view.lining.push_back({system.body(member.i).centre, system.body(member.j).centre,
-                             member.end_forces(system.displacement.data())[0]});
   grid.add_values("displacement [m]", 3, moved);
   grid.add_values("block", 1, number);
   write_atomically(name + ".svg", draw_tunnel_view(cavern.mass(), view));

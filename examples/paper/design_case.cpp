@@ -236,8 +236,8 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
       if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;
     for (const CrossingForce& c : bolt_forces(tunnel)) {
       BoltOutcome& bolt = outcome.bolts[static_cast<std::size_t>(c.bolt)];
-      bolt.largest = std::max(bolt.largest, c.force);
-      bolt.crossings.push_back({radius + c.position, c.force});
+      bolt.largest = std::max(bolt.largest, c.report.axial);
+      bolt.crossings.push_back({radius + c.position, c.report.axial});
     }
   }
   for (const LiningForce& at : lining_forces(tunnel))

@@ -277,8 +277,8 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     lost += run.crossings[k] > 0 && holds[k] == 0;
   }
   for (const CrossingForce& c : bolt_forces(run.tunnel)) {
-    broken += c.ruptured;
-    yielded += c.yielded && !c.ruptured;
+    broken += c.report.is_broken;
+    yielded += c.report.has_yielded() && !c.report.is_broken;
   }
   const std::string of_all = " of " + std::to_string(holds.size()) + " bolts ";
   const int node = run.tunnel.first_lining_node();

@@ -13,14 +13,14 @@
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/interaction_picture.hpp>
+#include <voussoir/io/tunnel_picture.hpp>
+#include <voussoir/io/tunnel_tables.hpp>
 
 namespace voussoir::program {
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-/// A joint counts as slipped from here on: one hundredth of a millimetre.
-constexpr double visible_slip = 1e-5;
 
 std::string text(const char* format, double value) {
   char buffer[64];
@@ -35,11 +35,6 @@ std::string computed(const char* format, double value) {
 /// "3.29" for 3.29e-3 m; "-" where the wall is detached.
 std::string millimetres(double metres) {
   return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
-}
-
-double angle_of(const Vec2& p) {
-  const double angle = std::atan2(p.y(), p.x()) / degree;
-  return angle < -1e-9 ? angle + 360 : std::max(angle, 0.0);
 }
 
 double opening_diameter(const RunResult& run) {
@@ -200,36 +195,15 @@ std::string run_json(const Input& input, const RunResult& run) {
 }
 
 std::string bolts_csv(const RunResult& run) {
-  CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
-                  "axial_force_kN", "extension_mm", "state"},
-                 8);
-  std::vector<int> crossing(run.bars.size(), 0);
-  for (const CrossingForce& c : bolt_forces(run.tunnel)) {
-    const auto k = static_cast<std::size_t>(c.bolt);
-    const Segment& bar = run.bars[k];
-    const Vec2 p = bar.at(c.position / bar.length());
-    table.add_row(c.bolt + 1, angle_of(bar.end - bar.start), ++crossing[k], c.position, p.x(),
-                  p.y(), 1e-3 * c.force, 1e3 * c.extension,
-                  c.ruptured ? "ruptured" : (c.yielded ? "yielded" : "elastic"));
-  }
-  return table.text();
+  return bolt_table(bolt_forces(run.tunnel), run.bars);
 }
 
-std::string lining_csv(const RunResult& run) {
-  CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
-                  "moment_kNm_per_m", "convergence_mm"},
-                 8);
-  int node = 0;
-  for (const LiningForce& at : lining_forces(run.tunnel))
-    table.add_row(++node, angle_of(at.position), at.position.x(), at.position.y(), 1e-3 * at.thrust,
-                  1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence);
-  return table.text();
-}
+std::string lining_csv(const RunResult& run) { return lining_table(lining_forces(run.tunnel)); }
 
 std::string blocks_svg(const Input& input, const RunResult& run) {
   const Tunnel& tunnel = run.tunnel;
-  const auto& system = tunnel.system();
-  BlocksPicture picture;
+  BlocksPicture picture = picture_of(state_of(tunnel), tunnel.mass(), run.bars,
+                                     input.lining ? input.lining->thickness : 0);
   const Convergence c = run.stages.back().convergence;
   const Extremes e = extremes_of(run);
   picture.header.title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
@@ -246,63 +220,11 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
     picture.header.key_numbers.push_back(
         {"largest moment", text("%.1f kN m/m", 1e-3 * e.largest_moment)});
   }
-  for (std::size_t b = 0; b < tunnel.mass().bodies.size(); ++b) {
-    const int body = static_cast<int>(b);
-    const bool fallen = !system.body(body).movable;
-    const double moved = system.displacement.segment<2>(3 * body).norm();
-    for (const ConvexPolygon& part : tunnel.mass().bodies[b].parts)
-      picture.blocks.push_back({part.vertices(), moved, fallen});
-  }
-  struct Seen {
-    bool open = true, slipped = false;
-    double half_length = 0;
-  };
-  std::vector<Seen> seen(system.joints.contacts().size());
-  const auto* first = system.joints.contacts().data();
-  system.joints.visit(system.displacement.data(), [&](const auto& contact, const auto& point,
-                                                      const auto&, const auto& force) {
-    Seen& s = seen[static_cast<std::size_t>(&contact - first)];
-    s.open = s.open && !(force.normal > 0);
-    s.slipped = s.slipped || point.state.plastic_slip.norm() > visible_slip;
-    s.half_length = std::max(s.half_length, std::sqrt(3.0) * point.offset.norm());
-  });
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (!seen[k].open && !seen[k].slipped) continue;
-    const auto& contact = system.joints.contacts()[k];
-    const Vec2 centre = system.body(contact.a).centre + contact.arm_a;
-    const Vec2 half = seen[k].half_length * perpendicular(contact.normal);
-    picture.joints.push_back(
-        {centre - half, centre + half,
-         seen[k].open ? PictureJoint::State::opened : PictureJoint::State::slipped});
-  }
   picture.outline = run.opening.vertices();
-  picture.ground_surface = tunnel.mass().domain.surface();
-  for (const Segment& bar : run.bars) picture.bolts.push_back({bar.start, bar.end, {}});
-  for (const CrossingForce& at : bolt_forces(tunnel)) {
-    PictureBolt& bolt = picture.bolts[static_cast<std::size_t>(at.bolt)];
-    const Segment bar{bolt.head, bolt.tip};
-    bolt.crossings.push_back({bar.at(at.position / bar.length()), at.force,
-                              at.ruptured ? PictureCrossing::State::ruptured
-                                          : (at.yielded ? PictureCrossing::State::yielded
-                                                        : PictureCrossing::State::elastic)});
-  }
-  const auto lining = lining_forces(tunnel);
-  if (!lining.empty()) {
-    PictureLining drawn;
-    drawn.thickness = input.lining->thickness;
+  if (picture.lining) {
     const double middle = 0.5 * (input.tunnel.crown() + input.tunnel.invert());
     const double depth = tunnel.mass().domain.surface() - middle;
-    drawn.reference_thrust = tunnel.in_situ().vertical(depth) * input.tunnel.half_width();
-    drawn.is_ring = tunnel.lining()->members().size() == lining.size();
-    for (std::size_t k = 0; k < lining.size(); ++k) {
-      // Across the line through the neighbours: right for corners as for circles.
-      const std::size_t n = lining.size();
-      const Vec2& before = lining[drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)].position;
-      const Vec2& after = lining[drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)].position;
-      drawn.nodes.push_back({lining[k].position, -perpendicular(after - before).normalized(),
-                             lining[k].thrust, lining[k].moment});
-    }
-    picture.lining = drawn;
+    picture.lining->reference_thrust = tunnel.in_situ().vertical(depth) * input.tunnel.half_width();
   }
   return draw_blocks_picture(picture);
 }

@@ -30,6 +30,7 @@
 #include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
@@ -54,3 +55,5 @@
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
+#include <voussoir/tunnel/tunnel_state.hpp>

@@ -64,6 +64,20 @@ struct Bolt {
   }
 };
 
+/// The same with what may be left out.
+struct TellingLaw : Law {
+  template <int Dim>
+  ContactReport describe(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    return report_from_force<Dim>(static_cast<const Law&>(*this), load, state);
+  }
+};
+struct TellingBolt : Bolt {
+  template <int Dim>
+  BoltReport describe(const BoltSpan<Dim>&, const State& state) const {
+    return {.is_broken = state.broken};
+  }
+};
+
 struct Beam {
   using role = roles::Lining;
   static constexpr const char* name = "Beam";
@@ -71,6 +85,10 @@ struct Beam {
   static ElementMatrix<Dof> stiffness(const LiningSection& section, double length) {
     return section.axial_stiffness / length * ElementMatrix<Dof>::Identity();
   }
+};
+
+struct PinnedBeam : Beam {
+  static constexpr bool is_pinned = true;
 };
 
 struct Detector {
@@ -101,5 +119,8 @@ const auto names = {Together::composition(),
                     voussoir::Solver<Beam>::composition(),
                     voussoir::Solver<Detector>::composition(),
                     voussoir::Solver<Method>::composition(),
+                    voussoir::Solver<TellingLaw, TellingBolt, PinnedBeam>::composition(),
                     voussoir::Solver<>::composition()};
+static_assert(voussoir::HasContactReport<TellingLaw, 3> && voussoir::HasBoltReport<TellingBolt, 3>);
+static_assert(voussoir::is_pinned_lining<PinnedBeam>());
 template class voussoir::Solver<Method, Law, Beam, Bolt, Detector, Anchors, voussoir::Planar>;

@@ -9,6 +9,7 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/model/bolt_set.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
 
 #include "support/blocks.hpp"
 
@@ -54,6 +55,11 @@ TEST_SUITE("dynamics/bolts") {
     run.advance(0.5 * period);
     CHECK(-run.position(block).y() == doctest::Approx(2 * mass * 9.81 / stiffness).epsilon(1e-4));
     CHECK(bolts->axial_force(0) == doctest::Approx(2 * mass * 9.81).epsilon(1e-4));
+    // What is read of it is what acted at the end of the last step, to rounding of poses of 3 m.
+    const CrossingForce read = bolt_forces(run, *bolts).front();
+    CHECK(read.report.axial == doctest::Approx(bolts->axial_force(0)).epsilon(1e-12));
+    CHECK(read.extension == doctest::Approx(read.report.axial / stiffness).epsilon(1e-9));
+    CHECK(!read.report.has_yielded());
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-4);
     run.advance(0.5 * period);
     CHECK(std::abs(run.position(block).y()) < 1e-5);
@@ -119,6 +125,7 @@ TEST_SUITE("dynamics/bolts") {
     torn.set_velocity(e, {1, 0});
     torn.advance(0.3);
     CHECK(other->springs()[0].broken);
+    CHECK(bolt_forces(torn, *other).front().report.is_broken);
     CHECK(torn.energy().supports == doctest::Approx(5e4 * 5e4 / (2 * 1e7)).epsilon(0.05));
     CHECK(-torn.energy().kinetic == doctest::Approx(torn.energy().supports).epsilon(0.01));
   }

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: MIT
 # docs/write-your-own.md names every model there is: a type of a header that declares a role stands in
-# the row of that role.
+# the row of that role. tests/models/ tries every one of them.
 cmake_minimum_required(VERSION 3.25)
 file(READ "${ROOT}/docs/write-your-own.md" page)
 file(GLOB_RECURSE headers "${ROOT}/include/voussoir/*.hpp")
+file(GLOB tests "${ROOT}/tests/models/*.?pp")
+set(tried "")
+foreach(test IN LISTS tests)
+  file(READ "${test}" text)
+  string(APPEND tried "${text}")
+endforeach()
 set(found 0)
 foreach(header IN LISTS headers)
   file(STRINGS "${header}" lines REGEX "^(class|struct) [A-Za-z]+|^  using role = roles::")
@@ -18,6 +24,10 @@ foreach(header IN LISTS headers)
       string(FIND "${row}" "`${type}`" at)
       if(at EQUAL -1)
         message(SEND_ERROR "docs/write-your-own.md: the row of roles::${role} does not name ${type}")
+      endif()
+      if(NOT tried MATCHES "(in_all_settings|at_rest_only|row_of_detector|at_rest|in_motion)<[A-Za-z<>, ]*${type}[>,]"
+         AND NOT tried MATCHES "\"${type} is ")
+        message(SEND_ERROR "tests/models: no row tries ${type}, of roles::${role}")
       endif()
     endif()
   endforeach()

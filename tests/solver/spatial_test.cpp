@@ -7,13 +7,18 @@
 #include <cmath>
 #include <string>
 #include <vector>
+#include <voussoir/dynamics/moving_rock.hpp>
+#include <voussoir/geometry/principal_axes.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
+#include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/jointed_rock.hpp"
@@ -39,6 +44,11 @@ RockMass<Spatial> blocks(const Domain<3>& ground, double spacing) {
                         {.min_inscribed_radius = 0.15});
 }
 const Domain<3> cube{{-8, 0, -8}, {8, 6, 10}};
+
+/// Measured stress: major 8 MPa plunging by 20 degrees, at 200 m.
+const PrincipalStresses measured{
+    {8e6, 6e6, 5.5e6},
+    {{30 * degree, 20 * degree}, {120 * degree, 0}, {210 * degree, 70 * degree}}};
 
 /// The plane mass, drawn out 1 m along y.
 RockMass<Spatial> drawn_out(const Domain<2>& plane, const std::vector<Joint>& joints,
@@ -77,6 +87,160 @@ TEST_SUITE("solver/spatial") {
     CHECK(between.k0 == doctest::Approx(1.25));
     CHECK(between.k0_y == doctest::Approx(1.25));
     CHECK(between.k0_xy == doctest::Approx(0.75));
+  }
+
+  TEST_CASE("principal stresses in any direction are met where they were measured") {
+    const InSitu in_situ = InSitu{.density = 2700, .k0 = 0.8}.with_measured(measured, 200);
+    const Stress<3> there = in_situ.stress<3>(200);
+    const Vec3 found = principal_axes(there).moments;
+    CHECK(found[0] == doctest::Approx(5.5e6).epsilon(1e-12));
+    CHECK(found[1] == doctest::Approx(6e6).epsilon(1e-12));
+    CHECK(found[2] == doctest::Approx(8e6).epsilon(1e-12));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = measured.axes[k].direction();
+      CHECK(axis.dot(there * axis) == doctest::Approx(measured.values[k]).epsilon(1e-12));
+    }
+    // The major one dips to the north-east: it presses a plane that faces there.
+    CHECK(measured.axes[0].direction().x() > 0);
+    CHECK(measured.axes[0].direction().y() > 0);
+    CHECK(measured.axes[0].direction().z() < 0);
+    // With depth rho g times the ratios, and no more.
+    const Stress<3> more = in_situ.stress<3>(210) - there;
+    const double weight = 2700 * 9.81 * 10;
+    CHECK(more(2, 2) == doctest::Approx(weight).epsilon(1e-9));
+    CHECK(more(0, 0) == doctest::Approx(0.8 * weight).epsilon(1e-9));
+    CHECK(more(1, 1) == doctest::Approx(0.8 * weight).epsilon(1e-9));
+    CHECK(std::abs(more(0, 1)) + std::abs(more(0, 2)) + std::abs(more(1, 2)) < 1e-6 * weight);
+    // What ratios alone can say comes out the same.
+    const InSitu plain{.density = 2700, .k0 = 2, .surcharge = 1e6, .k0_y = 0.5};
+    const double v = plain.vertical(50);
+    const InSitu told = InSitu{.density = 2700, .k0 = 2, .k0_y = 0.5}.with_measured(
+        {{2 * v, 0.5 * v, v}, {{90 * degree, 0}, {0, 0}, {0, 90 * degree}}}, 50);
+    for (const double depth : {0.0, 50.0, 120.0})
+      CHECK((told.stress<3>(depth) - plain.stress<3>(depth)).norm() < 1e-12 * v);
+  }
+
+  TEST_CASE("a measured stress puts every block in equilibrium, at rest and in motion") {
+    const InSitu in_situ = InSitu{.density = 2700, .k0 = 0.8}.with_measured(measured, 200);
+    Cavern cavern(blocks(cube, 1.5), CoulombJoint({5e9, 5e8, 60 * degree}), in_situ);
+    Eigen::VectorXd f;
+    cavern.system().forces(cavern.system().displacement, f);
+    // 2.6 MPa on blocks of a few kN: 1e3 times the weight, rounded as above.
+    CHECK(cavern.system().unbalance_over_weight(f) < 2e-10);
+    // In motion nothing is left to be held where nothing was excavated.
+    for (const InSitu& stress :
+         {in_situ,
+          InSitu{.density = 2700, .k0 = 0.7, .surcharge = 1e5, .k0_y = 1.4, .k0_xy = 0.3}}) {
+      auto run = moving_rock(cavern.mass(), CoulombJoint({5e9, 5e8, 60 * degree}), stress);
+      run.set_held(0);
+      CHECK(run.unbalance_over_weight() < 1e-6);
+    }
+  }
+
+  TEST_CASE("the friction that the in-situ stress asks for is that of its largest Mohr circle") {
+    const InSitu plain{.density = 2700, .k0 = 0.5};
+    CHECK(plain.required_friction_angle<3>() ==
+          doctest::Approx(plain.required_friction_angle()).epsilon(1e-12));
+    // Along y alone: the plane x, z sees nothing of it.
+    const InSitu along{.density = 2700, .k0 = 1, .k0_y = 2};
+    CHECK(along.required_friction_angle() == 0);
+    CHECK(along.required_friction_angle<3>() == doctest::Approx(std::asin(1.0 / 3)));
+    // sigma_xy 0.3: horizontal principal stresses 1.3 and 0.7.
+    const InSitu turned{.density = 2700, .k0 = 1, .k0_y = 1, .k0_xy = 0.3};
+    CHECK(turned.required_friction_angle<3>() == doctest::Approx(std::asin(0.6 / 2)));
+    CHECK(turned.required_friction_angle<3>(0) == doctest::Approx(std::asin(0.6 / 2)));
+    // By brute force over directions of joints, in a measured stress.
+    const InSitu in_situ = InSitu{.density = 2700}.with_measured(measured, 200);
+    const Stress<3> s = in_situ.stress<3>(200);
+    double most = 0;
+    for (double dip = 0; dip <= 90; dip += 1)
+      for (double towards = 0; towards < 360; towards += 1) {
+        const Vec3 n = upward_normal({dip * degree, towards * degree});
+        const double normal = n.dot(s * n);
+        most = std::max(most, std::atan((s * n - normal * n).norm() / normal));
+      }
+    const double needed = in_situ.required_friction_angle<3>(200);
+    CHECK(most <= needed * (1 + 1e-12));
+    CHECK(most > 0.999 * needed);  // a degree beside the worst plane, cos of two degrees
+  }
+
+  TEST_CASE("measured stresses that cannot be are refused by name") {
+    PrincipalStresses bent = measured;
+    bent.axes[1].trend = 125 * degree;
+    CHECK_THROWS_AS((void)bent.tensor(), InvalidInput);
+    PrincipalStresses pulled = measured;
+    pulled.values[2] = -1;
+    CHECK_THROWS_WITH_AS((void)pulled.tensor(), "principal stress = -1: must be >= 0 Pa",
+                         InvalidInput);
+    // Whole degrees are no fault, and do not change the sum of the stresses.
+    PrincipalStresses rounded = measured;
+    rounded.axes[1] = {120.6 * degree, 0.4 * degree};
+    CHECK(rounded.tensor().trace() == doctest::Approx(19.5e6).epsilon(1e-12));
+    CHECK_THROWS_AS((void)InSitu{.density = 2700}.with_measured(measured, 1000), InvalidInput);
+    // More is taken off on the way up than there is.
+    CHECK_THROWS_AS((InSitu{.density = 2700, .k0 = 3}.with_measured(measured, 200).check()),
+                    InvalidInput);
+  }
+
+  TEST_CASE("convergence of a section in 3-D is that of the plane tunnel it is drawn out of") {
+    const Domain<2> plane{{-10, -10}, {10, 10}};
+    std::vector<JointSet> sets = voussoir_test::paper_sets(6);
+    for (JointSet& set : sets) set.intensity = 0.5;
+    const auto joints = joint_network(sets, plane, 2);
+    const InSitu in_situ{.density = 2700, .k0 = 0.8, .surcharge = 5e5};
+    Solver<> flat(slice(plane, joints, {.min_inscribed_radius = 0.3}), joint, in_situ);
+    Cavern deep(drawn_out(plane, joints, 0.3), joint, in_situ);
+    const SimplePolygon outline = circular_opening(5, 36);
+    flat.excavate(outline, 0.05);
+    deep.excavate(PrismaticOpening(outline), 0.05);
+    // The same rigid motion of every block by its place: what is measured is the same, piece by
+    // piece; 1e-9 covers the digits of the cuts.
+    const auto move = [](auto& tunnel, auto&& at) {
+      for (int b = 0; b + 1 < tunnel.system().body_count(); ++b)
+        at(tunnel.system().displacement, b, tunnel.system().body(b).centre);
+    };
+    move(flat, [](Eigen::VectorXd& u, int b, const Vec2& c) {
+      u.segment<2>(3 * b) = -1e-3 * Vec2(2 + c.x() / 10, 1 + c.y() / 20).cwiseProduct(c) / 5;
+    });
+    move(deep, [](Eigen::VectorXd& u, int b, const Vec3& c) {
+      u[6 * b] = -1e-3 * (2 + c.x() / 10) * c.x() / 5;
+      u[6 * b + 1] = 7e-3;  // along the tunnel: no convergence
+      u[6 * b + 2] = -1e-3 * (1 + c.z() / 20) * c.z() / 5;
+    });
+    const Convergence one = convergence(flat), all = convergence(deep),
+                      part = convergence(deep, 0.5, 0.6);
+    for (const auto place : {&Convergence::crown, &Convergence::right_springing,
+                             &Convergence::left_springing, &Convergence::invert}) {
+      CHECK(std::isfinite(one.*place));
+      CHECK(std::abs(one.*place - all.*place) <= 1e-9);
+      CHECK(all.*place == part.*place);
+    }
+    CHECK(std::isnan(convergence(deep, 5).crown));  // there is no wall
+    CHECK_THROWS_AS((void)convergence(deep, 0.5, 0), InvalidInput);
+  }
+
+  TEST_CASE("what is dropped at the wall, and what is a collapse, follow the rock and the tunnel") {
+    // Of blocks of a metre what a cube of 0.272 m is; of small blocks a tenth.
+    const auto coarse = blocks(cube, 2.5);
+    CHECK(smallest_piece_of(coarse) == doctest::Approx(std::pow(0.074, 1.5)));
+    RockMass<Spatial> fine = coarse;
+    while (fine.bodies.size() < 20000)
+      fine.bodies.insert(fine.bodies.end(), coarse.bodies.begin(), coarse.bodies.end());
+    CHECK(smallest_piece_of(fine) ==
+          doctest::Approx(0.1 * cube.measure() / static_cast<double>(fine.bodies.size())));
+    CHECK(smallest_piece_of(voussoir_test::jointed_rock({{-5, -5}, {5, 5}}, 1)) == 0.074);
+    // Rock lost is counted over the open length, but no more than the width.
+    CHECK(open_length(coarse) == 1);
+    CHECK(open_length(carve(coarse, PrismaticOpening(circular_opening(4)), 0.1)) ==
+          doctest::Approx(4));
+    CHECK(open_length(carve(coarse, PrismaticOpening(circular_opening(4), 3.5), 0.1)) ==
+          doctest::Approx(2.5));
+    // Asked for nothing, the solver drops what this says.
+    Cavern by_default(coarse, joint, {.density = 2700}), told = by_default;
+    by_default.excavate(PrismaticOpening(circular_opening(5, 30)));
+    told.excavate(PrismaticOpening(circular_opening(5, 30)), std::pow(0.074, 1.5));
+    CHECK(by_default.mass().carving.dropped_pieces == told.mass().carving.dropped_pieces);
+    CHECK(by_default.mass().bodies.size() == told.mass().bodies.size());
   }
 
   TEST_CASE("an opening of any section takes out section times length, to rounding") {

@@ -70,7 +70,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
     }
     // Small rotations stretch an anchor distance d by d spin^2 / 2, at most 0.034 nm here.
     for (const CrossingForce& at : bolt_forces(tunnel))
-      CHECK(at.force <= 2e8 * 0.5 * 0.0672 * 1e-6);
+      CHECK(at.report.axial <= 2e8 * 0.5 * 0.0672 * 1e-6);
   }
 
   TEST_CASE("the wall is measured once, all of it, and without what is detached") {
@@ -104,7 +104,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
     for (std::size_t k = 0; k < forces.size(); ++k) {
       const auto bolt = static_cast<std::size_t>(forces[k].bolt);
       ++seen[bolt];
-      largest[bolt] = std::max(largest[bolt], forces[k].force);
+      largest[bolt] = std::max(largest[bolt], forces[k].report.axial);
       CHECK(forces[k].position > 0);
       CHECK(forces[k].position < 3);
       if (k > 0) {
@@ -113,10 +113,10 @@ TEST_SUITE("tunnel/supported_tunnel") {
           CHECK(forces[k].position > forces[k - 1].position);
       }
       // Tension of an elastic bar without pretension is its extension times K_a; slack in between.
-      CHECK(std::abs(forces[k].force - std::max(0.0, 2e8 * forces[k].extension)) <= 1e-6);
-      CHECK(halved[k].force == forces[k].force);
-      CHECK(!forces[k].ruptured);
-      CHECK(!forces[k].yielded);
+      CHECK(std::abs(forces[k].report.axial - std::max(0.0, 2e8 * forces[k].extension)) <= 1e-6);
+      CHECK(halved[k].report.axial == forces[k].report.axial);
+      CHECK(!forces[k].report.is_broken);
+      CHECK(!forces[k].report.has_yielded());
     }
     for (std::size_t b = 0; b < bars.size(); ++b) CHECK(seen[b] == crossed[b]);
     CHECK(seen.back() == 0);  // a short bolt that ends in its first block

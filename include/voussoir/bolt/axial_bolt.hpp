@@ -90,6 +90,14 @@ class AxialBolt {
            params_.pretension / length * (diagonal_of<Dim>(1) - along);
   }
 
+  template <int Dim>
+  [[nodiscard]] BoltReport describe(const BoltSpan<Dim>& span, const State& state) const {
+    BoltReport report = report_from_force(*this, span, state);
+    report.plastic_extension = state.plastic_extension;
+    report.is_broken = state.ruptured;
+    return report;
+  }
+
  private:
   template <int Dim>
   struct Stretch {

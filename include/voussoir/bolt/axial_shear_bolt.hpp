@@ -54,6 +54,13 @@ class AxialShearBolt {
     return axial_.stiffness(span);
   }
 
+  template <int Dim>
+  [[nodiscard]] BoltReport describe(const BoltSpan<Dim>& span, const State& state) const {
+    BoltReport report = axial_.describe(span, state);
+    report.shear = force(span, state).dowel.norm();
+    return report;
+  }
+
  private:
   AxialShearBolt(const AxialBolt& axial, double shear_stiffness)
       : axial_(axial), shear_stiffness_(shear_stiffness) {

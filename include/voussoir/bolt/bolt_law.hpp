@@ -26,6 +26,21 @@ struct BoltForce {
   Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first body where the bar crosses the joint [N]
 };
 
+/// What a bolt does at one joint, and what has become of it there, in words that all laws share:
+/// all that measurements, tables and pictures read of a law. Values of one bolt, not per metre.
+struct BoltReport {
+  double axial = 0;               ///< force along the line of the anchors, tension positive [N]
+  double shear = 0;               ///< force across the bar at the joint (dowel), magnitude [N]
+  double plastic_extension = 0;   ///< that would stay if it were let go [m]
+  double plastic_shear_slip = 0;  ///< the same across the bar [m]
+  bool is_yielding = false;       ///< its tension is at its limit: it gives on without more
+  bool is_broken = false;         ///< it holds nothing any more at this joint
+
+  [[nodiscard]] bool has_yielded() const {
+    return is_yielding || plastic_extension > 0 || plastic_shear_slip > 0;
+  }
+};
+
 template <class Law, int Dim>
 concept HasBoltState = DefaultConstructible<typename Law::State>;
 /// A `State` that is a template, as that of a contact law is.
@@ -47,6 +62,13 @@ template <class Law, int Dim>
 concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
   { law.stiffness(span) } -> std::same_as<Stress<Dim>>;
 };
+/// Optional: the law says itself what tables and pictures show of a bolt. Else `report_of` says
+/// what follows from its force.
+template <class Law, int Dim>
+concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
+                                 const typename Law::State& state) {
+  { law.describe(span, state) } -> std::same_as<BoltReport>;
+};
 
 /// The spring that a bolt is, at every joint it crosses. Values are per bolt, not per metre.
 ///
@@ -55,13 +77,14 @@ concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
 /// the bolt broke, so that equilibrium must be sought anew; `stiffness` [N/m] is that of `pull`,
 /// symmetric, not negative, and bounds the tangent stiffness near the initial span.
 ///
-/// A `State` with a `plastic_extension` [m] tells `bolt_forces` which bolts have yielded.
+/// Optional: `BoltReport describe(const BoltSpan<Dim>&, const State&) const`, for a law that
+/// remembers what it has yielded (see `report_from_force`).
 ///
 /// Models: AxialBolt, AxialShearBolt.
 template <class Law, int Dim>
-concept BoltLaw =
-    Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> && HasBoltState<Law, Dim> &&
-    HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> && HasBoltStiffness<Law, Dim>;
+concept BoltLaw = Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> &&
+    HasBoltState<Law, Dim> && HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> &&
+    HasBoltStiffness<Law, Dim> &&(HasBoltReport<Law, Dim> || !NamesDescribe<Law>);
 
 template <class Law, int Dim>
 consteval bool explain_bolt_law() {
@@ -79,7 +102,52 @@ consteval bool explain_bolt_law() {
                 "bolt law: add `bool commit(const BoltSpan<Dim>&, State&) const` (true: it broke)");
   static_assert(HasBoltStiffness<Law, Dim>,
                 "bolt law: add `Stress<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m]");
+  static_assert(
+      HasBoltReport<Law, Dim> || !NamesDescribe<Law>,
+      "bolt law: `describe` must be `BoltReport describe(const BoltSpan<Dim>&, const State&) "
+      "const`, or be left out");
   return true;
+}
+
+/// Change of the distance between the anchors since installation [m]. Anchors on the joint have no
+/// distance that could change: what opens the joint stretches them.
+template <int Dim>
+[[nodiscard]] double extension_of(const BoltSpan<Dim>& span) {
+  const double initial = span.initial.norm();
+  return initial > 0 ? (span.initial + span.motion).norm() - initial : span.axis.dot(span.motion);
+}
+
+/// What the force of a bolt alone tells: that it yields, where pulling its anchors apart a little
+/// further raises the force by less than half of what its stiffness says. What it has yielded
+/// before is its secret.
+template <int Dim, class Law>
+[[nodiscard]] BoltReport report_from_force(const Law& law, const BoltSpan<Dim>& span,
+                                           const typename Law::State& state) {
+  const BoltForce<Dim> force = law.force(span, state);
+  BoltReport report{.axial = force.axial, .shear = force.dowel.norm()};
+  if (!(force.axial > 0)) return report;  // slack, pressed or broken
+  const double pull = force.pull.norm();
+  const Vec<Dim> along = pull > 0 ? Vec<Dim>(force.pull / pull) : span.axis;
+  constexpr double step = 1e-8;
+  BoltSpan<Dim> further = span;
+  further.motion += step * along;
+  const double stiffness = span.axis.dot(law.stiffness(span) * span.axis);
+  report.is_yielding = law.force(further, state).axial - force.axial < 0.5 * stiffness * step;
+  return report;
+}
+
+/// What the law says of a bolt, or what its force tells where it says nothing.
+/// @param is_broken  a commit has said so
+template <int Dim, class Law>
+[[nodiscard]] BoltReport report_of(const Law& law, const BoltSpan<Dim>& span,
+                                   const typename Law::State& state, bool is_broken) {
+  BoltReport report;
+  if constexpr (HasBoltReport<Law, Dim>)
+    report = law.describe(span, state);
+  else
+    report = report_from_force(law, span, state);
+  report.is_broken = report.is_broken || is_broken;
+  return report;
 }
 
 }  // namespace voussoir

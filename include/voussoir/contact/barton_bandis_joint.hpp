@@ -169,6 +169,20 @@ class BartonBandisJoint {
            (shear > 0 ? 0.5 * shear / (shear_stiffness(normal_stress(load)) * load.weight) : 0.0);
   }
 
+  /// Its shear spring is as stiff as the stress of the moment makes it. No wear: no damage.
+  template <int Dim>
+  [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const double sigma = normal_stress(load);
+    const Vec<Dim - 1> sliding = spring_slip(load, state) - elastic_slip(load, state, sigma);
+    const PointForce<Dim> now = force(load, state);
+    return {.normal = now.normal,
+            .shear = now.tangential.norm(),
+            .opening = load.motion.opening,
+            .plastic_slip = (state.plastic_slip + sliding).norm(),
+            .is_open = now.normal == 0,
+            .is_slipping = slips_on(*this, load, state, shear_stiffness(sigma))};
+  }
+
   /// The largest on the curve: at `largest_stress` [Pa/m].
   [[nodiscard]] double joint_normal_stiffness() const { return largest_stiffness_; }
   [[nodiscard]] double joint_shear_stiffness() const {

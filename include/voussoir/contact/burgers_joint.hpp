@@ -89,6 +89,16 @@ class BurgersJoint {
     return 1 / rate;
   }
 
+  /// What is delayed comes back: it is no plastic slip.
+  template <int Dim>
+  [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    PointLoad<Dim> without = load;
+    without.motion.slip -= state.delayed_slip;
+    State<Dim> joint = state;
+    joint.joint.plastic_slip -= state.delayed_slip;
+    return report_from_force(joint_, without, joint.joint);
+  }
+
   [[nodiscard]] double joint_normal_stiffness() const { return p_.joint_normal_stiffness; }
   [[nodiscard]] double joint_shear_stiffness() const { return p_.joint_shear_stiffness; }
 

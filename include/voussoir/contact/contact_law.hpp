@@ -30,6 +30,18 @@ struct PointLoad {
   PointMotion<Dim> motion;
 };
 
+/// What a contact point does, and what has become of it, in words that all laws share: all that
+/// measurements, tables and pictures read of a law.
+struct ContactReport {
+  double normal = 0;         ///< force, compression positive [N]
+  double shear = 0;          ///< magnitude of the force along the tangents [N]
+  double opening = 0;        ///< since the in-situ state, positive when the joint opens [m]
+  double plastic_slip = 0;   ///< slip that would stay if the shear were let go, magnitude [m]
+  double damage = 0;         ///< part of its bond or roughness that is used up, 0 to 1 [-]
+  bool is_open = false;      ///< it carries nothing across
+  bool is_slipping = false;  ///< its shear is at its strength: it slips on without more
+};
+
 template <class Law, int Dim>
 concept HasContactState = DefaultConstructible<typename Law::template State<Dim>>;
 /// A `State` that is no template: that of a point in 2-D cannot be that of one in 3-D.
@@ -52,6 +64,13 @@ concept HasStoredEnergy = requires(const Law law, const PointLoad<Dim>& load,
                                    const typename Law::template State<Dim>& state) {
   { law.stored_energy(load, state) } -> std::same_as<double>;
 };
+/// Optional: the law says itself what tables and pictures show of a point. Else `report_of` says
+/// what follows from its force.
+template <class Law, int Dim>
+concept HasContactReport = requires(const Law law, const PointLoad<Dim>& load,
+                                    const typename Law::template State<Dim>& state) {
+  { law.describe(load, state) } -> std::same_as<ContactReport>;
+};
 template <class Law>
 concept HasJointStiffness = requires(const Law law) {
   { law.joint_normal_stiffness() } -> std::same_as<double>;
@@ -69,12 +88,17 @@ concept HasJointStiffness = requires(const Law law) {
 ///  admissible;
 ///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
 ///
+/// Optional: `ContactReport describe(const PointLoad<Dim>&, const State<Dim>&) const`, for a law
+/// that has damage to tell of, or whose shear stiffness is not one number (see
+/// `report_from_force`).
+///
 /// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
 /// BurgersJoint, SmoothWall (edge of the domain).
 template <class Law, int Dim>
 concept ContactLaw = Fills<Law, roles::ContactLaw> && HasName<Law> && Copyable<Law> &&
     HasContactState<Law, Dim> && HasContactForce<Law, Dim> && HasContactCommit<Law, Dim> &&
-    HasStoredEnergy<Law, Dim> && HasJointStiffness<Law>;
+    HasStoredEnergy<Law, Dim> && HasJointStiffness<Law> &&
+    (HasContactReport<Law, Dim> || !NamesDescribe<Law>);
 
 /// A contact law whose joints creep: optional, for `Solver::creep`.
 ///
@@ -112,7 +136,62 @@ consteval bool explain_contact_law() {
   static_assert(HasJointStiffness<Law>,
                 "contact law: add `double joint_normal_stiffness() const` and `double "
                 "joint_shear_stiffness() const` [Pa/m]");
+  static_assert(
+      HasContactReport<Law, Dim> || !NamesDescribe<Law>,
+      "contact law: `describe` must be `ContactReport describe(const PointLoad<Dim>&, const "
+      "State<Dim>&) const`, or be left out");
   return true;
+}
+
+/// Whether a little more slip along its shear raises that by less than half of what a stiffness
+/// says.
+/// @param shear_stiffness  of the point as it is loaded, per area [Pa/m]
+template <int Dim, class Law>
+[[nodiscard]] bool slips_on(const Law& law, PointLoad<Dim> load,
+                            const typename Law::template State<Dim>& state,
+                            double shear_stiffness) {
+  const PointForce<Dim> now = law.force(load, state);
+  if (now.normal == 0 && now.tangential.squaredNorm() == 0) return false;  // it is open
+  const double shear = now.tangential.norm();
+  Vec<Dim - 1> along = zeros<Vec<Dim - 1>>();
+  along[0] = 1;
+  if (shear > 0) along = now.tangential / shear;
+  // Long enough for forces of 1e12 times what the step makes, short beside any slip that matters.
+  constexpr double step = 1e-9;
+  load.motion.slip -= step * along;  // the force on b holds b back
+  const double more = law.force(load, state).tangential.dot(along) - shear;
+  return more <= 0.5 * shear_stiffness * load.weight * step;
+}
+
+/// What the force of a point alone tells, for a law whose shear spring has the one stiffness that
+/// it gives:
+///
+///   plastic slip  q = s + (T - T0) / (k_s w),  the slip that this spring does not account for
+///
+/// No damage; a frictionless law (k_s = 0) keeps all its slip.
+template <int Dim, class Law>
+[[nodiscard]] ContactReport report_from_force(const Law& law, const PointLoad<Dim>& load,
+                                              const typename Law::template State<Dim>& state) {
+  const PointForce<Dim> force = law.force(load, state);
+  const double stiffness = law.joint_shear_stiffness() * load.weight;
+  Vec<Dim - 1> plastic = load.motion.slip;
+  if (stiffness > 0) plastic += (force.tangential - load.initial.tangential) / stiffness;
+  return {.normal = force.normal,
+          .shear = force.tangential.norm(),
+          .opening = load.motion.opening,
+          .plastic_slip = plastic.norm(),
+          .is_open = force.normal == 0,
+          .is_slipping = slips_on(law, load, state, law.joint_shear_stiffness())};
+}
+
+/// What the law says of a point, or what its force tells where it says nothing.
+template <int Dim, class Law>
+[[nodiscard]] ContactReport report_of(const Law& law, const PointLoad<Dim>& load,
+                                      const typename Law::template State<Dim>& state) {
+  if constexpr (HasContactReport<Law, Dim>)
+    return law.describe(load, state);
+  else
+    return report_from_force(law, load, state);
 }
 
 }  // namespace voussoir

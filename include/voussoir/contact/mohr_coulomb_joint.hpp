@@ -121,6 +121,18 @@ class MohrCoulombJoint {
             now.tangential.squaredNorm() / p_.joint_shear_stiffness);
   }
 
+  /// Damage: 1 once it has failed, if it had more than its residual strength; before, the part of
+  /// its dilation that is used up.
+  template <int Dim>
+  [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    ContactReport report = report_from_force(*this, load, state);
+    if (tan_dilation_ > 0) report.damage = std::min(1.0, state.path / p_.dilation_limit);
+    const bool weakens = p_.tensile_strength > 0 || p_.residual_cohesion < p_.cohesion ||
+                         p_.residual_friction_angle < p_.friction_angle;
+    if (state.failed && weakens) report.damage = 1;
+    return report;
+  }
+
   [[nodiscard]] double joint_normal_stiffness() const { return p_.joint_normal_stiffness; }
   [[nodiscard]] double joint_shear_stiffness() const { return p_.joint_shear_stiffness; }
   [[nodiscard]] const Params& params() const { return p_; }

@@ -57,4 +57,22 @@ concept HasName = requires {
   { Policy::name } -> std::convertible_to<const char*>;
 };
 
+namespace detail {
+
+struct NamedDescribe {
+  int describe;
+};
+template <class Policy>
+struct WithNamedDescribe : Policy, NamedDescribe {};
+
+}  // namespace detail
+
+/// The policy has a member `describe`, whatever it is: one that does not fit its concept would else
+/// be passed over as if it were not there. (Two of one name in two bases: the name is ambiguous. A
+/// final class cannot be asked.)
+template <class Policy>
+concept NamesDescribe = std::is_class_v<Policy> && !std::is_final_v<Policy> && !requires {
+  &detail::WithNamedDescribe<Policy>::describe;
+};
+
 }  // namespace voussoir

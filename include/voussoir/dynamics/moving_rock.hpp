@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/geometry/slab_behind.hpp>
+#include <voussoir/geometry/spatial.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
@@ -18,6 +19,26 @@
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {
+
+namespace detail {
+
+/// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on acting
+/// as a load, as at rest.
+template <class Run>
+void add_edge_shear(Run& run, const RockMass<Spatial>& mass, const InSitu& in_situ) {
+  for (const auto& f : boundary_facets(mass)) {
+    const Vec3 normal = f.facet.area_vector().normalized();
+    const Vec3 centre = run.position(f.body), middle = f.facet.centre_from(centre);
+    for (const FacetPoint<3>& p : f.facet.gauss_points()) {
+      const Vec3 arm = middle + p.offset;
+      const Vec3 traction = in_situ.stress<3>(mass.domain.depth(Vec3(centre + arm))) * normal;
+      const Vec3 push = -p.weight * (traction - normal.dot(traction) * normal);
+      if (push.squaredNorm() > 0) run.add_load(f.body, push, moment_of(arm, push));
+    }
+  }
+}
+
+}  // namespace detail
 
 /// A rock mass whose blocks can move by any amount, in its in-situ stress, nothing moved yet.
 ///
@@ -42,6 +63,7 @@ template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
         const Vec<dim> push = -in_situ.surcharge * f.facet.area_vector();
         run.add_load(f.body, push, moment_of(f.facet.centre_from(run.position(f.body)), push));
       }
+  if constexpr (dim == 3) detail::add_edge_shear(run, mass, in_situ);
   run.prescribe(
       [&](const Vec<dim>& point) { return in_situ.template stress<dim>(mass.domain.depth(point)); },
       10 * mass.domain.tolerance());
@@ -68,6 +90,7 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
     const std::vector<typename Geometry::Line>& bars, const BoltLaw& law, double spacing,
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
+  static_assert(explain_bolt_law<BoltLaw, dim>());
   require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
   auto bolts = std::make_shared<BoltSet<dim, BoltLaw>>(law);
   int number = 0;
@@ -186,7 +209,7 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   for (const LiningSection& section : sections)
     require(section.mass > 0 && std::isfinite(section.mass), "mass of a lining that moves",
             section.mass, "> 0 kg per metre of it");
-  constexpr bool is_pinned = requires { Lining::is_pinned; };
+  constexpr bool is_pinned = is_pinned_lining<Lining>();
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
   const detail::LiningTiles<Geometry, std::remove_reference_t<decltype(run)>> tiles(run, frame,
                                                                                     thickness);

@@ -125,8 +125,9 @@ template <class System, class Solve>
 
 /// True, with the verdict, if more is detached than a tunnel can lose.
 template <int Dim>
-[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const Acceptance& acceptance) {
-  if (!(report.fallen_measure > acceptance.collapse_measure)) return false;
+[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context) {
+  const double limit = context.acceptance.collapse_measure * context.open_length;
+  if (!(report.fallen_measure > limit)) return false;
   const char* unit = Dim == 2 ? "m2" : "m3";
   char text[160];
   std::snprintf(
@@ -134,7 +135,7 @@ template <int Dim>
       "%zu block%s of %.3g %s detached before the others came to rest; more than %.3g %s is "
       "a collapse",
       report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure, unit,
-      acceptance.collapse_measure, unit);
+      limit, unit);
   report.verdict = Verdict::collapsing;
   report.reason = text;
   return true;

@@ -50,7 +50,9 @@ struct Acceptance {
   /// blocks turn. Without effect unless below the displacement limit. A block that has lost all
   /// contacts within twice this is detached.
   double refind_limit = 0.02;
-  double collapse_measure = 20;  ///< more detached rock than this is a collapse [m^2], [m^3]
+  /// More detached rock than this is a collapse, per metre of tunnel: the area lost in the section
+  /// [m^2], in 3-D as in 2-D (see `SearchContext::open_length`).
+  double collapse_measure = 20;
 
   /// @throws InvalidInput  a limit out of range
   void check() const {
@@ -92,6 +94,10 @@ struct SearchContext {
   const std::vector<double>* measures = nullptr;
   double wall_fraction = 0;  ///< residual wall traction at the end, over the in-situ one
   Progress progress;
+  /// Length of tunnel over which lost rock is counted: 1 in 2-D, where all is per metre; in 3-D the
+  /// open length, but no more than the width of the section, lest a chimney in a long tunnel be
+  /// overlooked [m].
+  double open_length = 1;
 };
 
 namespace detail {

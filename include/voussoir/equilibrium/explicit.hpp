@@ -101,7 +101,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
     return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
                                      report);
   };
-  if (detail::has_collapsed<System::dim>(report, accept)) return;
+  if (detail::has_collapsed<System::dim>(report, context)) return;
   if (detail::moves_too_far(system, context, solve, report)) return;
   const double from = system.wall_fraction, to = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
@@ -137,7 +137,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
       for (int b = 0; b < system.body_count(); ++b)
         if (!system.body(b).movable) set_part<dof>(velocity, dof * b, zeros<Fixed<dof, 1>>());
       report.largest_displacement = system.largest_translation(u);
-      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      if (detail::has_collapsed<System::dim>(report, context)) break;
       mass = masses(system);
       inverse_mass = inverses(mass);
       step = stable_step(system, mass);

@@ -71,7 +71,7 @@ EquilibriumReport Relaxation::find(System& system, const SearchContext& context)
                                      report);
   };
   detail::until_stopped(report, [&] {
-    if (!detail::has_collapsed<System::dim>(report, context.acceptance) &&
+    if (!detail::has_collapsed<System::dim>(report, context) &&
         !detail::moves_too_far(system, context, solve, report))
       follow(system, context, report);
   });
@@ -108,7 +108,7 @@ void Relaxation::step_on(System& system, const SearchContext& context,
     const bool found = detail::find_when_due(system, context);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
-      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      if (detail::has_collapsed<System::dim>(report, context)) break;
       mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
       continue;
     }

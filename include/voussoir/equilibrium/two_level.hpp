@@ -108,7 +108,8 @@ class TwoLevel {
       if (give_up_at_a_fall) return;  // without a reason: not decided
       SearchContext follow = context;
       follow.acceptance.unbalance_over_weight = follow_to;
-      follow.acceptance.collapse_measure = accept.collapse_measure - report.fallen_measure;
+      follow.acceptance.collapse_measure =
+          accept.collapse_measure - report.fallen_measure / context.open_length;
       EquilibriumReport fall;
       fallback_.follow(system, follow, fall);
       report.steps += fall.steps;
@@ -118,7 +119,7 @@ class TwoLevel {
       report.unbalance_over_weight = fall.unbalance_over_weight;
       report.stopped = fall.stopped;
       report.error_estimate = std::numeric_limits<double>::quiet_NaN();
-      if (detail::has_collapsed<System::dim>(report, accept)) break;
+      if (detail::has_collapsed<System::dim>(report, context)) break;
       if (fall.verdict == Verdict::undecided) {
         report.reason = fall.stopped ? fall.reason
                                      : "detached blocks were followed without end: " + fall.reason;
@@ -192,7 +193,7 @@ class TwoLevel {
       if (found) detail::drop(system, {}, context, report);
       if (found && --may_find < 0) return Outcome::open;
       if (falls || found) {
-        if (detail::has_collapsed<System::dim>(report, accept)) {
+        if (detail::has_collapsed<System::dim>(report, context)) {
           report.largest_displacement = system.largest_translation(u);
           report.error_estimate = report.unbalance_over_weight =
               std::numeric_limits<double>::quiet_NaN();  // it is on its way down
@@ -367,12 +368,12 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return elastic.solve(f, tolerance, context.progress, whole);
   };
-  if (detail::has_collapsed<System::dim>(whole, context.acceptance)) return;
+  if (detail::has_collapsed<System::dim>(whole, context)) return;
   if (detail::moves_too_far(system, context, solve, whole)) return;
   const auto part_of_stage = [&](double wall_fraction) {
     SearchContext part = context;
     part.wall_fraction = wall_fraction;
-    part.acceptance.collapse_measure -= whole.fallen_measure;
+    part.acceptance.collapse_measure -= whole.fallen_measure / context.open_length;
     return part;
   };
   const double from = system.wall_fraction, to = context.wall_fraction;
@@ -394,7 +395,7 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
   }
   // The search that ended it speaks of its own blocks; the verdict of all of them.
   if (whole.verdict == Verdict::collapsing)
-    (void)detail::has_collapsed<System::dim>(whole, context.acceptance);
+    (void)detail::has_collapsed<System::dim>(whole, context);
   if (whole.verdict == Verdict::stable && !whole.fallen.empty())
     whole.reason = "within all limits after blocks had detached";
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <type_traits>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
@@ -68,16 +69,35 @@ concept HasElementStiffness = requires(const LiningSection& section, double leng
   { Lining::template stiffness<Dof>(section, length) } -> std::same_as<ElementMatrix<Dof>>;
 };
 
+/// Optional: `static constexpr bool is_pinned = true` for bars on pins, which the rock pushes in
+/// the middle of the nodes, wherever on its stretch it touches, and which do not turn.
+template <class Lining>
+concept NamesPins = requires {
+  Lining::is_pinned;
+};
+template <class Lining>
+concept HasPins = requires {
+  requires std::same_as<decltype(Lining::is_pinned), const bool>;
+  typename std::bool_constant<Lining::is_pinned>;
+};
+template <class Lining>
+[[nodiscard]] constexpr bool is_pinned_lining() {
+  if constexpr (HasPins<Lining>)
+    return Lining::is_pinned;
+  else
+    return false;
+}
+
 /// The straight elements that a lining is made of, between nodes that move and turn.
 ///
 /// What the compiler cannot check: the matrix is symmetric and does not resist rigid motion.
 ///
-/// A model with a member `is_pinned` is pushed by the rock in the middle of its nodes.
+/// Optional: `static constexpr bool is_pinned` (see `HasPins`).
 ///
 /// Models: EulerBernoulliBeam, TimoshenkoBeam, PinnedBar, BondedChain.
 template <class Lining, int Dof>
-concept LiningModel =
-    Fills<Lining, roles::Lining> && HasName<Lining> && HasElementStiffness<Lining, Dof>;
+concept LiningModel = Fills<Lining, roles::Lining> && HasName<Lining> &&
+    HasElementStiffness<Lining, Dof> &&(HasPins<Lining> || !NamesPins<Lining>);
 
 template <class Lining, int Dof>
 consteval bool explain_lining_model() {
@@ -86,6 +106,8 @@ consteval bool explain_lining_model() {
   static_assert(HasElementStiffness<Lining, Dof>,
                 "lining: add `template <int Dof> static ElementMatrix<Dof> stiffness(const "
                 "LiningSection&, double length)`");
+  static_assert(HasPins<Lining> || !NamesPins<Lining>,
+                "lining: `is_pinned` must be `static constexpr bool is_pinned`, or be left out");
   return true;
 }
 

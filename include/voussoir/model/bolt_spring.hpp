@@ -58,6 +58,11 @@ struct BoltSpring {
     add_force_at<Dim>(f + dof * b, joint_b, -share * force.dowel);
   }
 
+  /// What its law says of it there.
+  [[nodiscard]] BoltReport report(const Law& spring, const BoltSpan<Dim>& now) const {
+    return report_of(spring, now, state, broken);
+  }
+
   /// Brings its history up to date. @return  true if it breaks now
   bool commit(const Law& spring, const BoltSpan<Dim>& now) {
     const bool breaks = spring.commit(now, state);

@@ -18,6 +18,7 @@
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/composition.hpp>
@@ -68,16 +69,17 @@ class ComposedSolver {
   /// with one model to make instead of two.
   /// @throws InvalidInput, Stopped  as they do
   ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-                 const typename Geometry::Opening& opening, double smallest_piece = 0.074,
+                 const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
                  ContactPoints points = ContactPoints::gauss, const Progress& progress = {});
 
   /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
   /// goes on acting until a stage takes it away.
-  /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]
+  /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]; by default
+  ///                        see `smallest_piece_of`
   /// @param progress        asked now and then whether to go on
   /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
   /// @throws Stopped        the solver is then of no more use
-  void excavate(const typename Geometry::Opening& opening, double smallest_piece = 0.074,
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
                 const Progress& progress = {});
 
   /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
@@ -243,6 +245,7 @@ ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointL
                                        double smallest_piece, ContactPoints points,
                                        const Progress& progress)
     : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points) {
+  if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   *mass_ = carve(std::move(*mass_), opening, smallest_piece, progress);
   build(progress);
   hold_wall();
@@ -253,6 +256,7 @@ void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
                                       double smallest_piece, const Progress& progress) {
   if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
   system_.shapes.reset();  // they are those of the mass
+  if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   const bool is_shared = mass_.use_count() > 1;
   mass_ = std::make_shared<RockMass<Geometry>>(
       carve(is_shared ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
@@ -353,7 +357,7 @@ void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
     const int node = first_node + c.node;
     // A pin is pushed in its middle, wherever on its stretch the rock touches it.
     Vec<dim> centre = system_.body(node).centre;
-    if constexpr (requires { Lining::is_pinned; }) centre = c.facet.centre();
+    if constexpr (is_pinned_lining<Lining>()) centre = c.facet.centre();
     system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1},
                           law);
   }
@@ -369,7 +373,7 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(double wall_fraction, cons
           wall_fraction, "0 to 1 and no more than was left before");
   acceptance.check();
   started_ = true;
-  const SearchContext context{acceptance, &measures_, wall_fraction, progress};
+  const SearchContext context{acceptance, &measures_, wall_fraction, progress, open_length(*mass_)};
   EquilibriumReport report = method.find(system_, context);
   fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
   return report;

@@ -132,6 +132,7 @@ class InitialModel {
         const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
         add_force_at<dim>(system_.load.data() + dof * f.body,
                           f.facet.centre_from(system_.body(f.body).centre), pressure);
+        add_edge_shear(f.body, f.facet);
       } else {
         system_.boundary.add(f.body, ground(), f.facet, system_.body(f.body).centre,
                              system_.body(ground()).centre, points_);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/geometry/spatial_line.hpp>
+#include <voussoir/io/csv_table.hpp>
+#include <voussoir/tunnel/tunnel_state.hpp>
+
+namespace voussoir {
+
+// What a tunnel carries, as tables: comma-separated text, units in the names of the columns.
+
+/// A word for what became of a bolt at a joint.
+[[nodiscard]] inline const char* to_string(const BoltReport& report) {
+  if (report.is_broken) return "ruptured";
+  return report.has_yielded() ? "yielded" : "elastic";
+}
+
+namespace detail {
+
+/// Anticlockwise from the right-hand springing [degrees], 0 to 360.
+[[nodiscard]] inline double angle_in_degrees(const Vec2& p) {
+  const double angle = std::atan2(p.y(), p.x()) * 180 / std::numbers::pi;
+  return angle < -1e-9 ? angle + 360 : std::max(angle, 0.0);
+}
+/// Where a bar crosses a joint, and the number of that joint along the bar, from 1.
+template <class Bar>
+struct PlaceOnBar {
+  const Bar* bar;
+  int joint;
+};
+template <class Bar>
+[[nodiscard]] std::vector<PlaceOnBar<Bar>> places_on_bars(
+    const std::vector<CrossingForce>& crossings, const std::vector<Bar>& bars) {
+  std::vector<int> count(bars.size(), 0);
+  std::vector<PlaceOnBar<Bar>> places;
+  for (const CrossingForce& c : crossings) {
+    if (c.bolt < 0 || static_cast<std::size_t>(c.bolt) >= bars.size())
+      throw InvalidInput("table of bolts: no bar was given for bolt " + std::to_string(c.bolt));
+    const auto k = static_cast<std::size_t>(c.bolt);
+    places.push_back({&bars[k], ++count[k]});
+  }
+  return places;
+}
+
+}  // namespace detail
+
+/// One row for every bolt and joint crossed.
+/// @param bars  in the order in which they were installed
+/// @throws InvalidInput  a bar is missing
+[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
+                                            const std::vector<Segment>& bars) {
+  CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
+                  "axial_force_kN", "extension_mm", "state"},
+                 8);
+  const auto places = detail::places_on_bars(crossings, bars);
+  for (std::size_t k = 0; k < crossings.size(); ++k) {
+    const CrossingForce& c = crossings[k];
+    const Segment& bar = *places[k].bar;
+    const Vec2 p = bar.at(c.position / bar.length());
+    table.add_row(c.bolt + 1, detail::angle_in_degrees(bar.end - bar.start), places[k].joint,
+                  c.position, p.x(), p.y(), 1e-3 * c.report.axial, 1e3 * c.extension,
+                  to_string(c.report));
+  }
+  return table.text();
+}
+[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
+                                            const std::vector<SpatialLine>& bars) {
+  CsvTable table({"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
+                  "shear_force_kN", "extension_mm", "state"},
+                 8);
+  const auto places = detail::places_on_bars(crossings, bars);
+  for (std::size_t k = 0; k < crossings.size(); ++k) {
+    const CrossingForce& c = crossings[k];
+    const SpatialLine& bar = *places[k].bar;
+    const Vec3 p = bar.start + c.position / bar.length() * (bar.end - bar.start);
+    table.add_row(c.bolt + 1, places[k].joint, c.position, p.x(), p.y(), p.z(),
+                  1e-3 * c.report.axial, 1e-3 * c.report.shear, 1e3 * c.extension,
+                  to_string(c.report));
+  }
+  return table.text();
+}
+
+/// One row for every node of a lining in 2-D.
+[[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining) {
+  CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
+                  "moment_kNm_per_m", "convergence_mm"},
+                 8);
+  int node = 0;
+  for (const LiningForce& at : lining)
+    table.add_row(++node, detail::angle_in_degrees(at.position), at.position.x(), at.position.y(),
+                  1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence);
+  return table.text();
+}
+/// One row for every member of a lining in 3-D.
+[[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members) {
+  CsvTable table({"member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm"}, 8);
+  int number = 0;
+  for (const MemberForces<3>& m : members) {
+    const Vec3 p = 0.5 * (m.from + m.to);
+    table.add_row(++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment);
+  }
+  return table.text();
+}
+
+/// One row for every contact of two blocks. Blocks are numbered as in the rock mass.
+template <int Dim>
+[[nodiscard]] std::string joint_table(const std::vector<JointState<Dim>>& joints) {
+  std::vector<std::string> columns{"block_a", "block_b", "x_m", "y_m"};
+  if (Dim == 3) columns.push_back("z_m");
+  for (const char* name : {Dim == 2 ? "length_m" : "area_m2", "normal_force_kN", "shear_force_kN",
+                           "opening_mm", "plastic_slip_mm", "damage", "open", "slipping"})
+    columns.push_back(name);
+  CsvTable table(columns, 8);
+  for (const JointState<Dim>& j : joints) {
+    const ContactReport& r = j.report;
+    const auto row = [&](auto... place) {
+      table.add_row(j.a, j.b, place..., j.measure, 1e-3 * r.normal, 1e-3 * r.shear, 1e3 * r.opening,
+                    1e3 * r.plastic_slip, r.damage, r.is_open, r.is_slipping);
+    };
+    if constexpr (Dim == 2)
+      row(j.centre.x(), j.centre.y());
+    else
+      row(j.centre.x(), j.centre.y(), j.centre.z());
+  }
+  return table.text();
+}
+
+}  // namespace voussoir

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+#include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/lining_members.hpp>
+
+namespace voussoir {
+
+// What bolts and lining carry, read in the same words at rest (from a solver) and in motion (from a
+// run and the support that `add_bolts` or `add_lining` gave).
+
+/// A bolt where it crosses a joint.
+struct CrossingForce {
+  int bolt;
+  double position;    ///< from the head [m]
+  double extension;   ///< of the distance between the anchors since installation [m]
+  BoltReport report;  ///< what its law says of it there
+};
+
+/// In the order of bolts and, along each, from head to tip.
+template <class Solver>
+[[nodiscard]] std::vector<CrossingForce> bolt_forces(const Solver& solver) {
+  std::vector<CrossingForce> forces;
+  const auto& system = solver.system();
+  const double* u = system.displacement.data();
+  if (const auto* bolts = solver.bolts())
+    for (const auto& spring : bolts->springs()) {
+      const auto span = spring.span_at(u);
+      forces.push_back({spring.bolt, spring.position, extension_of(span),
+                        spring.report(bolts->law_of(spring), span)});
+    }
+  return forces;
+}
+
+/// The same of bolts in rock that moves.
+template <class Run, int Dim, class Law>
+[[nodiscard]] std::vector<CrossingForce> bolt_forces(const Run& run,
+                                                     const BoltSet<Dim, Law>& bolts) {
+  std::vector<CrossingForce> forces;
+  for (const auto& spring : bolts.springs()) {
+    const auto span = spring.span_at(run.pose(spring.a), run.pose(spring.b));
+    forces.push_back({spring.bolt, spring.position, extension_of(span),
+                      spring.report(bolts.law_of(spring), span)});
+  }
+  return forces;
+}
+
+/// Largest tension of every bolt [N]; 0 for a bolt that crosses no joint.
+[[nodiscard]] inline std::vector<double> largest_bolt_forces(
+    const std::vector<CrossingForce>& crossings, int bolt_count) {
+  std::vector<double> largest(static_cast<std::size_t>(bolt_count), 0.0);
+  for (const CrossingForce& c : crossings) {
+    double& most = largest[static_cast<std::size_t>(c.bolt)];
+    most = std::max(most, c.report.axial);
+  }
+  return largest;
+}
+template <class Solver>
+[[nodiscard]] std::vector<double> largest_bolt_forces(const Solver& solver) {
+  return largest_bolt_forces(bolt_forces(solver), solver.bolt_count());
+}
+
+/// A member of the lining between two nodes, in 2-D per metre of tunnel.
+template <int Dim>
+struct MemberForces {
+  Vec<Dim> from, to;  ///< its nodes [m]
+  double thrust;      ///< N, compression positive [N]
+  double shear;       ///< the larger of its ends, magnitude [N]
+  double moment;      ///< the larger of its ends, magnitude, torsion apart [N m]
+};
+
+namespace detail {
+
+/// @param f  forces on the ends of a member, in its axes
+template <int Dim, class EndForces>
+[[nodiscard]] MemberForces<Dim> lining_member(const Vec<Dim>& from, const Vec<Dim>& to,
+                                              const EndForces& f) {
+  constexpr int dof = Dim == 2 ? 3 : 6;
+  MemberForces<Dim> member{from, to, f[0], 0, 0};
+  for (const int end : {0, dof}) {
+    // In 3-D axial force, two shears; torsion, two moments.
+    const double shear = Dim == 2 ? std::abs(f[end + 1]) : std::hypot(f[end + 1], f[end + 2]);
+    const double moment =
+        Dim == 2 ? std::abs(f[end + 2]) : std::hypot(f[end + dof - 2], f[end + dof - 1]);
+    member.shear = std::max(member.shear, shear);
+    member.moment = std::max(member.moment, moment);
+  }
+  return member;
+}
+
+}  // namespace detail
+
+/// All members of all linings, where their nodes were installed.
+template <class Solver, int Dim = Solver::SystemType::dim>
+[[nodiscard]] std::vector<MemberForces<Dim>> lining_members(const Solver& solver) {
+  std::vector<MemberForces<Dim>> members;
+  const auto& system = solver.system();
+  for (const auto* lining : solver.linings())
+    for (const auto& e : lining->members())
+      members.push_back(detail::lining_member<Dim>(system.body(e.i).centre, system.body(e.j).centre,
+                                                 e.end_forces(system.displacement.data())));
+  return members;
+}
+/// The same of a lining that moves, where its nodes are now.
+template <class Run, class Geometry>
+[[nodiscard]] std::vector<MemberForces<Geometry::dim>> lining_members(
+    const Run& run, const LiningMembers<Geometry>& lining) {
+  std::vector<MemberForces<Geometry::dim>> members;
+  for (const auto& e : lining.members())
+    members.push_back(detail::lining_member<Geometry::dim>(
+        run.position(e.i), run.position(e.j), e.end_forces(run.pose(e.i), run.pose(e.j))));
+  return members;
+}
+
+/// The lining at one node, per metre of tunnel.
+struct LiningForce {
+  Vec2 position;       ///< [m]
+  double thrust;       ///< N, compression positive [N/m]
+  double shear;        ///< V [N/m]
+  double moment;       ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;  ///< towards the tunnel centre since installation [m]
+};
+
+namespace detail {
+
+/// The mean of the two members that meet at each of `count` nodes, where the first is body `first`;
+/// position and convergence are left at zero.
+/// @param end_forces  of an element, in its axes
+template <class Elements, class EndForces>
+[[nodiscard]] std::vector<LiningForce> mean_of_members(const Elements& elements, int first,
+                                                       int count, EndForces&& end_forces) {
+  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {zeros<Vec2>(), 0, 0, 0, 0});
+  std::vector<int> ends(forces.size(), 0);
+  for (const auto& element : elements) {
+    // Members run anticlockwise: their second axis points into the opening, so what a beam calls
+    // sagging (tension below) is tension at the outer fibre here.
+    const auto f = end_forces(element);
+    const auto add = [&](int node, double thrust, double shear, double moment) {
+      LiningForce& at = forces[static_cast<std::size_t>(node - first)];
+      at.thrust += thrust;
+      at.shear += shear;
+      at.moment += moment;
+      ++ends[static_cast<std::size_t>(node - first)];
+    };
+    add(element.i, f[0], f[1], -f[2]);
+    add(element.j, -f[3], -f[4], f[5]);
+  }
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const double share = ends[k] > 0 ? 1.0 / ends[k] : 0.0;
+    forces[k].thrust *= share;
+    forces[k].shear *= share;
+    forces[k].moment *= share;
+  }
+  return forces;
+}
+
+}  // namespace detail
+
+/// Of one lining of a solver (see `linings()`); one entry per node: the mean of the two members
+/// that meet there.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver,
+                                                     const typename Solver::LiningType& lining) {
+  const auto& system = solver.system();
+  const int first = lining.first_node();
+  auto forces = detail::mean_of_members(
+      lining.members(), first, lining.node_count(),
+      [&](const auto& element) { return element.end_forces(system.displacement.data()); });
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const int body = first + static_cast<int>(k);
+    forces[k].position = system.body(body).centre;
+    forces[k].convergence =
+        -solver.displacement_of(body, forces[k].position).dot(forces[k].position.normalized());
+  }
+  return forces;
+}
+
+/// Of the first lining; none without one.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+  const auto* lining = solver.lining();
+  if (lining == nullptr) return {};
+  return lining_forces(solver, *lining);
+}
+
+/// The same of a lining that moves; position is where the node is now.
+template <class Run, class Geometry>
+requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
+    [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
+                                                         const LiningMembers<Geometry>& lining) {
+  const int first = lining.first_node();
+  auto forces = detail::mean_of_members(
+      lining.members(), first, lining.node_count(), [&](const auto& element) {
+        return element.end_forces(run.pose(element.i), run.pose(element.j));
+      });
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const int body = first + static_cast<int>(k);
+    const Vec2 home = run.home(body).position;
+    forces[k].position = run.position(body);
+    forces[k].convergence = (home - forces[k].position).dot(normalized(home));
+  }
+  return forces;
+}
+
+}  // namespace voussoir

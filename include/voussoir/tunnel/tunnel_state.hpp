@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
+
+namespace voussoir {
+
+// All that tables and pictures show of a tunnel, in plain values, whatever its models and whether
+// it is at rest or moves. Nothing of it is a member of a particular law.
+
+/// A block of the rock.
+template <int Dim>
+struct BlockState {
+  Vec<Dim> displacement;  ///< of its centre since the in-situ state [m]
+  bool is_gone;           ///< detached at rest, or taken out of a run
+  /// From where it was sliced to where it is to be drawn: at rest it stays, for what moves there is
+  /// too small to be seen.
+  Pose<Dim> motion;
+};
+
+/// A contact of two blocks.
+template <int Dim>
+struct JointState {
+  int a, b;
+  Vec<Dim> centre, normal;  ///< normal from a to b [m], [-]
+  double measure;           ///< length (2-D) or area (3-D) [m], [m^2]
+  /// Of all its points: forces are sums; opening, slip and damage are the largest; it is open where
+  /// all points are, and slips where one does.
+  ContactReport report;
+};
+
+/// A tunnel: its rock and what is installed in it.
+template <class Geometry>
+struct TunnelState {
+  static constexpr int dim = Geometry::dim;
+  std::vector<BlockState<dim>> blocks;     ///< as in the rock mass
+  std::vector<JointState<dim>> joints;     ///< contacts of rock with rock
+  std::vector<CrossingForce> bolts;        ///< where they cross joints
+  std::vector<MemberForces<dim>> members;  ///< of the lining
+  std::vector<LiningForce> lining;         ///< node by node, in 2-D
+};
+
+namespace detail {
+
+/// The report of a contact, point by point.
+class WholeContact {
+ public:
+  void add(const ContactReport& point) {
+    is_open_ = is_open_ && point.is_open;
+    sum_.normal += point.normal;
+    sum_.shear += point.shear;
+    sum_.opening = is_first_ ? point.opening : std::max(sum_.opening, point.opening);
+    sum_.plastic_slip = std::max(sum_.plastic_slip, point.plastic_slip);
+    sum_.damage = std::max(sum_.damage, point.damage);
+    sum_.is_slipping = sum_.is_slipping || point.is_slipping;
+    is_first_ = false;
+  }
+  [[nodiscard]] ContactReport report() const {
+    ContactReport whole = sum_;
+    whole.is_open = is_open_;
+    return whole;
+  }
+
+ private:
+  ContactReport sum_;
+  bool is_open_ = true, is_first_ = true;
+};
+
+}  // namespace detail
+
+/// All contacts of rock with rock, in their places on body a as it lay in the in-situ state.
+template <class Solver, int Dim = Solver::SystemType::dim>
+[[nodiscard]] std::vector<JointState<Dim>> joint_states(const Solver& solver) {
+  const auto& system = solver.system();
+  const auto& joints = system.joints;
+  std::vector<JointState<Dim>> states;
+  states.reserve(joints.contacts().size());
+  std::vector<detail::WholeContact> wholes(joints.contacts().size());
+  for (const auto& c : joints.contacts())
+    states.push_back({c.a, c.b, system.body(c.a).centre + c.arm_a, c.normal, 0, {}});
+  const auto* first = joints.contacts().data();
+  joints.visit(system.displacement.data(),
+               [&](const auto& c, const auto& point, const auto& load, const auto&) {
+                 const auto k = static_cast<std::size_t>(&c - first);
+                 states[k].measure += point.weight;
+                 wholes[k].add(report_of(joints.law_of(c), load, point.state));
+               });
+  for (std::size_t k = 0; k < states.size(); ++k) states[k].report = wholes[k].report();
+  return states;
+}
+
+/// The same of rock that moves, where the contacts are now.
+template <int Dim, class JointLaw, class InterfaceLaw>
+[[nodiscard]] std::vector<JointState<Dim>> joint_states(
+    const Dynamics<Dim, JointLaw, InterfaceLaw>& run) {
+  std::vector<JointState<Dim>> states;
+  const auto& joints = run.joints();
+  states.reserve(joints.contacts().size());
+  for (const auto& c : joints.contacts()) {
+    const auto at = c.place(run.body(c.a).pose, run.body(c.b).pose);
+    const Pose<Dim> a = run.pose(c.a), b = run.pose(c.b);
+    JointState<Dim> state{c.a, c.b, zeros<Vec<Dim>>(), column(a.rotation * c.frame, 0), 0, {}};
+    detail::WholeContact whole;
+    for (int k = c.first; k < c.last; ++k) {
+      const auto& p = joints.points()[static_cast<std::size_t>(k)];
+      whole.add(report_of(joints.law_of(c), p.load(at), p.state));
+      state.centre += p.weight * b(p.place);
+      state.measure += p.weight;
+    }
+    if (state.measure > 0) state.centre /= state.measure;
+    state.report = whole.report();
+    states.push_back(state);
+  }
+  return states;
+}
+
+/// A tunnel at rest.
+template <class Solver, class Geometry = typename Solver::SystemType::GeometryType>
+[[nodiscard]] TunnelState<Geometry> state_of(const Solver& solver) {
+  TunnelState<Geometry> state;
+  const auto& system = solver.system();
+  for (std::size_t b = 0; b < solver.mass().bodies.size(); ++b) {
+    const auto& body = system.body(static_cast<int>(b));
+    state.blocks.push_back(
+        {solver.displacement_of(static_cast<int>(b), body.centre), !body.movable, {}});
+  }
+  state.joints = joint_states(solver);
+  state.bolts = bolt_forces(solver);
+  state.members = lining_members(solver);
+  if constexpr (Geometry::dim == 2) state.lining = lining_forces(solver);
+  return state;
+}
+
+namespace detail {
+
+template <class Geometry, class Run, class Law>
+void add_support(TunnelState<Geometry>& state, const Run& run,
+                 const BoltSet<Geometry::dim, Law>& bolts) {
+  for (const CrossingForce& c : bolt_forces(run, bolts)) state.bolts.push_back(c);
+}
+template <class Geometry, class Run>
+void add_support(TunnelState<Geometry>& state, const Run& run,
+                 const LiningMembers<Geometry>& lining) {
+  state.members = lining_members(run, lining);
+  if constexpr (Geometry::dim == 2) state.lining = lining_forces(run, lining);
+}
+
+}  // namespace detail
+
+/// A tunnel whose blocks move.
+/// @param mass      from which the run was made: its body b is body b of the run
+/// @param supports  what `add_bolts` and `add_lining` gave, if anything
+template <class JointLaw, class InterfaceLaw, class Geometry, class... Supports>
+[[nodiscard]] TunnelState<Geometry> state_of(const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
+                                             const RockMass<Geometry>& mass,
+                                             const Supports&... supports) {
+  TunnelState<Geometry> state;
+  for (std::size_t k = 0; k < mass.bodies.size(); ++k) {
+    const int b = static_cast<int>(k);
+    state.blocks.push_back(
+        {run.position(b) - run.home(b).position, run.body(b).is_gone, run.motion(b)});
+  }
+  state.joints = joint_states(run);
+  (detail::add_support(state, run, supports), ...);
+  return state;
+}
+
+}  // namespace voussoir

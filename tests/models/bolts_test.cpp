@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Every bolt law and every way of anchoring.
+#include "models/every_model.hpp"
+
+namespace bolts_test {
+
+using namespace every_model;
+
+TEST_SUITE("models/bolts") {
+  TEST_CASE("AxialBolt") {
+    const Row row = in_all_settings<AxialBolt>();
+    check_yielded(row);
+    row.print();
+  }
+  TEST_CASE("AxialShearBolt") { in_all_settings<AxialShearBolt>().print(); }
+  TEST_CASE("LorigAnchors") { in_all_settings<LorigAnchors>().print(); }
+  TEST_CASE("GargaWangAnchors") { in_all_settings<GargaWangAnchors>().print(); }
+  TEST_CASE("JointFaceAnchors") { in_all_settings<JointFaceAnchors>().print(); }
+}
+
+}  // namespace bolts_test
