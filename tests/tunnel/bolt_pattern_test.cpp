@@ -41,6 +41,31 @@ double along_wall(const SimplePolygon& opening, const Vec2& point) {
 }  // namespace
 
 TEST_SUITE("tunnel/bolt_pattern") {
+  TEST_CASE("the mirrored pattern of a mirrored opening has the mirrored bars") {
+    const auto opening = horseshoe_opening(6, 2.5, 35);
+    std::vector<Vec2> vertices;
+    for (const Vec2& v : opening.vertices()) vertices.insert(vertices.begin(), Vec2(-v.x(), v.y()));
+    for (const double along : {0.0, 1.3}) {
+      const BoltPattern pattern{.length = 3,
+                                .angular_spacing = along > 0 ? 0 : 17 * degree,
+                                .wall_spacing = along,
+                                .from = -20 * degree,
+                                .to = 150 * degree};
+      BoltPattern mirrored = pattern;
+      mirrored.from = pi - pattern.to;
+      mirrored.to = pi - pattern.from;
+      const auto bars = bolt_bars(pattern, opening);
+      const auto image = bolt_bars(mirrored, SimplePolygon(vertices));
+      REQUIRE(bars.size() == image.size());
+      for (std::size_t k = 0; k < bars.size(); ++k) {
+        const Segment& twin = image[bars.size() - 1 - k];
+        // The wall is summed up in 3600 steps.
+        CHECK((Vec2(-twin.start.x(), twin.start.y()) - bars[k].start).norm() < 1e-11);
+        CHECK((Vec2(-twin.end.x(), twin.end.y()) - bars[k].end).norm() < 1e-11);
+      }
+    }
+  }
+
   TEST_CASE("as many bolts as fit the arc, both ends included") {
     struct Case {
       double spacing, from, to;

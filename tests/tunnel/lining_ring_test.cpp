@@ -56,6 +56,52 @@ TEST_SUITE("tunnel/lining_ring") {
     }
   }
 
+  TEST_CASE("nodes and what touches them are the same whichever vertex comes first, and mirrored") {
+    for (const SimplePolygon& opening :
+         {horseshoe_opening(5, 1.7, 36), horseshoe_opening(5, 2, 35), circular_opening(5, 30)}) {
+      const auto ground = domain_around(opening, 14, 4, 4);
+      const auto rock = jointed_rock(ground, 3);
+      for (const int count : {31, 50, 72}) {
+        const LiningFrame<Planar> frame = lining_frame(carve(rock, opening, 0), {.nodes = count});
+        CHECK(frame.nodes.size() == static_cast<std::size_t>(count));
+        CHECK(std::abs(contact_length(frame) - wall_length(carve(rock, opening, 0))) < 1e-6);
+        for (const bool mirrored : {false, true})
+          for (const std::ptrdiff_t first : {1, 7, 20}) {
+            CAPTURE(count);
+            CAPTURE(first);
+            std::vector<Vec2> vertices = opening.vertices();
+            std::rotate(vertices.begin(), vertices.begin() + first, vertices.end());
+            const auto image = [&](const Vec2& p) { return mirrored ? Vec2(-p.x(), p.y()) : p; };
+            for (Vec2& v : vertices) v = image(v);
+            if (mirrored) std::reverse(vertices.begin(), vertices.end());
+            auto joints = rock.joints;
+            for (Joint& j : joints) j.trace = {image(j.trace.start), image(j.trace.end)};
+            const LiningFrame<Planar> other =
+                lining_frame(carve(slice(ground, joints, {0.25, 5}), SimplePolygon(vertices), 0),
+                             {.nodes = count});
+            REQUIRE(other.nodes.size() == frame.nodes.size());
+            CHECK(other.contacts.size() == frame.contacts.size());
+            // The length of wall that every node touches, where the node is.
+            std::vector<double> touched(frame.nodes.size(), 0), others = touched;
+            for (const auto& c : frame.contacts)
+              touched[static_cast<std::size_t>(c.node)] += c.facet.length();
+            for (const auto& c : other.contacts)
+              others[static_cast<std::size_t>(c.node)] += c.facet.length();
+            for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
+              double nearest = 1e300, length = 0;
+              for (std::size_t i = 0; i < other.nodes.size(); ++i)
+                if (const double d = (other.nodes[i] - image(frame.nodes[k])).norm(); d < nearest) {
+                  nearest = d;
+                  length = others[i];
+                }
+              CHECK(nearest < 1e-12);  // roundings of 20 m of wall summed up
+              CHECK(std::abs(length - touched[k]) < 1e-11);
+            }
+          }
+      }
+    }
+  }
+
   TEST_CASE("every piece of wall touches the lining once, with its full length") {
     for (const int nodes : {8, 36, 50, 200}) {
       CAPTURE(nodes);

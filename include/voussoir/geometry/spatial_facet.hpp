@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/detail/inertia_axes.hpp>
 #include <voussoir/geometry/detail/surface.hpp>
 #include <voussoir/geometry/segment.hpp>
 
@@ -32,7 +33,8 @@ struct SpatialFacet {
 
   /// Four points that integrate polynomials of degree 2 over the facet exactly: the centroid
   /// +- sqrt(2) r_k e_k, with r_k the radii of gyration about the centroid along the principal
-  /// axes e_k. Where all axes are principal (a square) the longest edge is one of them.
+  /// axes e_k. Where all axes are principal (a square) the outline tells which: see
+  /// `detail::arms_of_round`.
   ///
   /// They lie in the facet: a convex body of n dimensions contains its ellipsoid of inertia
   /// enlarged by sqrt((n + 2) / n), which is sqrt(2) in a plane. Source: Kannan, Lovasz &
@@ -69,30 +71,12 @@ VOUSSOIR_INLINE std::array<Vec3, 2> SpatialFacet::gyration(const Vec3& normal, d
     if (squared_length_of(edge) > (1 + 1e-9) * squared_length_of(first)) first = edge;
   }
   first = normalized(first);
-  const Vec3 second = cross(normal, first), centre = centroid_arm();
-  // Second moments of the triangles of a fan about its tip, over the area.
-  double xx = 0, xy = 0, yy = 0;
-  for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
-    const Vec3 a = vertices[k] - vertices[0], b = vertices[k + 1] - vertices[0];
-    const double share = dot_product(normal, cross(a, b - a)) / (2 * area) / 12;
-    const double ax = dot_product(a, first), ay = dot_product(a, second),
-                 bx = dot_product(b, first), by = dot_product(b, second);
-    const double sx = ax + bx, sy = ay + by;
-    xx += share * (ax * ax + bx * bx + sx * sx);
-    yy += share * (ay * ay + by * by + sy * sy);
-    xy += share * (ax * ay + bx * by + sx * sy);
-  }
-  const double cx = dot_product(centre, first), cy = dot_product(centre, second);
-  xx -= cx * cx;
-  yy -= cy * cy;
-  xy -= cx * cy;
-  const double half_difference = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
-  const double radius = std::hypot(half_difference, xy);
-  const double angle = radius > 1e-12 * mean ? 0.5 * std::atan2(xy, half_difference) : 0.0;
-  const Vec3 major = std::cos(angle) * first + std::sin(angle) * second;
-  const double large = mean + radius;
-  const double small = std::fmax(0.0, (xx * yy - xy * xy) / large);  // the determinant over large
-  return {std::sqrt(2 * large) * major, std::sqrt(2 * small) * cross(normal, major)};
+  detail::PlaneMoments moments{first, cross(normal, first)};
+  const Vec3 about = -centroid_arm();
+  detail::add_moments(vertices, normal, about, area, moments);
+  if (!detail::is_round(moments)) return detail::arms_of(moments);
+  return detail::arms_of_round(moments,
+                               detail::fourth_moment(vertices, normal, about, moments) / area);
 }
 
 VOUSSOIR_INLINE Vec3 SpatialFacet::centroid_arm() const {

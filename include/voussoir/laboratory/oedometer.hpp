@@ -7,6 +7,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
+#include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -57,27 +58,25 @@ struct Press {
     const int ground = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
     platen = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
     measures.resize(measures.size() + 2, 0.0);
-    const auto found = Detector::find(mass);
-    for (const int k :
-         order_by_bodies(found, [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
-      const auto& c = found[static_cast<std::size_t>(k)];
-      const auto points = c.facet.gauss_points();
-      system.joints.add(c.a, c.b, c.facet, system.body(c.a).centre, system.body(c.b).centre,
-                        points);
-    }
+    visit_joined(
+        Detector::find(mass), mass.domain.tolerance(), [](int) { return 0; },
+        [&](int a, int b, const auto& area, int) {
+          const auto points = area.gauss_points();
+          system.joints.add(a, b, area, system.body(a).centre, system.body(b).centre, points);
+        });
     const auto boundary = boundary_facets(mass);
     for (const auto& f : boundary)
       if (f.side == params.loaded) outward += f.facet.area_vector();
     platen_area = outward.norm();
     outward /= platen_area;
-    for (const auto& f : boundary) {
-      const int wall = f.side == params.loaded ? platen : ground;
-      const auto points = f.facet.gauss_points();
-      system.boundary.add(f.body, wall, f.facet, system.body(f.body).centre,
-                          system.body(wall).centre, points);
-      const Vec<dim> area = f.facet.area_vector();
-      if (std::abs(area.dot(outward)) < 0.5 * area.norm()) lateral_area += area.norm();
-    }
+    visit_joined(boundary, [&](int body, SideOf<dim> side, const auto& area) {
+      const int wall = side == params.loaded ? platen : ground;
+      const auto points = area.gauss_points();
+      system.boundary.add(body, wall, area, system.body(body).centre, system.body(wall).centre,
+                          points);
+      const Vec<dim> whole = area.area_vector();
+      if (std::abs(whole.dot(outward)) < 0.5 * whole.norm()) lateral_area += whole.norm();
+    });
     length = scaled_by(mass.domain.size(), outward).norm();
   }
 

@@ -19,7 +19,7 @@ namespace voussoir {
 /// A point of a contact in the reference configuration, but for what the contact law remembers.
 template <int Dim>
 struct ReferencePoint {
-  Vec<Dim> offset;          ///< from the centre of the facet, along normal and tangents [m]
+  Vec<Dim> offset;          ///< from the centre of the area, along normal and tangents [m]
   double weight;            ///< [m] or [m^2]
   PointForce<Dim> initial;  ///< in the in-situ state
   /// Opening and slips at displacement zero: not zero once contacts have been updated, or where
@@ -27,8 +27,8 @@ struct ReferencePoint {
   Vec<Dim> start = zeros<Vec<Dim>>();
 };
 
-/// One facet in which body a touches body b, in the reference configuration: where the bodies were
-/// when contacts were found.
+/// What body a shares with body b on one plane, in the reference configuration: where the bodies
+/// were when contacts were found.
 template <int Dim>
 struct ReferenceContact {
   static constexpr int dof = Dim + spin_count<Dim>;
@@ -37,12 +37,12 @@ struct ReferenceContact {
   /// With the normal a frame: right-handed, but in 3-D left-handed where a contact update has found
   /// the bodies the other way round and turned all its axes about.
   TangentBasis<Dim> tangents;
-  Vec<Dim> arm_a, arm_b;  ///< from the centres of the bodies to the centre of the facet [m]
+  Vec<Dim> arm_a, arm_b;  ///< from the centres of the bodies to the centre of the area [m]
   int a, b;
   int first, last;  ///< points first, ..., last - 1
   int law = 0;      ///< index into the laws of the group
 
-  /// From the centre of the facet to a point, world axes [m].
+  /// From the centre of the area to a point, world axes [m].
   [[nodiscard]] Vec<Dim> offset_of(const ReferencePoint<Dim>& p) const {
     return p.offset[0] * normal + tangents * part<Dim - 1>(p.offset, 1);
   }
@@ -123,12 +123,13 @@ class ContactGroup {
     points_.reserve(points_.size() + contacts * points_each);
   }
 
-  /// @param facet     its area vector points from a to b
+  /// @param area      a facet or a `ContactArea`: its area vector points from a to b
   /// @param centre_a, centre_b  of the bodies [m]
-  /// @param at        integration points of the facet
+  /// @param at        integration points of the area
   /// @param law       index into the laws of the group
-  void add(int a, int b, const typename Geometry::Facet& facet, const Vec<dim>& centre_a,
-           const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at, int law = 0);
+  template <class Area>
+  void add(int a, int b, const Area& area, const Vec<dim>& centre_a, const Vec<dim>& centre_b,
+           std::span<const FacetPoint<dim>> at, int law = 0);
   /// Adds a contact as it is; `first` and `last` are set.
   void add(Contact contact, std::span<const Point> points) {
     contact.first = static_cast<int>(points_.size());
@@ -388,14 +389,15 @@ class ContactGroup {
 };
 
 template <class Geometry, class Law>
-void ContactGroup<Geometry, Law>::add(int a, int b, const typename Geometry::Facet& facet,
-                                      const Vec<dim>& centre_a, const Vec<dim>& centre_b,
-                                      std::span<const FacetPoint<dim>> at, int law) {
+template <class Area>
+void ContactGroup<Geometry, Law>::add(int a, int b, const Area& area, const Vec<dim>& centre_a,
+                                      const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at,
+                                      int law) {
   Contact contact;
   contact.law = law;
-  contact.normal = facet.area_vector().normalized();
-  contact.arm_a = facet.centre_from(centre_a);
-  contact.arm_b = facet.centre_from(centre_b);
+  contact.normal = area.area_vector().normalized();
+  contact.arm_a = area.centre_from(centre_a);
+  contact.arm_b = area.centre_from(centre_b);
   contact.a = a;
   contact.b = b;
   contact.first = static_cast<int>(points_.size());

@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/spatial_facet.hpp>
 
@@ -44,6 +45,50 @@ VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec2> ends
 ///   and 3/4 on its centroid: exact for polynomials of degree 2
 VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec3> polygon, double area,
                                   std::vector<WeightedPoint<3>>& points);
+
+/// The points of a contact in a facet, from its centre, in place of what is in `points`.
+template <class Facet, int Dim>
+void place_points_on(const Facet& facet, ContactPoints rule, std::vector<FacetPoint<Dim>>& points) {
+  if (rule == ContactPoints::gauss) {
+    const auto gauss = facet.gauss_points();
+    points.assign(gauss.begin(), gauss.end());
+    return;
+  }
+  std::vector<WeightedPoint<Dim>> places;
+  if constexpr (Dim == 2)
+    place_points(rule, std::array{facet.start, facet.end}, facet.measure(), places);
+  else
+    place_points(rule, facet.vertices, facet.measure(), places);
+  points.clear();
+  for (const WeightedPoint<Dim>& p : places) points.push_back({p.place - facet.centre(), p.weight});
+}
+
+/// The same in several facets that make one contact.
+///
+///   corners: in 2-D the outermost ends of all of them and a point between, exact for polynomials
+///   of degree 3 (`ContactArea::corner_points`); in 3-D the points of every facet as if it stood
+///   alone, exact for degree 2: there they do depend on how the area is divided
+template <int Dim>
+void place_points_on(const ContactArea<Dim>& area, ContactPoints rule,
+                     std::vector<FacetPoint<Dim>>& points) {
+  if (rule == ContactPoints::centre) {
+    points.assign(1, {zeros<Vec<Dim>>(), area.measure()});
+  } else if (rule == ContactPoints::gauss) {
+    const auto gauss = area.gauss_points();
+    points.assign(gauss.begin(), gauss.end());
+  } else if constexpr (Dim == 2) {
+    const auto corners = area.corner_points();
+    points.assign(corners.begin(), corners.end());
+  } else {
+    points.clear();
+    std::vector<FacetPoint<Dim>> of_facet;
+    for (const auto& facet : area.facets()) {
+      place_points_on(facet, rule, of_facet);
+      const Vec<Dim> arm = -area.centre_from(facet.centre());
+      for (const FacetPoint<Dim>& p : of_facet) points.push_back({arm + p.offset, p.weight});
+    }
+  }
+}
 
 #if VOUSSOIR_BODIES
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/detection/contact.hpp>
@@ -37,9 +38,11 @@ class ContactRenewal {
   /// @param found   how the shapes touch; `owner`, whose face it is, belongs to body a
   /// @param old     the contact as it was, or null
   /// @param points  its springs are written there
+  /// @param joined  where they stand, if the contact consists of more than the polygon found
   [[nodiscard]] Contact run(const voussoir::Contact<Dim>& found, const PlacedShape<Dim>& owner,
                             int a, int b, ContactPoints rule, const Contact* old,
-                            std::vector<Point>& points) {
+                            std::vector<Point>& points,
+                            std::span<const WeightedPoint<Dim>> joined = {}) {
     const bool of_a = found.touch != Touch::face_b;
     const Vec<Dim> normal = of_a ? found.normal : Vec<Dim>(-found.normal);
     const Pose<Dim>&pose_a = pose(a), &pose_b = pose(b);
@@ -58,7 +61,9 @@ class ContactRenewal {
     contact.frame = transposed(pose_a.rotation) * frame;
     const auto at = contact.place(pose_a, pose_b);
     const double face = normal_reach(owner, normal);
-    if (found.touch == Touch::edge_edge)
+    if (!joined.empty())
+      places_.assign(joined.begin(), joined.end());
+    else if (found.touch == Touch::edge_edge)
       place_at_edges(found, a, b);
     else
       place_points(rule, found.polygon, found.measure, places_);

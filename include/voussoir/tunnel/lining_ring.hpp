@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -26,13 +27,31 @@ namespace detail {
 
 /// Where the nodes of a ring lie on an outline: node k stands for the stretch [k, k + 1] of it and
 /// lies in its middle.
+///
+/// Stretches are counted anticlockwise from `offset` behind vertex 0 of the outline, so the last
+/// one may reach past vertex 0. The offset is such that a stretch ends at the crown if that is a
+/// corner, else a node lies there: whichever vertex an outline begins with, and in the mirror, the
+/// nodes are the same.
 struct RingNodes {
   double stretch;            ///< [m]
+  double offset;             ///< 0 <= offset < stretch [m]
   bool closed;               ///< all the way round
   std::vector<Vec2> places;  ///< of those in the arc, neighbours one after the other [m]
   std::vector<int> number;   ///< for every stretch, index into `places`, or -1
 
   std::vector<char> joined;  ///< for every node, whether a member joins it and the next
+
+  /// The first stretch that reaches beyond a place on the outline; -1: the last one, of which the
+  /// end lies behind vertex 0.
+  [[nodiscard]] int first_beyond(double s) const {
+    return static_cast<int>(std::floor((s - offset) / stretch));
+  }
+  [[nodiscard]] double begin(int k) const { return offset + k * stretch; }
+  /// @return  index into `places`, or -1
+  [[nodiscard]] int node_of(int k) const {
+    const auto count = static_cast<int>(number.size());
+    return k < count ? number[static_cast<std::size_t>(k < 0 ? k + count : k)] : -1;
+  }
 };
 
 /// @throws InvalidInput  a value out of range; fewer than two nodes in the arc
@@ -53,10 +72,10 @@ struct OutlinePart {
 
 /// Nodes and members of a ring, and its contact with the wall that `carve` left.
 ///
-/// Node k stands for the stretch [k, k + 1] of the outline divided evenly, and lies in its middle:
-/// with as many nodes as facets of a circle, on the middle of each facet. Every piece of wall in
-/// its stretch touches it at one point, so a uniform pressure loads the node without turning it.
-/// On a partial ring a node is there if its angle lies in the arc.
+/// Node k stands for a stretch of the outline divided evenly, symmetrically about the crown, and
+/// lies in its middle: with as many nodes as facets of a circle, on the middle of each facet. Every
+/// piece of wall in its stretch touches it at one point, so a uniform pressure loads the node
+/// without turning it. On a partial ring a node is there if its angle lies in the arc.
 ///
 /// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
 [[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
@@ -83,13 +102,42 @@ struct LiningRibs {
 
 namespace detail {
 
+/// From vertex 0 to where the stretches of a ring begin, see `RingNodes`.
+[[nodiscard]] inline double ring_offset(const SimplePolygon& opening, double stretch) {
+  const auto& vertices = opening.vertices();
+  double low = vertices.front().x(), high = low;
+  for (const Vec2& v : vertices) {
+    low = std::min(low, v.x());
+    high = std::max(high, v.x());
+  }
+  // The crown: the highest point midway between the walls.
+  const double middle = 0.5 * (low + high), near = 1e-9 * opening.perimeter();
+  double along = 0, crown = 0, highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < opening.size(); ++e) {
+    const Segment edge = opening.edge(e);
+    const double from = edge.start.x() - middle, to = edge.end.x() - middle;
+    const bool crosses = (from < -near && to > near) || (from > near && to < -near);
+    const double part = crosses ? from / (from - to) : 0.0;
+    if (crosses || std::abs(from) <= near)
+      if (const double height = edge.at(part).y(); height > highest + near) {
+        highest = height;
+        crown = along + part * edge.length() + (crosses ? 0.5 * stretch : 0.0);
+      }
+    along += edge.length();
+  }
+  const double offset = crown - stretch * std::floor(crown / stretch);
+  return offset < 1e-9 * stretch || offset > (1 - 1e-9) * stretch ? 0.0 : offset;
+}
+
 VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningRing& ring) {
   require(ring.nodes >= 8 && ring.nodes <= 2000, "lining nodes", ring.nodes, "8 to 2000");
   const double circle = 2 * std::numbers::pi, arc = ring.to - ring.from;
   require(arc > 0 && arc <= circle * (1 + 1e-12), "lining arc", arc, "> 0 and <= 2 pi rad");
   RingNodes nodes;
   const double stretch = nodes.stretch = opening.perimeter() / ring.nodes;
+  nodes.offset = ring_offset(opening, stretch);
   const auto point_at = [&](double s) {
+    s = std::fmod(s + nodes.offset, opening.perimeter());
     for (std::size_t e = 0; e < opening.size(); ++e) {
       const Segment edge = opening.edge(e);
       if (s <= edge.length() || e + 1 == opening.size()) return edge.at(s / edge.length());
@@ -132,11 +180,11 @@ VOUSSOIR_INLINE std::vector<OutlinePart> outline_parts(const SimplePolygon& open
   for (std::size_t e = 0; e < opening.size(); ++e) {
     const Segment edge = opening.edge(e);
     const double length = edge.length();
-    for (std::size_t k = 0; k < nodes.number.size(); ++k) {
-      const double from = std::max(0.0, static_cast<double>(k) * nodes.stretch - start);
-      const double to = std::min(length, static_cast<double>(k + 1) * nodes.stretch - start);
-      if (nodes.number[k] >= 0 && to - from > shortest)
-        parts.push_back({nodes.number[k], {edge.at(from / length), edge.at(to / length)}});
+    for (int k = nodes.first_beyond(start); nodes.begin(k) < start + length; ++k) {
+      const double from = std::max(0.0, nodes.begin(k) - start);
+      const double to = std::min(length, nodes.begin(k + 1) - start);
+      if (nodes.node_of(k) >= 0 && to - from > shortest)
+        parts.push_back({nodes.node_of(k), {edge.at(from / length), edge.at(to / length)}});
     }
     start += length;
   }
@@ -149,7 +197,6 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
                                                  const LiningRing& ring) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
   const detail::RingNodes nodes = detail::ring_nodes(mass.openings.back(), ring);
-  const double stretch = nodes.stretch;
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
@@ -161,11 +208,10 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
        detail::outline_parts(mass.openings.back(), nodes, shortest))
     frame.panels.push_back({part.node, part.edge});
   for (const WallPiece<Planar>& wall : wall_pieces(mass)) {
-    const auto first = static_cast<int>(std::floor(wall.from / stretch));
-    for (int k = std::max(0, first); k < ring.nodes && k * stretch < wall.to; ++k) {
-      const double from = std::max(wall.from, k * stretch),
-                   to = std::min(wall.to, (k + 1) * stretch);
-      const int node = nodes.number[static_cast<std::size_t>(k)];
+    for (int k = nodes.first_beyond(wall.from); nodes.begin(k) < wall.to; ++k) {
+      const double from = std::max(wall.from, nodes.begin(k)),
+                   to = std::min(wall.to, nodes.begin(k + 1));
+      const int node = nodes.node_of(k);
       if (node < 0 || to - from <= shortest) continue;
       const double length = wall.to - wall.from;
       frame.contacts.push_back(
@@ -224,9 +270,8 @@ VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
     const Vec3 along = PrismaticOpening::in_space(normalized(edge.end - edge.start), 0);
     const Vec3 begin = PrismaticOpening::in_space(edge.start, 0);
     const Vec3 normal = normalized(wall.facet.area_vector());
-    const auto first = static_cast<int>(std::floor(wall.from / nodes.stretch));
-    for (int k = std::max(0, first); k < ribs.ring.nodes && k * nodes.stretch < wall.to; ++k) {
-      const int node = nodes.number[static_cast<std::size_t>(k)];
+    for (int k = nodes.first_beyond(wall.from); nodes.begin(k) < wall.to; ++k) {
+      const int node = nodes.node_of(k);
       if (node < 0) continue;
       std::optional<JointPlane> strip = JointPlane{
           HalfSpace<3>::through(wall.facet.vertices.front(), normal), wall.facet.vertices};
@@ -234,8 +279,8 @@ VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
         if (strip)
           strip = split(std::move(*strip), HalfSpace<3>::through(on, outward), tolerance).below;
       };
-      keep(-along, begin + (k * nodes.stretch - wall.from) * along);
-      keep(along, begin + ((k + 1) * nodes.stretch - wall.from) * along);
+      keep(-along, begin + (nodes.begin(k) - wall.from) * along);
+      keep(along, begin + (nodes.begin(k + 1) - wall.from) * along);
       for (int row = 0; strip && row < rows; ++row) {
         auto parts = split(
             std::move(*strip),

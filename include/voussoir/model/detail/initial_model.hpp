@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
-#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/edge_slabs.hpp>
@@ -27,23 +27,6 @@ template <class Detector, class Geometry>
   } else {
     return Detector::find(mass);
   }
-}
-
-/// The points of a contact in a facet, in place of what is in `points`.
-template <class Facet, int Dim>
-void place_points_on(const Facet& facet, ContactPoints kind, std::vector<FacetPoint<Dim>>& points) {
-  if (kind == ContactPoints::gauss) {
-    const auto gauss = facet.gauss_points();
-    points.assign(gauss.begin(), gauss.end());
-    return;
-  }
-  std::vector<WeightedPoint<Dim>> places;
-  if constexpr (Dim == 2)
-    place_points(kind, std::array{facet.start, facet.end}, facet.measure(), places);
-  else
-    place_points(kind, facet.vertices, facet.measure(), places);
-  points.clear();
-  for (const WeightedPoint<Dim>& p : places) points.push_back({p.place - facet.centre(), p.weight});
 }
 
 /// The shapes of the bodies and, last, of the ground around the domain. They keep the rock alive.
@@ -69,7 +52,6 @@ template <class Detector, class System>
 class InitialModel {
  public:
   using Geometry = typename System::GeometryType;
-  using Facet = typename Geometry::Facet;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
@@ -104,41 +86,42 @@ class InitialModel {
     for (int b = 0; b < ground(); ++b) system_.load[dof * b + dim - 1] = -system_.body(b).weight;
   }
 
-  /// The contacts between bodies, sorted by them: forces are then read and written in order.
+  /// The contacts between bodies, one for every plane in which two touch, sorted by them: forces
+  /// are then read and written in order.
   template <class LawsOfSets>
   void add_contacts(const LawsOfSets& laws) {
     std::vector<int> law_of_cut = laws.of_cuts(mass_);
     const auto found = find_contacts<Detector>(mass_, progress_);
-    const std::vector<int> order =
-        order_by_bodies(found, [](const auto& c) { return std::pair<int, int>(c.a, c.b); });
-    for (const int k : order) {
-      stop_();
-      const auto& c = found[static_cast<std::size_t>(k)];
-      place_points_on(c.facet, kind_, points_);
-      if (k == order.front()) system_.joints.reserve(found.size(), points_.size());
-      const int law = c.cut >= 0 ? law_of_cut[static_cast<std::size_t>(c.cut)] : 0;
-      system_.joints.add(c.a, c.b, c.facet, system_.body(c.a).centre, system_.body(c.b).centre,
-                         points_, law);
-    }
+    const auto law_of = [&](int cut) {
+      return cut >= 0 ? law_of_cut[static_cast<std::size_t>(cut)] : 0;
+    };
+    visit_joined(found, mass_.domain.tolerance(), law_of,
+                 [&](int a, int b, const auto& area, int law) {
+                   stop_();
+                   place_points_on(area, kind_, points_);
+                   if (system_.joints.contacts().empty())
+                     system_.joints.reserve(found.size(), points_.size());
+                   system_.joints.add(a, b, area, system_.body(a).centre, system_.body(b).centre,
+                                      points_, law);
+                 });
     system_.law_of_cut = std::make_shared<const std::vector<int>>(std::move(law_of_cut));
   }
 
   /// The surcharge on the top; contacts with the ground at the other edges, and the shear there.
   void add_edges() {
-    for (const auto& f : boundary_facets(mass_)) {
+    visit_joined(boundary_facets(mass_), [&](int body, SideOf<dim> side, const auto& area) {
       stop_();
-      place_points_on(f.facet, kind_, points_);
-      if (f.side == SideOf<dim>::top) {
-        const Vec<dim> pressure = -in_situ_.surcharge * f.facet.area_vector();
-        add_force_at<dim>(system_.load.data() + dof * f.body,
-                          f.facet.centre_from(system_.body(f.body).centre), pressure);
-        add_edge_shear(f.body, f.facet);
+      place_points_on(area, kind_, points_);
+      const Vec<dim>& centre = system_.body(body).centre;
+      if (side == SideOf<dim>::top) {
+        const Vec<dim> pressure = -in_situ_.surcharge * area.area_vector();
+        add_force_at<dim>(system_.load.data() + dof * body, area.centre_from(centre), pressure);
+        add_edge_shear(body, area);
       } else {
-        system_.boundary.add(f.body, ground(), f.facet, system_.body(f.body).centre,
-                             system_.body(ground()).centre, points_);
-        add_edge_shear(f.body, f.facet);
+        system_.boundary.add(body, ground(), area, centre, system_.body(ground()).centre, points_);
+        add_edge_shear(body, area);
       }
-    }
+    });
   }
 
   /// What the in-situ stress exerts in every contact.
@@ -158,10 +141,11 @@ class InitialModel {
 
   /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
   /// acting as a load.
-  void add_edge_shear(int body, const Facet& facet) {
-    const Vec<dim> normal = facet.area_vector().normalized();
+  template <class Area>
+  void add_edge_shear(int body, const Area& area) {
+    const Vec<dim> normal = area.area_vector().normalized();
     const Vec<dim>& centre = system_.body(body).centre;
-    const Vec<dim> middle = facet.centre_from(centre);
+    const Vec<dim> middle = area.centre_from(centre);
     for (const FacetPoint<dim>& p : points_) {
       const Vec<dim> arm = middle + p.offset;
       const Vec<dim> traction =
@@ -178,7 +162,7 @@ class InitialModel {
   System& system_;
   const Progress& progress_;
   StopCheck stop_;
-  std::vector<FacetPoint<dim>> points_;  ///< of the facet at hand
+  std::vector<FacetPoint<dim>> points_;  ///< of the contact at hand
 };
 
 }  // namespace voussoir::detail

@@ -17,6 +17,7 @@
 #include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/contact_shares.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -65,6 +66,7 @@ class ContactUpdate {
     body.mass = is_movable ? 1 : 0;
     bodies_.push_back(body);
     is_block_.push_back(is_block);
+    part_count_.push_back(0);
   }
   /// A convex part of a body in the in-situ state. @pre it outlives this
   /// @param centre  of the body then [m]
@@ -109,7 +111,14 @@ class ContactUpdate {
   [[nodiscard]] const Contact* nearest(const Springs& group, int a, int b, const Vec<Dim>& normal,
                                        const Vec<Dim>& place) const;
   void renew(const Springs& group, const Pair& pair, const voussoir::Contact<Dim>& found,
-             Contacts& to) const;
+             Contacts& to, const ContactArea<Dim>* joined = nullptr) const;
+  /// Whether the shapes may have but a share of a contact.
+  [[nodiscard]] bool is_share(const Pair& pair, const voussoir::Contact<Dim>& found) const {
+    return found.touch != Touch::edge_edge && (part_count_[index(tracker_.body_of(pair.a))] > 1 ||
+                                               part_count_[index(tracker_.body_of(pair.b))] > 1);
+  }
+  /// The label of the faces that touch if they are of one cut, else -1.
+  [[nodiscard]] int cut_of(const Pair& pair, const voussoir::Contact<Dim>& found) const;
   /// Of a contact that is new: the law of the face that is touched.
   [[nodiscard]] int law_of(std::size_t owner, int a, const Vec<Dim>& normal) const;
   /// Adds the contact where it is now, for small displacements from there.
@@ -122,6 +131,7 @@ class ContactUpdate {
   std::vector<Pose<Dim>> then_;          ///< when contacts were found
   std::vector<bool> is_block_;
   std::vector<const Shape*> parts_;  ///< in the order of the tracker's shapes
+  std::vector<int> part_count_;      ///< of every body
 };
 
 template <int Dim>
@@ -130,6 +140,7 @@ void ContactUpdate<Dim>::add_part(int body, const Shape& part, const Vec<Dim>& c
   for (const Vec<Dim>& v : part.vertices()) radius = std::max(radius, (v - centre).norm());
   tracker_.add(part, centre, body, diagonal_of<Dim>(1), body);
   parts_.push_back(&part);
+  ++part_count_[index(body)];
 }
 
 template <int Dim>
@@ -143,15 +154,25 @@ void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& int
     group->points.clear();
     group->former.clear();
   }
+  ContactShares<Dim> shares_of_joints(tracker_), shares_of_boundary(tracker_);
   tracker_.update(
       bodies_,
       [&](const Pair& pair, const voussoir::Contact<Dim>& found) {
         stop();
         const bool of_blocks = is_block_[index(tracker_.body_of(pair.a))] &&
                                is_block_[index(tracker_.body_of(pair.b))];
-        renew(of_blocks ? of_joints : of_boundary, pair, found, of_blocks ? joints : boundary);
+        if (is_share(pair, found))
+          (of_blocks ? shares_of_joints : shares_of_boundary).add(pair, found, cut_of(pair, found));
+        else
+          renew(of_blocks ? of_joints : of_boundary, pair, found, of_blocks ? joints : boundary);
       },
       [](const Pair&) {});
+  shares_of_joints.join([&](const auto& pair, const auto& found, const auto* area) {
+    renew(of_joints, pair, found, joints, area);
+  });
+  shares_of_boundary.join([&](const auto& pair, const auto& found, const auto* area) {
+    renew(of_boundary, pair, found, boundary, area);
+  });
   for (const Contact& c : of_interface.contacts)
     add(c, {of_interface.points.data() + c.first, index(c.last - c.first)}, interface);
 }
@@ -215,7 +236,8 @@ auto ContactUpdate<Dim>::nearest(const Springs& group, int a, int b, const Vec<D
 
 template <int Dim>
 void ContactUpdate<Dim>::renew(const Springs& group, const Pair& pair,
-                               const voussoir::Contact<Dim>& found, Contacts& to) const {
+                               const voussoir::Contact<Dim>& found, Contacts& to,
+                               const ContactArea<Dim>* joined) const {
   const bool of_a = found.touch != Touch::face_b;
   const std::size_t owner = of_a ? pair.a : pair.b;
   const int a = tracker_.body_of(owner), b = tracker_.body_of(of_a ? pair.b : pair.a);
@@ -227,14 +249,37 @@ void ContactUpdate<Dim>::renew(const Springs& group, const Pair& pair,
   const bool gapes = (turn - diagonal_of<Dim>(1)).norm() > gaping;
   const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
   const Contact* const old = nearest(group, a, b, found.normal, middle);
+  std::vector<WeightedPoint<Dim>> places;
+  if (joined != nullptr) {
+    std::vector<FacetPoint<Dim>> from_centre;
+    place_points_on(*joined, rule, from_centre);
+    // Seen along the normal.
+    const double scale = found.measure / joined->measure();
+    for (const FacetPoint<Dim>& p : from_centre)
+      places.push_back({joined->centre() + p.offset, scale * p.weight});
+  }
   std::vector<Point> points;
   Contact contact = ContactRenewal<Dim, FormerPoint>(bodies_, group.points)
-                        .run(found, tracker_.shapes()[owner], a, b, rule, old, points);
+                        .run(found, tracker_.shapes()[owner], a, b, rule, old, points, places);
   contact.law = old != nullptr ? old->law
                 : group.has_many_laws
                     ? law_of(owner, a, of_a ? found.normal : Vec<Dim>(-found.normal))
                     : 0;
   if (!points.empty()) add(contact, points, to);
+}
+
+template <int Dim>
+int ContactUpdate<Dim>::cut_of(const Pair& pair, const voussoir::Contact<Dim>& found) const {
+  const auto facing = [&](std::size_t shape, const Vec<Dim>& outward) {
+    const Rotation<Dim>& turn = now(tracker_.body_of(shape)).rotation;
+    return cut_facing(*parts_[shape], Vec<Dim>(transposed(turn) * outward));
+  };
+  // Both sides of a cut have its label; the edge of the domain has that of the block at it. What
+  // else is within reach are faces that lie one behind the other.
+  if (!is_block_[index(tracker_.body_of(pair.a))]) return facing(pair.b, -found.normal);
+  const int cut = facing(pair.a, found.normal);
+  if (!is_block_[index(tracker_.body_of(pair.b))]) return cut;
+  return cut == facing(pair.b, -found.normal) ? cut : -1;
 }
 
 template <int Dim>
