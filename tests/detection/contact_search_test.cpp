@@ -127,6 +127,11 @@ std::map<std::pair<int, int>, double> areas(const std::vector<ContactFacet<Geome
   return sums;
 }
 
+template <int Dim>
+Box<Dim> box_of(const PlacedShapes<Dim>& shapes, std::size_t k) {
+  return bounding_box<Dim>(shapes, k, Vec<Dim>::Zero());
+}
+
 }  // namespace
 
 TEST_SUITE("detection/contact_search") {
@@ -144,7 +149,7 @@ TEST_SUITE("detection/contact_search") {
         std::set<std::pair<std::uint32_t, std::uint32_t>> expected, found;
         for (std::uint32_t i = 0; i < shapes.size(); ++i)
           for (std::uint32_t j = i + 1; j < shapes.size(); ++j) {
-            const auto a = bounding_box(shapes[i]), b = bounding_box(shapes[j]);
+            const auto a = box_of(shapes, i), b = box_of(shapes, j);
             bool near = true;
             // A rounding more or less: boxes of neighbours on one joint touch exactly.
             for (int axis = 0; axis < dim; ++axis)
@@ -158,7 +163,7 @@ TEST_SUITE("detection/contact_search") {
         for (const auto& [i, j] : expected) {
           if (found.count({i, j}) == 1) continue;
           // Missing only where the rounding decides.
-          const auto a = bounding_box(shapes[i]), b = bounding_box(shapes[j]);
+          const auto a = box_of(shapes, i), b = box_of(shapes, j);
           CHECK_FALSE(a.meets(b, margin + reach - 1e-12));
         }
       }
@@ -211,7 +216,7 @@ TEST_SUITE("detection/contact_search") {
     std::size_t touching = 0;
     for (std::uint32_t i = 0; i < shapes.size(); ++i)
       for (std::uint32_t j = i + 1; j < shapes.size(); ++j) {
-        if (!bounding_box(shapes[i]).meets(bounding_box(shapes[j]), 1e-4)) continue;
+        if (!box_of(shapes, i).meets(box_of(shapes, j), 1e-4)) continue;
         typename FaceContacts::Pair<dim>::Memory memory;
         const auto contact = pair.contact(i, j, memory, 1e-4);
         const auto known = separations.find({i, j});

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -691,6 +692,51 @@ TEST_SUITE("detection/face_contacts: known contacts") {
         CHECK(static_cast<double>(outside(own, LongVec<3>(point.cast<long double>()))) < 1e-13);
     }
     CHECK(faces > 1000);
+  }
+
+  TEST_CASE("deep crossing edges touch over an area, midway in the overlap") {
+    // Boxes, wedges, hulls and skewed boxes of about 1 m that are pushed into one another by up to
+    // half a metre: edges may then be out on the far side of the other block.
+    Random random(33);
+    const std::array<int, 4> kinds{0, 1, 2, 7};
+    int edges = 0, beyond = 0;
+    for (int k = 0; k < 12000; ++k) {
+      CAPTURE(k);
+      PlainPair<3> pair{shape_of_kind<3>(random, kinds[random.below(4)]),
+                        shape_of_kind<3>(random, kinds[random.below(4)]),
+                        {},
+                        {}};
+      pair.pose_a.rotation = random_rotation<3>(random);
+      pair.pose_b = {0.5 * random_vector<3>(random), random_rotation<3>(random)};
+      const Twin<3> twin(pair);
+      const Answer<3> found = twin.cold();
+      if (found.touch == Touch::none || found.separation > -1e-6) continue;
+      CHECK(found.measure > 0);
+      REQUIRE(found.polygon.size() >= 3);
+      if (found.touch != Touch::edge_edge) continue;
+      ++edges;
+      const LongVec<3> normal = found.normal.cast<long double>();
+      long double low = std::numeric_limits<long double>::infinity(), high = -low;
+      for (const auto& [own, other] : {std::pair{&twin.a, &twin.b}, {&twin.b, &twin.a}})
+        for (const auto& face : own->faces) {
+          auto part = own->corners(face);
+          for (std::size_t f = 0; f < other->faces.size() && !part.empty(); ++f)
+            part = clipped<3>(part, [&](const LongVec<3>& x) {
+              return other->normals[f].dot(x - other->at(other->faces[f][0]));
+            });
+          for (const LongVec<3>& x : part) {
+            low = std::min(low, normal.dot(x));
+            high = std::max(high, normal.dot(x));
+          }
+        }
+      beyond += static_cast<double>(high - low) < -found.separation - 1e-9;
+      const LongVec<3> point = found.polygon[0].cast<long double>();
+      // Roundings of coordinates of some metres, over the sine of the angle between edge and face.
+      CHECK(std::abs(static_cast<double>(normal.dot(point) - (low + high) / 2)) < 1e-12);
+      CHECK(std::abs(section_area(twin.a, twin.b, point, normal) - found.measure) < 1e-11);
+    }
+    CHECK(edges > 1000);
+    CHECK(beyond > 30);
   }
 }
 

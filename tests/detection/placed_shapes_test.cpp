@@ -58,7 +58,8 @@ TEST_SUITE("detection/placed_shapes") {
       // Some roundings of coordinates up to about 150 m, 1.4e-14 m each.
       constexpr double tolerance = 3e-13;
       for (std::size_t k = 0; k < placed.vertex_count; ++k)
-        CHECK((placed.vertex(k) - pose(Vec<dim>(shape.vertex(k) - origin))).norm() < tolerance);
+        CHECK((shapes.grid_point(0) + placed.vertex(k) - pose(Vec<dim>(shape.vertex(k) - origin)))
+                  .norm() < tolerance);
       for (std::size_t face = 0; face < placed.face_count; ++face) {
         const Vec<dim> normal = placed.normal(face);
         CHECK((normal - pose.rotation * shape.half_space(face).normal).norm() < 5e-16);
@@ -113,11 +114,12 @@ TEST_SUITE("detection/placed_shapes") {
     shapes.add(convex(given), far);
     // Differences of numbers that near are exact (Sterbenz), so nothing is rounded on the way.
     for (std::size_t k = 0; k < given.vertices.size(); ++k)
-      CHECK(shapes[0].vertex(k) == given.vertices[k]);
+      CHECK(shapes.grid_point(0) + shapes[0].vertex(k) == given.vertices[k]);
     Pose<dim> near;
     shapes.place(0, near);
     for (std::size_t k = 0; k < given.vertices.size(); ++k)
       CHECK(shapes[0].vertex(k) == Vec<dim>(given.vertices[k] - far));
+    CHECK(shapes.grid_point(0) == Vec<dim>::Zero());
   }
 
   TEST_CASE_TEMPLATE("nothing drifts, and the others stay, however often a shape is placed", D,

@@ -83,7 +83,7 @@ class AnalyticCentre::Pair {
   /// changes answers by roundings only.
   struct Memory {
     detail::PlaneAxis<Dim> axis{};
-    Vec<Dim> inside = zeros<Vec<Dim>>();  ///< [m]
+    Vec<Dim> inside = zeros<Vec<Dim>>();  ///< from the grid point of a [m]
     bool overlapping = false;
   };
 
@@ -99,30 +99,30 @@ class AnalyticCentre::Pair {
 
   /// Whether the interiors have a point in common.
   [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
-    return find_inside((*shapes_)[a], (*shapes_)[b], memory);
+    return find_inside((*shapes_)[a], shapes_->seen_from(a, b, shifted_), memory);
   }
 
   /// Overlapping: minus the depth [m]. Apart: twice the least s of the linear program, by half of
   /// which both shapes must be swollen, every plane moved outwards, to touch: the gap between two
   /// faces, at most the distance elsewhere [m].
   [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory) {
-    const Shape shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
+    const Shape shape_a = (*shapes_)[a], shape_b = shapes_->seen_from(a, b, shifted_);
     if (!find_inside(shape_a, shape_b, memory)) return gap(shape_a, shape_b, memory);
     centre_.move_to_centre(planes_);
     memory.inside = planes_.point();
-    return -depth_along(normal(a, b));
+    return -depth_along(normal(shape_a, shape_b, a <= b));
   }
 
   /// One contact point; Touch::none if further apart than `reach` by `separation`. Shapes that are
   /// apart are swollen by half of `reach` each, which gives them a point and a normal.
   [[nodiscard]] Contact<Dim> contact(std::size_t a, std::size_t b, Memory& memory,
                                      double reach = 0) {
-    const Shape shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
+    const Shape shape_a = (*shapes_)[a], shape_b = shapes_->seen_from(a, b, shifted_);
     Contact<Dim> found;
     if (find_inside(shape_a, shape_b, memory)) {
       centre_.move_to_centre(planes_);
       memory.inside = planes_.point();
-      found.normal = normal(a, b);
+      found.normal = normal(shape_a, shape_b, a <= b);
       found.separation = -depth_along(found.normal);
       if (found.separation > reach) return {};
     } else {
@@ -131,9 +131,9 @@ class AnalyticCentre::Pair {
       planes_.swell(0.5 * reach);
       if (!(planes_.smallest_room() > 0)) return {};
       centre_.move_to_centre(planes_);
-      found.normal = normal(a, b);
+      found.normal = normal(shape_a, shape_b, a <= b);
     }
-    point_ = planes_.point();
+    point_ = planes_.point() + shapes_->grid_point(a);
     found.touch = Touch::interior;
     found.polygon = std::span<const Vec<Dim>>(&point_, 1);
     return found;
@@ -186,11 +186,12 @@ class AnalyticCentre::Pair {
   }
 
   /// Unit vector up the potential of a and down that of b, at the point of view of `planes_`.
-  [[nodiscard]] Vec<Dim> normal(std::size_t a, std::size_t b) const {
+  /// @param in_order  whether a has the lower number
+  [[nodiscard]] Vec<Dim> normal(const Shape& a, const Shape& b, bool in_order) const {
     Vec<Dim> n = rounding_ > 0 ? rounded_gradients() : barrier_gradients();
     const double length = n.norm();
     // Concentric shapes: the gradients vanish, or are the same, and no direction is any better.
-    return length > 1e-6 ? Vec<Dim>(n / length) : shallowest(a, b);
+    return length > 1e-6 ? Vec<Dim>(n / length) : shallowest(a, b, in_order);
   }
 
   /// Half the gradient of a's barrier less that of b's, over the sum of the weights 1 / room.
@@ -233,12 +234,12 @@ class AnalyticCentre::Pair {
 
   /// Normal, from a to b, of the face of either that is left by the shortest way. Of equals the
   /// one of the shape with the lower number, so that (b, a) has the opposite normal.
-  [[nodiscard]] Vec<Dim> shallowest(std::size_t a, std::size_t b) const {
-    const Shape first = (*shapes_)[std::min(a, b)], second = (*shapes_)[std::max(a, b)];
+  [[nodiscard]] Vec<Dim> shallowest(const Shape& a, const Shape& b, bool in_order) const {
+    const Shape &first = in_order ? a : b, &second = in_order ? b : a;
     const detail::ShallowFace<Dim> of_first(first, second), of_second(second, first);
     const bool use_first = of_first.separation >= of_second.separation;
     const Vec<Dim> n = use_first ? of_first.normal : of_second.normal;
-    return use_first == (a <= b) ? n : Vec<Dim>(-n);
+    return use_first == in_order ? n : Vec<Dim>(-n);
   }
 
   /// Way from the point to where it leaves a along the normal, and b against it [m].
@@ -255,6 +256,7 @@ class AnalyticCentre::Pair {
   }
 
   const PlacedShapes<Dim>* shapes_;
+  typename PlacedShapes<Dim>::Shifted shifted_;
   double rounding_;
   Planes planes_;
   detail::BarrierCentre<Dim> centre_;

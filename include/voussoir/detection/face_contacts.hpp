@@ -30,6 +30,8 @@ struct FaceContacts {
   ///                                are further apart than `enough` (default: infinity) may get
   ///                                any value above it, which is ten times faster
   ///  - `contact(a, b, memory, reach)`  how they touch; Touch::none if further apart than `reach`
+  ///  - `contact_near(a, b, memory, reach)`  the same, points counted from the grid point of a: at
+  ///                                the coordinates of a site nothing is rounded then
   ///
   /// `Memory` keeps, per pair, what decided last time. It never changes an answer, only its cost.
   template <int Dim, class Lanes = detail::VectorLanes>

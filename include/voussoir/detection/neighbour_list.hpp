@@ -32,13 +32,17 @@ struct Box {
   }
 };
 
+/// @param from  what the coordinates of the box are to be counted from: a grid point [m]
 template <int Dim>
-[[nodiscard]] Box<Dim> bounding_box(const PlacedShape<Dim>& shape) {
+[[nodiscard]] Box<Dim> bounding_box(const PlacedShapes<Dim>& shapes, std::size_t k,
+                                    const Vec<Dim>& from) {
+  const PlacedShape<Dim> shape = shapes[k];
+  const Vec<Dim> shift = shapes.grid_point(k) - from;
   Box<Dim> box;
   for (int axis = 0; axis < Dim; ++axis) {
     const double* const x = shape.vertices(axis);
-    box.low[axis] = *std::min_element(x, x + shape.vertex_count);
-    box.high[axis] = *std::max_element(x, x + shape.vertex_count);
+    box.low[axis] = *std::min_element(x, x + shape.vertex_count) + shift[axis];
+    box.high[axis] = *std::max_element(x, x + shape.vertex_count) + shift[axis];
   }
   return box;
 }
@@ -73,7 +77,7 @@ class NeighbourList {
   bool update(const PlacedShapes<Dim>& shapes) {
     bool holds = boxes_.size() == shapes.size();
     for (std::size_t k = 0; holds && k < shapes.size(); ++k)
-      holds = boxes_[k].contains(bounding_box(shapes[k]));
+      holds = boxes_[k].contains(bounding_box(shapes, k, base_));
     if (holds) return false;
     make(shapes);
     return true;
@@ -111,6 +115,7 @@ class NeighbourList {
   [[nodiscard]] static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
 
   double margin_, reach_;
+  Vec<Dim> base_ = zeros<Vec<Dim>>();  ///< what boxes are counted from: near them [m]
   Vec<Dim> origin_ = zeros<Vec<Dim>>(), size_ = all_entries<Dim>(1);
   std::vector<Box<Dim>> boxes_;  ///< enlarged
   std::vector<Pair> pairs_;
@@ -119,9 +124,10 @@ class NeighbourList {
 template <int Dim>
 void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
   boxes_.clear();
+  if (shapes.size() > 0) base_ = shapes.grid_point(0);
   Vec<Dim> extent = zeros<Vec<Dim>>();
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    Box<Dim> box = bounding_box(shapes[k]);
+    Box<Dim> box = bounding_box(shapes, k, base_);
     if (!(is_finite(box.low) && is_finite(box.high)))
       throw InvalidInput(
           message({"neighbour list: shape ", k, " has a coordinate that is not finite"}));

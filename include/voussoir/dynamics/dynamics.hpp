@@ -347,7 +347,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::find_contacts() {
     const int cut = cut_facing(part, Vec<Dim>(turn * normal));
     return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
   };
-  if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.refound)) return;
+  if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.contact_updates)) return;
   stable_step_ = 0;
   fresh_ = false;
 }

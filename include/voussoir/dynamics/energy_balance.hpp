@@ -13,21 +13,21 @@ namespace voussoir {
 /// shrinks with the square of the step while nothing slides; with the step itself where dashpots
 /// act, whose velocity is half a step old.
 struct EnergyBalance {
-  double kinetic = 0;    ///< stored in the bodies, difference to the beginning
-  double contacts = 0;   ///< stored in the springs of joints, difference to the beginning
-  double supports = 0;   ///< stored in bolts and lining, or lost by yielding bolts
-  double gravity = 0;    ///< work done by the weight
-  double loads = 0;      ///< work done by all other loads
-  double friction = 0;   ///< lost to slip
-  double viscosity = 0;  ///< lost to dashpots at contacts
-  double damping = 0;    ///< lost to local damping
-  double refound = 0;    ///< given to the springs where contacts were found anew in another form
+  double kinetic = 0;          ///< stored in the bodies, difference to the beginning
+  double contacts = 0;         ///< stored in the springs of joints, difference to the beginning
+  double supports = 0;         ///< stored in bolts and lining, or lost by yielding bolts
+  double gravity = 0;          ///< work done by the weight
+  double loads = 0;            ///< work done by all other loads
+  double friction = 0;         ///< lost to slip
+  double viscosity = 0;        ///< lost to dashpots at contacts
+  double damping = 0;          ///< lost to local damping
+  double contact_updates = 0;  ///< given to the springs of contacts by updates; < 0: lost by them
   double highest_kinetic = 0;  ///< of the differences seen at checks so far: what has been at stake
 
   /// What is stored and lost, less the work done: zero but for the error of the steps.
   [[nodiscard]] double imbalance() const {
     return kinetic + contacts + supports + friction + viscosity + damping - gravity - loads -
-           refound;
+           contact_updates;
   }
   /// The largest of the amounts that should balance, now or at the height of the motion.
   [[nodiscard]] double scale() const {

@@ -9,6 +9,7 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/linear/linear_method.hpp>
+#include <voussoir/model/contact_update_report.hpp>
 
 namespace voussoir {
 
@@ -79,7 +80,8 @@ struct EquilibriumReport {
   std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
   int broken_bolts = 0;       ///< bolt springs that ruptured
-  bool stopped = false;       ///< the caller asked to stop
+  ContactUpdateReport contact_updates;  ///< what they gave to the springs, and how forces jumped
+  bool stopped = false;                 ///< the caller asked to stop
 };
 
 /// The verdict of one search as people read it.

@@ -131,7 +131,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
                                     report.steps, "; lower the safety factor of the step"}));
     detail::ask_to_go_on(context, ramping ? done : -1.0);
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-    const bool found = detail::find_when_due(system, context);
+    const bool found = detail::find_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       for (int b = 0; b < system.body_count(); ++b)
@@ -154,7 +154,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
         d, report);
     report.error_estimate = system.relative_correction(d, u, inexact);
     if (report.error_estimate < accept.error_estimate) {
-      if (detail::find_when_due(system, context, true)) continue;
+      if (detail::find_when_due(system, context, report, true)) continue;
       report.verdict = Verdict::stable;
       report.reason =
           "error estimate, out-of-balance force ratio and displacements are within their limits";

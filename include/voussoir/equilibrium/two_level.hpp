@@ -149,6 +149,7 @@ class TwoLevel {
     sum.steps += whole.steps;
     sum.elastic_solves += whole.elastic_solves;
     sum.factorisations += whole.factorisations;
+    sum.contact_updates.add(whole.contact_updates);
     sum.fallen.insert(sum.fallen.begin(), whole.fallen.begin(), whole.fallen.end());
     sum.fallen_measure += whole.fallen_measure;
     whole = sum;
@@ -189,7 +190,7 @@ class TwoLevel {
       if (falls)
         detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
                      report);
-      const bool found = detail::find_when_due(system, context);
+      const bool found = detail::find_when_due(system, context, report);
       if (found) detail::drop(system, {}, context, report);
       if (found && --may_find < 0) return Outcome::open;
       if (falls || found) {
@@ -212,7 +213,7 @@ class TwoLevel {
       if (report.error_estimate < accept.error_estimate &&
           report.unbalance_over_weight < accept.unbalance_over_weight) {
         // A bolt broke, a joint failed, or contacts are elsewhere: look again.
-        if (system.commit() > 0 || detail::find_when_due(system, context, true)) {
+        if (system.commit() > 0 || detail::find_when_due(system, context, report, true)) {
           elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
           continue;
         }

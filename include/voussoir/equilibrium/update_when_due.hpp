@@ -20,15 +20,18 @@ template <class System>
 ///
 /// Where contacts have been updated before, an equilibrium is looked at from near by: rotations
 /// are finite there, and linear ones are off by half their square.
+/// @param report   is told what the update has done
 /// @param at_rest  the search is about to end here
 /// @return  true if it has
 /// @throws Stopped  the system is as it was
 template <class System>
-bool find_when_due(System& system, const SearchContext& context, bool at_rest = false) {
+bool find_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
+                   bool at_rest = false) {
   const Acceptance& acceptance = context.acceptance;
   const bool near_by = at_rest && system.has_found_again();
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
-  find_contacts_again(system, 2 * acceptance.refind_limit, context.progress);
+  report.contact_updates.add(
+      find_contacts_again(system, 2 * acceptance.refind_limit, context.progress));
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -96,11 +97,11 @@ class ContactNetwork {
   /// @param roles   of every body
   /// @param law_of  law_of(shape, normal): index of the law of the face of a shape that looks
   /// there
-  /// @param refound  energy that springs gain by their new form is added to it [J]
+  /// @param gained  energy that springs gain by their new form is added to it [J]
   /// @return  true if anything has changed
   template <class LawOf>
   bool find(Tracker& tracker, const Bodies& bodies, const std::vector<BodyRole>& roles,
-            LawOf&& law_of, double& refound) {
+            LawOf&& law_of, double& gained) {
     // Bodies may have come since.
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
@@ -115,14 +116,14 @@ class ContactNetwork {
         bodies,
         [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
           group_of_kind(kind_of(pair), [&](auto& group, std::size_t kind) {
-            const bool in_place = renew(group, tracker, pair, found, bodies, kind, law_of, refound);
+            const bool in_place = renew(group, tracker, pair, found, bodies, kind, law_of, gained);
             relisted = relisted || !in_place;
           });
           changed = true;
         },
         [&](typename Tracker::Pair& pair) {
           group_of_kind(kind_of(pair), [&](auto& group, std::size_t) {
-            refound -= group.stored_energy(index(pair.contact), bodies);
+            gained -= group.stored_energy(index(pair.contact), bodies);
             auto& contact = group.contacts()[index(pair.contact)];
             contact.last = contact.first;
           });
@@ -203,29 +204,31 @@ class ContactNetwork {
   template <class Group, class LawOf>
   bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
              const Contact<Dim>& found, const Bodies& bodies, std::size_t kind, LawOf&& law_of,
-             double& refound) {
+             double& gained) {
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
     const std::size_t owner = of_a ? pair.a : pair.b;
     const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
     std::vector<typename Group::Point> points;
     const typename Group::Contact* const old =
         known ? &group.contacts()[index(pair.contact)] : nullptr;
+    detail::ContactRenewal<Dim, typename Group::State> renewal(bodies, group.points());
     typename Group::Contact contact =
-        detail::ContactRenewal<Dim, typename Group::State>(bodies, group.points())
-            .run(found, tracker.shapes()[owner], a, b, rule_, old, points);
+        renewal.run(found, tracker.shapes().grid_point(pair.a), tracker.shapes(), owner, a, b,
+                    rule_, tracker.reach(), decltype(renewal)::Gaping::facing, old, points);
     if (known)
       contact.law = old->law;
     else if (kind == 0)
       contact.law = law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
     else if (kind == 2)
       contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
+    if (renewal.keeps_history()) keep_shear(group, *old, contact, bodies, points);
     if (viscous_damping_ > 0)
       contact.viscosity = viscosity(
           bodies[index(a)], bodies[index(b)],
           group.law_of(contact).joint_normal_stiffness() * std::max(found.measure, 1e-12));
     const auto count = static_cast<std::int32_t>(points.size());
     const bool in_place = known && a == old->a && count == old->last - old->first;
-    if (known) refound -= group.stored_energy(index(pair.contact), bodies);
+    if (known) gained -= group.stored_energy(index(pair.contact), bodies);
     if (in_place) {
       contact.first = old->first;
       std::copy(points.begin(), points.end(), group.points().begin() + contact.first);
@@ -240,7 +243,7 @@ class ContactNetwork {
       group.contacts().emplace_back();
     }
     group.contacts()[index(pair.contact)] = contact;
-    refound += group.stored_energy(index(pair.contact), bodies);
+    gained += group.stored_energy(index(pair.contact), bodies);
     is_stale_[index(a)] = is_stale_[index(b)] = 1;
     return in_place;
   }
@@ -248,6 +251,23 @@ class ContactNetwork {
   /// -1: no node of a lining.
   [[nodiscard]] std::int32_t interface_law_of(int body) const {
     return index(body) < interface_law_of_.size() ? interface_law_of_[index(body)] : -1;
+  }
+
+  /// Gives the new points of a contact the shear force of the old ones.
+  template <class Group>
+  static void keep_shear(const Group& group, const typename Group::Contact& old,
+                         const typename Group::Contact& contact, const Bodies& bodies,
+                         std::vector<typename Group::Point>& points) {
+    const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
+      const auto at = c.place(bodies[index(c.a)].pose, bodies[index(c.b)].pose);
+      Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
+      for (const auto& p : of) sum += group.law_of(c).force(p.load(at), p.state).tangential;
+      return sum;
+    };
+    const Vec<Dim - 1> before = shear_of(
+        old,
+        std::span(group.points()).subspan(index(old.first), index(old.last) - index(old.first)));
+    detail::match_shear<Dim>(before, points, [&] { return shear_of(contact, points); });
   }
 
   /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the

@@ -11,6 +11,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
+#include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/moving_body.hpp>
@@ -18,15 +19,51 @@
 
 namespace voussoir::detail {
 
+/// Adds to the initial shear forces of points what is missing of a whole, each its share by weight.
+/// Nothing is added where friction would not let it act.
+/// @param shear_now  shear_now() is the sum of the points' shear forces [N]
+template <int Dim, class Points, class ShearNow>
+void match_shear(const Vec<Dim - 1>& wanted, Points& points, ShearNow&& shear_now) {
+  const Vec<Dim - 1> missing = wanted - shear_now();
+  const double least = 1e-12 * wanted.norm();
+  if (points.empty() || !(missing.norm() > least)) return;
+  double weight = 0;
+  for (const auto& p : points) weight += p.weight;
+  std::vector<Vec<Dim - 1>> before;
+  for (auto& p : points) {
+    before.push_back(p.initial.tangential);
+    p.initial.tangential += (p.weight / weight) * missing;
+  }
+  if ((wanted - shear_now()).norm() <= 1e-6 * missing.norm() + least) return;
+  auto initial = before.begin();
+  for (auto& p : points) p.initial.tangential = *initial++;
+}
+
 /// Makes the springs of a contact from what the detector has found, with the history of the contact
 /// as it was before.
 ///
-/// Carried over, point by point from the nearest old one: the in-situ stress, the slip and the
-/// memory of the law. Where the normal has turned by more than 60 degrees since, it is another
-/// contact and begins without history.
+/// Where an old point was within its share of the area the new one carries it on; elsewhere the
+/// contact is new. Carried over, point by point from the nearest old one: the slip, the memory of
+/// the law and the in-situ stress. The stress changes from there by the gradient that it has over
+/// the old points, so that its force and moment are kept, however many the points are, as long as
+/// their area is. Where the normal has turned by more than 60 degrees since, it is another contact
+/// and begins without history.
+///
+/// The weights of its points are their shares of the whole of the faces that lie over one another,
+/// whatever the depth. Points that are open by more than the reach are left out, unless they carry
+/// on old ones: what closes between two updates is within reach at the first of them, and farther
+/// off the faces need not look at each other at all, but at a third body between them. A joint that
+/// has been closed and gapes keeps its points.
 template <int Dim, class State>
 class ContactRenewal {
  public:
+  /// Which faces that meet keep all their points, however far these are open.
+  enum class Gaping {
+    known,  ///< those of contacts that are carried on
+    /// and those within 15 degrees of each other: a block that comes down on its edge. Blocks that
+    /// meet at an edge at such an angle hold no third one between them, but for slivers.
+    facing
+  };
   using Contact = MovingContact<Dim>;
   using Point = MovingContactPoint<Dim, State>;
   using Bodies = std::vector<MovingBody<Dim>>;
@@ -35,22 +72,29 @@ class ContactRenewal {
   ContactRenewal(const Bodies& bodies, const std::vector<Point>& old_points)
       : bodies_(bodies), old_points_(old_points) {}
 
-  /// @param found   how the shapes touch; `owner`, whose face it is, belongs to body a
+  /// @param found   how the shapes touch, points counted from `from`; `owner`, whose face it is,
+  /// belongs to body a
+  /// @param reach   points may be so far open [m]
   /// @param old     the contact as it was, or null
   /// @param points  its springs are written there
-  /// @param joined  where they stand, if the contact consists of more than the polygon found
-  [[nodiscard]] Contact run(const voussoir::Contact<Dim>& found, const PlacedShape<Dim>& owner,
-                            int a, int b, ContactPoints rule, const Contact* old,
-                            std::vector<Point>& points,
-                            std::span<const WeightedPoint<Dim>> joined = {}) {
+  /// @param joined  all that several pairs of shapes have of the contact, counted from `from`, with
+  /// their measure in `found`; null: the polygon found
+  [[nodiscard]] Contact run(const voussoir::Contact<Dim>& found, const Vec<Dim>& from,
+                            const PlacedShapes<Dim>& shapes, std::size_t owner, int a, int b,
+                            ContactPoints rule, double reach, Gaping gaping, const Contact* old,
+                            std::vector<Point>& points, const ContactArea<Dim>* joined = nullptr) {
     const bool of_a = found.touch != Touch::face_b;
-    const Vec<Dim> normal = of_a ? found.normal : Vec<Dim>(-found.normal);
-    const Pose<Dim>&pose_a = pose(a), &pose_b = pose(b);
+    Vec<Dim> normal = of_a ? found.normal : Vec<Dim>(-found.normal);
+    // Between faces that are hardly tilted two edges may decide the depth: their normal is off that
+    // of the face, over which the heights of points are measured, by about the tilt.
+    if (found.touch != Touch::edge_edge) normal = facing_normal(shapes[owner], normal);
+    from_ = from;
+    const Pose<Dim> pose_a = pose(a), pose_b = pose(b);
     Contact contact;
     contact.a = a;
     contact.b = b;
     Rotation<Dim> frame;
-    bool keeps = false;
+    bool& keeps = keeps_history_ = false;
     if (old != nullptr) {
       const double sign = old->a == a ? 1.0 : -1.0;
       const Rotation<Dim> was = sign * (pose(old->a).rotation * old->frame);
@@ -60,14 +104,20 @@ class ContactRenewal {
     if (!keeps) frame << normal, tangent_basis(normal);
     contact.frame = transposed(pose_a.rotation) * frame;
     const auto at = contact.place(pose_a, pose_b);
-    const double face = normal_reach(owner, normal);
-    if (!joined.empty())
-      places_.assign(joined.begin(), joined.end());
+    const double face =
+        normal_reach(shapes[owner], normal) + normal.dot(shapes.grid_point(owner) - from);
+    if (joined != nullptr)
+      place_joined(*joined, rule, found.measure);
     else if (found.touch == Touch::edge_edge)
       place_at_edges(found, a, b);
     else
       place_points(rule, found.polygon, found.measure, places_);
+    if (keeps) find_gradient(*old, frame);
     points.clear();
+    if (found.touch != Touch::edge_edge && lowest_of(found.polygon, joined, normal) - face > reach)
+      return contact;
+    const double area = joined != nullptr ? joined->measure() : area_of(found.polygon);
+    const bool faces = found.measure > facing_cosine * area;
     for (const WeightedPoint<Dim>& it : places_) {
       if (!(it.weight > 0)) continue;
       Point point{};
@@ -78,17 +128,29 @@ class ContactRenewal {
       // Crossing edges touch at one depth, a face is touched at the height of each point over it.
       const double opening =
           found.touch == Touch::edge_edge ? found.separation : normal.dot(it.place) - face;
+      const bool is_old = keeps && carries_on(*old, it.place, normal);
+      if (opening > reach && !(is_old || (gaping == Gaping::facing && faces))) continue;
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
-      if (keeps) inherit(*old, it.place, point);
+      if (is_old) inherit(*old, frame, it.place, point);
       points.push_back(point);
     }
     return contact;
   }
 
+  /// Whether the last contact has taken over what the old one remembered.
+  [[nodiscard]] bool keeps_history() const { return keeps_history_; }
+
  private:
-  [[nodiscard]] const Pose<Dim>& pose(int b) const {
-    return bodies_[static_cast<std::size_t>(b)].pose;
+  static constexpr double facing_cosine = 0.966;  ///< of 15 degrees
+
+  using InPlane = Vec<Dim - 1>;
+
+  /// Of a body, counted from where the points of the contact are.
+  [[nodiscard]] Pose<Dim> pose(int b) const {
+    Pose<Dim> near = bodies_[static_cast<std::size_t>(b)].pose;
+    near.position -= from_;
+    return near;
   }
   /// normal . x of the points of the face that has this normal [m].
   [[nodiscard]] static double normal_reach(const PlacedShape<Dim>& shape, const Vec<Dim>& normal) {
@@ -96,6 +158,68 @@ class ContactRenewal {
     for (std::size_t k = 0; k < shape.vertex_count; ++k)
       reach = std::max(reach, normal.dot(shape.vertex(k)));
     return reach;
+  }
+
+  [[nodiscard]] static double lowest_of(std::span<const Vec<Dim>> polygon,
+                                        const ContactArea<Dim>* joined, const Vec<Dim>& normal) {
+    double low = std::numeric_limits<double>::infinity();
+    const auto look = [&](const Vec<Dim>& p) { low = std::min(low, normal.dot(p)); };
+    if (joined == nullptr) {
+      for (const Vec<Dim>& p : polygon) look(p);
+    } else {
+      for (const auto& facet : joined->facets())
+        if constexpr (Dim == 2) {
+          look(facet.start);
+          look(facet.end);
+        } else {
+          for (const Vec3& p : facet.vertices) look(p);
+        }
+    }
+    return low;
+  }
+
+  /// The normal of the face that looks most nearly in a direction.
+  [[nodiscard]] static Vec<Dim> facing_normal(const PlacedShape<Dim>& shape,
+                                              const Vec<Dim>& direction) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < shape.face_count; ++k)
+      if (direction.dot(shape.normal(k)) > direction.dot(shape.normal(best))) best = k;
+    return shape.normal(best);
+  }
+
+  [[nodiscard]] static double area_of(std::span<const Vec<Dim>> polygon) {
+    if constexpr (Dim == 2) {
+      return (polygon[1] - polygon[0]).norm();
+    } else {
+      Vec3 doubled = zeros<Vec3>();
+      for (std::size_t k = 2; k < polygon.size(); ++k)
+        doubled += cross(Vec3(polygon[k - 1] - polygon[0]), Vec3(polygon[k] - polygon[0]));
+      return 0.5 * length_of(doubled);
+    }
+  }
+
+  /// Whether a point stands where an old one did: seen along the normal, as near to it as its share
+  /// of the area is long.
+  [[nodiscard]] bool carries_on(const Contact& old, const Vec<Dim>& place,
+                                const Vec<Dim>& normal) const {
+    for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
+         ++i) {
+      Vec<Dim> way = pose(old.b)(old_points_[i].place) - place;
+      way -= normal.dot(way) * normal;
+      const double weight = old_points_[i].weight;
+      if (way.squaredNorm() <= (Dim == 2 ? weight * weight : weight)) return true;
+    }
+    return false;
+  }
+
+  void place_joined(const ContactArea<Dim>& joined, ContactPoints rule, double measure) {
+    std::vector<FacetPoint<Dim>> from_centre;
+    place_points_on(joined, rule, from_centre);
+    const Vec<Dim> centre = joined.centre();
+    const double scale = measure / joined.measure();  // seen along the normal
+    places_.clear();
+    for (const FacetPoint<Dim>& p : from_centre)
+      places_.push_back({centre + p.offset, scale * p.weight});
   }
 
   void place_at_edges(const voussoir::Contact<Dim>& found, int a, int b) {
@@ -120,7 +244,58 @@ class ContactRenewal {
     return frame;
   }
 
-  void inherit(const Contact& old, const Vec<Dim>& place, Point& point) const {
+  /// The initial stress of an old point: normal and shears [Pa].
+  [[nodiscard]] static Vec<Dim> stress_of(const Point& p) {
+    return stacked(p.initial.normal, p.initial.tangential) / p.weight;
+  }
+
+  /// The gradient of the initial stress in the plane of the contact: least squares over the old
+  /// points by their weights. None along a direction in which they do not spread.
+  void find_gradient(const Contact& old, const Rotation<Dim>& frame) {
+    gradient_ = zeros<Fixed<Dim, Dim - 1>>();
+    const auto first = static_cast<std::size_t>(old.first),
+               last = static_cast<std::size_t>(old.last);
+    const auto in_plane = [&](const Point& p) {
+      return part<Dim - 1>(transposed_product(frame, pose(old.b)(p.place)), 1);
+    };
+    double weight = 0;
+    Vec<Dim> stress = zeros<Vec<Dim>>();
+    InPlane middle = zeros<InPlane>();
+    for (auto i = first; i < last; ++i) {
+      const Point& p = old_points_[i];
+      weight += p.weight;
+      stress += p.weight * stress_of(p);
+      middle += p.weight * in_plane(p);
+    }
+    squared_extent_ = Dim == 2 ? weight * weight : weight;
+    if (!(weight > 0)) return;
+    stress /= weight;
+    middle /= weight;
+    Fixed<Dim, Dim - 1> mixed = zeros<Fixed<Dim, Dim - 1>>();
+    Fixed<Dim - 1, Dim - 1> spread = zeros<Fixed<Dim - 1, Dim - 1>>();
+    for (auto i = first; i < last; ++i) {
+      const Point& p = old_points_[i];
+      const InPlane arm = in_plane(p) - middle;
+      mixed += p.weight * (stress_of(p) - stress) * transposed(arm);
+      spread += p.weight * arm * transposed(arm);
+    }
+    if constexpr (Dim == 2) {
+      if (spread(0, 0) > 1e-12 * weight * weight * weight) gradient_ = mixed / spread(0, 0);
+    } else {
+      const double determinant = spread(0, 0) * spread(1, 1) - spread(0, 1) * spread(1, 0),
+                   trace = spread(0, 0) + spread(1, 1);
+      if (!(determinant > 1e-8 * trace * trace)) return;
+      Fixed<2, 2> inverse;
+      inverse(0, 0) = spread(1, 1) / determinant;
+      inverse(1, 1) = spread(0, 0) / determinant;
+      inverse(0, 1) = -spread(0, 1) / determinant;
+      inverse(1, 0) = -spread(1, 0) / determinant;
+      gradient_ = mixed * inverse;
+    }
+  }
+
+  void inherit(const Contact& old, const Rotation<Dim>& frame, const Vec<Dim>& place,
+               Point& point) const {
     const Point* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
@@ -136,15 +311,23 @@ class ContactRenewal {
     // Bodies a and b may have changed places, and with them all axes their sign: slip, opening and
     // the force on b along the axes of the contact are the same either way.
     add_at<Dim - 1>(point.zero.data() + 1, -nearest->motion(at).slip);
-    const double share = point.weight / nearest->weight;
-    point.initial.normal = share * nearest->initial.normal;
-    point.initial.tangential = share * nearest->initial.tangential;
+    Vec<Dim> stress = stress_of(*nearest);
+    // No farther than the old contact was long: far outside, a gradient makes any stress.
+    const Vec<Dim> way = place - pose(old.b)(nearest->place);
+    const InPlane step = part<Dim - 1>(transposed_product(frame, way), 1);
+    if (step.squaredNorm() <= squared_extent_) stress += gradient_ * step;
+    point.initial.normal = point.weight * stress[0];
+    point.initial.tangential = point.weight * part<Dim - 1>(stress, 1);
     point.state = nearest->state;
   }
 
   const Bodies& bodies_;
   const std::vector<Point>& old_points_;
   std::vector<WeightedPoint<Dim>> places_;
+  Vec<Dim> from_ = zeros<Vec<Dim>>();
+  Fixed<Dim, Dim - 1> gradient_ = zeros<Fixed<Dim, Dim - 1>>();  ///< of the initial stress [Pa/m]
+  double squared_extent_ = 0;                                    ///< of the old contact [m^2]
+  bool keeps_history_ = false;
 };
 
 }  // namespace voussoir::detail

@@ -64,7 +64,8 @@ class ContactTracker {
     home_.push_back(transposed(rotation));
   }
 
-  /// Follows the bodies to where they are now. Calls `touches(pair, contact)` for every pair asked
+  /// Follows the bodies to where they are now; points of contacts are counted from the grid point
+  /// of shape a. Calls `touches(pair, contact)` for every pair asked
   /// that is within reach, `parts(pair)` for every pair with a contact that no longer is.
   template <class Bodies, class Touches, class Parts>
   void update(const Bodies& bodies, Touches&& touches, Parts&& parts) {
@@ -98,7 +99,7 @@ class ContactTracker {
       const bool near =
           pair.contact >= 0 || detector.separation(pair.a, pair.b, pair.memory, reach_) <= reach_;
       Contact<Dim> contact;
-      if (near) contact = detector.contact(pair.a, pair.b, pair.memory, everything);
+      if (near) contact = detector.contact_near(pair.a, pair.b, pair.memory, everything);
       if (contact.touch != Touch::none && contact.separation <= reach_)
         touches(pair, contact);
       else if (pair.contact >= 0)

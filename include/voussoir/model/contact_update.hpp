@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/contact_update_report.hpp>
 #include <voussoir/model/detail/lawless_contacts.hpp>
 #include <voussoir/model/system.hpp>
 
@@ -39,16 +42,23 @@ class FoundAgain {
     }
   }
 
-  void run(const Progress& progress) {
+  ContactUpdateReport run(const Progress& progress) {
     Contacts joints = without_laws(system_.joints), boundary = without_laws(system_.boundary),
              interface = without_laws(system_.interface);
     update_.run(joints, boundary, interface, progress);
     // From here on nothing stops: the system is as it was or as it will be.
+    Eigen::VectorXd before, after;
+    system_.forces(system_.displacement, before);
+    ContactUpdateReport report{1, -stored_energy(), 0};
     turn_supports();
     replace(system_.joints, joints);
     replace(system_.boundary, boundary);
     replace(system_.interface, interface);
     system_.set_found();
+    report.energy += stored_energy();
+    system_.forces(system_.displacement, after);
+    report.largest_jump = system_.unbalance_over_weight(after - before);
+    return report;
   }
 
  private:
@@ -62,23 +72,103 @@ class FoundAgain {
             {}};
   }
 
+  /// Of all contacts, as they are now [J].
+  [[nodiscard]] double stored_energy() const {
+    double sum = 0;
+    const auto add = [&](const auto& group) {
+      group.visit(system_.displacement.data(),
+                  [&](const auto& c, const auto& p, const auto& load, const auto&) {
+                    sum += group.law_of(c).stored_energy(load, p.state);
+                  });
+    };
+    add(system_.joints);
+    add(system_.boundary);
+    add(system_.interface);
+    return sum;
+  }
+
   template <class Group>
-  static void replace(Group& group, const Contacts& by) {
+  void replace(Group& group, const Contacts& by) const {
     Group next(group.laws());
     std::vector<typename Group::Point> points;
+    points.reserve(by.points.size());
+    for (std::size_t k = 0; k < by.points.size(); ++k) {
+      points.push_back({by.points[k], {}});
+      const int former = by.former[k].number;
+      if (former >= 0) points[k].state = group.points()[static_cast<std::size_t>(former)].state;
+    }
+    keep_shear(group, by, points);
     for (const int n : order_by_bodies(
              by.contacts, [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
       const ReferenceContact<dim>& c = by.contacts[static_cast<std::size_t>(n)];
-      points.clear();
-      for (auto k = static_cast<std::size_t>(c.first); k < static_cast<std::size_t>(c.last); ++k) {
-        points.push_back({by.points[k], {}});
-        const int former = by.former[k].number;
-        if (former >= 0)
-          points.back().state = group.points()[static_cast<std::size_t>(former)].state;
-      }
-      next.add(c, points);
+      next.add(c, points_of<typename Group::Point>(points, c));
     }
     group = std::move(next);
+  }
+
+  template <class Point>
+  [[nodiscard]] static std::span<const Point> points_of(const std::vector<Point>& points,
+                                                        const ReferenceContact<dim>& c) {
+    return {points.data() + c.first, static_cast<std::size_t>(c.last - c.first)};
+  }
+
+  /// Gives the points that carry on those of a contact the shear force that it had; one contact may
+  /// have become several.
+  template <class Group>
+  void keep_shear(const Group& group, const Contacts& by,
+                  std::vector<typename Group::Point>& points) const {
+    using Point = typename Group::Point;
+    using Shear = Vec<dim - 1>;
+    const auto shear_of = [&](const ReferenceContact<dim>& c, std::span<const Point> of) {
+      Shear sum = zeros<Shear>();
+      for (const Point& p : of) {
+        const PointLoad<dim> load{p.weight, p.initial,
+                                  c.motion(p, c.offset_of(p), system_.displacement.data())};
+        sum += group.law_of(c).force(load, p.state).tangential;
+      }
+      return sum;
+    };
+    std::vector<int> contact_of(group.points().size(), -1);
+    for (std::size_t n = 0; n < group.contacts().size(); ++n)
+      for (int k = group.contacts()[n].first; k < group.contacts()[n].last; ++k)
+        contact_of[static_cast<std::size_t>(k)] = static_cast<int>(n);
+    std::vector<std::vector<int>> heirs(group.contacts().size());
+    for (std::size_t n = 0; n < by.contacts.size(); ++n) {
+      const int former = by.former[static_cast<std::size_t>(by.contacts[n].first)].number;
+      if (former >= 0)
+        heirs[static_cast<std::size_t>(contact_of[static_cast<std::size_t>(former)])].push_back(
+            static_cast<int>(n));
+    }
+    std::vector<Point> together;
+    for (std::size_t n = 0; n < heirs.size(); ++n) {
+      if (heirs[n].empty()) continue;
+      const auto each = [&](auto&& visit) {
+        std::size_t first = 0;
+        for (const int heir : heirs[n]) {
+          const ReferenceContact<dim>& c = by.contacts[static_cast<std::size_t>(heir)];
+          const auto count = static_cast<std::size_t>(c.last - c.first);
+          visit(c, first, count);
+          first += count;
+        }
+      };
+      together.clear();
+      each([&](const auto& c, std::size_t, std::size_t) {
+        const auto of = points_of(points, c);
+        together.insert(together.end(), of.begin(), of.end());
+      });
+      const ReferenceContact<dim>& old = group.contacts()[n];
+      match_shear<dim>(shear_of(old, points_of(group.points(), old)), together, [&] {
+        Shear sum = zeros<Shear>();
+        each([&](const auto& c, std::size_t first, std::size_t count) {
+          sum += shear_of(c, {together.data() + first, count});
+        });
+        return sum;
+      });
+      each([&](const auto& c, std::size_t first, std::size_t count) {
+        std::copy_n(together.begin() + static_cast<std::ptrdiff_t>(first), count,
+                    points.begin() + c.first);
+      });
+    }
   }
 
   void turn_supports() const {
@@ -106,14 +196,16 @@ class FoundAgain {
 ///
 /// @param reach     contacts may be so far open [m]
 /// @param progress  asked now and then whether to go on
+/// @return  the energy that springs have gained by it, and the jump of the forces on bodies
 /// @throws InvalidInput  the system does not know the shapes of its bodies
 /// @throws Stopped       the system is as it was
 /// @cost   about 3 microseconds a contact
 template <class System>
-void find_contacts_again(System& system, double reach, const Progress& progress = {}) {
+ContactUpdateReport find_contacts_again(System& system, double reach,
+                                        const Progress& progress = {}) {
   if (system.shapes == nullptr)
     throw InvalidInput("find_contacts_again: the system does not know the shapes of its bodies");
-  detail::FoundAgain<System>(system, reach).run(progress);
+  return detail::FoundAgain<System>(system, reach).run(progress);
 }
 
 }  // namespace voussoir

@@ -31,16 +31,27 @@ class FacePair2 {
   explicit FacePair2(const PlacedShapes<2>& shapes) : shapes_(&shapes) {}
 
   [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
-    return find_axis((*shapes_)[a], (*shapes_)[b], 0, memory) < 0;
+    return find_axis((*shapes_)[a], shapes_->seen_from(a, b, shifted_), 0, memory) < 0;
   }
 
   [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory,
                                   double enough = std::numeric_limits<double>::infinity()) {
-    return find_axis((*shapes_)[a], (*shapes_)[b], enough, memory);
+    return find_axis((*shapes_)[a], shapes_->seen_from(a, b, shifted_), enough, memory);
   }
 
   [[nodiscard]] Contact<2> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
-    const PlacedShape<2> shape_a = (*shapes_)[a], shape_b = (*shapes_)[b];
+    return contact_from(shapes_->grid_point(a), a, b, memory, reach);
+  }
+  [[nodiscard]] Contact<2> contact_near(std::size_t a, std::size_t b, Memory& memory,
+                                        double reach) {
+    return contact_from(zeros<Vec2>(), a, b, memory, reach);
+  }
+
+ private:
+  /// @param grid_point  of a, or 0 if points are to be counted from it
+  [[nodiscard]] Contact<2> contact_from(const Vec2& grid_point, std::size_t a, std::size_t b,
+                                        Memory& memory, double reach) {
+    const PlacedShape<2> shape_a = (*shapes_)[a], shape_b = shapes_->seen_from(a, b, shifted_);
     Memory guess = memory;
     const double separation = find_axis(shape_a, shape_b, reach, memory);
     Contact<2> found;
@@ -54,14 +65,14 @@ class FacePair2 {
     if (memory.face == guess.face && memory.edge == guess.edge && memory.side == guess.side) {
       opaque(guess);
       const bool was_of_a = guess.side == 0;
-      clip(was_of_a ? shape_a : shape_b, was_of_a ? shape_b : shape_a, guess, reach, found);
+      clip(was_of_a ? shape_a : shape_b, was_of_a ? shape_b : shape_a, guess, reach, grid_point,
+           found);
     } else {
-      clip_anew(p, q, memory, reach, found);
+      clip_anew(p, q, memory, reach, grid_point, found);
     }
     return found;
   }
 
- private:
   /// How far face `face` of p keeps q away [m].
   [[nodiscard]] static double separation_by(const PlacedShape<2>& p, std::size_t face,
                                             const PlacedShape<2>& q) {
@@ -123,7 +134,7 @@ class FacePair2 {
 
   /// Clips the edge of q that faces the given face of p to what lies in front of that face.
   void clip(const PlacedShape<2>& p, const PlacedShape<2>& q, const Memory& axis, double reach,
-            Contact<2>& found) {
+            const Vec2& grid_point, Contact<2>& found) {
     const std::size_t face = axis.face, next = following(face, p.vertex_count);
     const Vec2 normal = p.normal(face), along = perpendicular(normal), origin = p.vertex(face);
     const std::size_t edge = axis.edge;
@@ -140,8 +151,9 @@ class FacePair2 {
     double from = std::max(std::max(0.0, lowest), -start * scale);
     double to = std::min(std::min(1.0, highest), (face_length - start) * scale);
     if (!(from <= to)) from = to = rise > 0 ? 0 : 1;  // a rounding: the deepest point
-    ends_[axis.side] = low + from * span;
-    ends_[1 - axis.side] = low + to * span;
+    const Vec2 start_at = low + grid_point;
+    ends_[axis.side] = start_at + from * span;
+    ends_[1 - axis.side] = start_at + to * span;
     found.touch = axis.side == 0 ? Touch::face_a : Touch::face_b;
     found.normal = (1.0 - 2.0 * axis.side) * normal;
     found.measure = (to - from) * length;
@@ -149,8 +161,8 @@ class FacePair2 {
   }
 
   void clip_anew(const PlacedShape<2>& p, const PlacedShape<2>& q, const Memory& axis, double reach,
-                 Contact<2>& found) {
-    clip(p, q, axis, reach, found);
+                 const Vec2& grid_point, Contact<2>& found) {
+    clip(p, q, axis, reach, grid_point, found);
   }
 
   /// Hides from the compiler that a value is known.
@@ -182,6 +194,7 @@ class FacePair2 {
   }
 
   const PlacedShapes<2>* shapes_;
+  PlacedShapes<2>::Shifted shifted_;
   std::array<Vec2, 2> ends_;
   std::vector<double, Eigen::aligned_allocator<double>> separations_;  ///< by the faces of a, of b
 };

@@ -52,30 +52,42 @@ class FacePair3 {
   explicit FacePair3(const PlacedShapes<3>& shapes) : shapes_(&shapes) {}
 
   [[nodiscard]] bool overlap(std::size_t a, std::size_t b, Memory& memory) {
+    take_up(a, b);
     // A point in both is proof enough, and cheaper than all axes.
-    if (!memory.apart && both_contain(a, b, memory.inside)) return true;
-    const double by_faces = find_face(a, b, 0, 0, memory);
+    if (!memory.apart && both_contain(memory.inside)) return true;
+    const double by_faces = find_face(0, 0, memory);
     if (memory.apart) return false;
     if (clip_.size() > 0) {
-      const Vec3 arm = clip_.middle() - (*shapes_)[a].vertex(0);
+      const Vec3 arm = clip_.middle() - a_.vertex(0);
       const std::array<float, 3> from_a{static_cast<float>(arm.x()), static_cast<float>(arm.y()),
                                         static_cast<float>(arm.z())};
-      if (both_contain(a, b, from_a)) {
+      if (both_contain(from_a)) {
         memory.inside = from_a;
         return true;
       }
     }
-    return find_edges(a, b, by_faces, 0, 0, memory) < 0;
+    return find_edges(by_faces, 0, 0, memory) < 0;
   }
 
   [[nodiscard]] double separation(std::size_t a, std::size_t b, Memory& memory,
                                   double enough = std::numeric_limits<double>::infinity()) {
-    return find_axis(a, b, enough, 0, memory);
+    take_up(a, b);
+    return find_axis(enough, 0, memory);
   }
 
   [[nodiscard]] Contact<3> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
+    const Contact<3> found = contact_near(a, b, memory, reach);
+    if (found.touch == Touch::none) return found;
+    const Vec3 grid_point = shapes_->grid_point(a);
+    for (Vec3& point : polygon_) point += grid_point;
+    return found;
+  }
+
+  [[nodiscard]] Contact<3> contact_near(std::size_t a, std::size_t b, Memory& memory,
+                                        double reach) {
     Contact<3> found;
-    const double separation = find_axis(a, b, reach, reach, memory);
+    take_up(a, b);
+    const double separation = find_axis(reach, reach, memory);
     if (!(separation <= reach)) return found;
     found.separation = separation;
     found.normal = normal_;
@@ -84,8 +96,7 @@ class FacePair3 {
     if (memory.by == Touch::edge_edge &&
         !(area_ > 0 && dot_product(normal_, face_normal_) > flat)) {
       found.touch = Touch::edge_edge;
-      section_.run((*shapes_)[a], (*shapes_)[b], (*shapes_).topology(a), (*shapes_).topology(b),
-                   memory.first, memory.second, normal_, polygon_);
+      section_.run(linked_a(), memory.first, linked_b(), memory.second, normal_, polygon_);
       found.measure = section_.area();
     } else {
       found.touch = face_side_ == 0 ? Touch::face_a : Touch::face_b;
@@ -121,16 +132,21 @@ class FacePair3 {
     return low.smallest();
   }
 
-  [[nodiscard]] LinkedShape linked(std::size_t k) const {
-    return {(*shapes_)[k], shapes_->topology(k)};
+  /// Takes up the pair, both counted from the grid point of a.
+  void take_up(std::size_t a, std::size_t b) {
+    number_a_ = a;
+    number_b_ = b;
+    a_ = (*shapes_)[a];
+    b_ = shapes_->seen_from(a, b, shifted_);
   }
+  [[nodiscard]] LinkedShape linked_a() const { return {a_, shapes_->topology(number_a_)}; }
+  [[nodiscard]] LinkedShape linked_b() const { return {b_, shapes_->topology(number_b_)}; }
 
   /// Whether a point, given from the first vertex of a, is inside both shapes beyond any doubt:
   /// deeper than some fifty roundings of its coordinates, and than the vertices of a face, over
   /// which the axes are measured, lie off its plane.
-  [[nodiscard]] bool both_contain(std::size_t i, std::size_t j,
-                                  const std::array<float, 3>& from_a) const {
-    const LinkedShape a = linked(i), b = linked(j);
+  [[nodiscard]] bool both_contain(const std::array<float, 3>& from_a) const {
+    const LinkedShape a = linked_a(), b = linked_b();
     const Vec3 point = a.shape.vertex(0) + Vec3(from_a[0], from_a[1], from_a[2]);
     const double doubt =
         1e-14 * (1 + std::abs(point.x()) + std::abs(point.y()) + std::abs(point.z())) +
@@ -150,15 +166,13 @@ class FacePair3 {
   }
 
   /// What kept the pair apart last time, tried again [m]; maybe -infinity if not above `limit`.
-  [[nodiscard]] double known_separation(std::size_t i, std::size_t j, double limit,
-                                        const Memory& memory) const {
-    const Shape a = (*shapes_)[i], b = (*shapes_)[j];
+  [[nodiscard]] double known_separation(double limit, const Memory& memory) const {
+    const Shape a = a_, b = b_;
     if (memory.by == Touch::face_a)
       return lowest(a.normal(memory.first), b) - a.offset(memory.first);
     if (memory.by == Touch::face_b)
       return lowest(b.normal(memory.first), a) - b.offset(memory.first);
-    return EdgePairs<Lanes>::axis({a, shapes_->topology(i)}, memory.first,
-                                  {b, shapes_->topology(j)}, memory.second, limit)
+    return EdgePairs<Lanes>::axis(linked_a(), memory.first, linked_b(), memory.second, limit)
         .separation;
   }
 
@@ -186,20 +200,18 @@ class FacePair3 {
 
   /// The largest separation, or the first one found that keeps the shapes apart by more than
   /// `limit`. What decided is left in `memory`, and its normal and clipped face in the members.
-  [[nodiscard]] double find_axis(std::size_t i, std::size_t j, double limit, double reach,
-                                 Memory& memory) {
-    const double by_faces = find_face(i, j, limit, reach, memory);
-    return memory.apart ? by_faces : find_edges(i, j, by_faces, limit, reach, memory);
+  [[nodiscard]] double find_axis(double limit, double reach, Memory& memory) {
+    const double by_faces = find_face(limit, reach, memory);
+    return memory.apart ? by_faces : find_edges(by_faces, limit, reach, memory);
   }
 
   /// The same by the faces alone, if what is in `memory` does not keep the shapes apart already.
-  [[nodiscard]] double find_face(std::size_t i, std::size_t j, double limit, double reach,
-                                 Memory& memory) {
+  [[nodiscard]] double find_face(double limit, double reach, Memory& memory) {
     if (memory.apart) {
-      const double known = known_separation(i, j, limit, memory);
+      const double known = known_separation(limit, memory);
       if (known > limit) return known;
     }
-    const LinkedShape a = linked(i), b = linked(j);
+    const LinkedShape a = linked_a(), b = linked_b();
     const std::size_t half = std::max(a.shape.face_stride(), b.shape.face_stride());
     if (separations_.size() < 2 * half) separations_.resize(2 * half);
     double* const of_faces = separations_.data();
@@ -223,9 +235,8 @@ class FacePair3 {
   }
 
   /// The same by the edges, after `find_face` found `best` and did not keep the shapes apart.
-  [[nodiscard]] double find_edges(std::size_t i, std::size_t j, double best, double limit,
-                                  double reach, Memory& memory) {
-    const LinkedShape a = linked(i), b = linked(j);
+  [[nodiscard]] double find_edges(double best, double limit, double reach, Memory& memory) {
+    const LinkedShape a = linked_a(), b = linked_b();
     if (settled(a, b, memory.first, reach, best, memory)) {
       memory.apart = best > limit;
       return best;
@@ -406,6 +417,9 @@ class FacePair3 {
   }
 
   const PlacedShapes<3>* shapes_;
+  PlacedShapes<3>::Shifted shifted_;
+  std::size_t number_a_ = 0, number_b_ = 0;
+  Shape a_{}, b_{};  ///< the pair at hand, counted from the grid point of a
   FaceClip clip_;
   Section section_;
   EdgePairs<Lanes> edge_pairs_;

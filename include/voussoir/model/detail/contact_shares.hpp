@@ -45,7 +45,8 @@ class ContactShares {
   }
 
   /// Calls visit(pair, found, area) for every contact. Where several pairs share it, `area` is what
-  /// all have of it, on the polygon's side and with the measure of all, and else null.
+  /// all have of it, on the polygon's side, counted as it is from the grid point of the pair's
+  /// first shape and with the measure of all, and else null.
   template <class Visit>
   void join(Visit&& visit) {
     // The largest of a contact tells its plane: it comes first.
@@ -66,7 +67,10 @@ class ContactShares {
         const Share& share = shares_[i];
         const bool same_face = owner(share) == owner(first);
         const Vec<Dim> outward = same_face ? share.outward() : Vec<Dim>(-share.outward());
-        auto facet = facet_of(same_face ? share.polygon : on_face(share), normal);
+        std::vector<Vec<Dim>> corners = same_face ? share.polygon : on_face(share);
+        const Vec<Dim> shift = origin(share) - origin(first);
+        for (Vec<Dim>& p : corners) p += shift;
+        auto facet = facet_of(std::move(corners), normal);
         // Less than what is seen of it along the normal: roundings are all there is of it.
         const bool is_sliver = !(facet.measure() > 0.999 * share.found.measure);
         if (share.cut >= 0 && normal.dot(outward) > 0.99 && !is_sliver &&
@@ -99,6 +103,11 @@ class ContactShares {
     }
   };
 
+  /// What the polygon is counted from.
+  [[nodiscard]] const Vec<Dim>& origin(const Share& share) const {
+    return tracker_.shapes().grid_point(share.pair.a);
+  }
+
   /// The body whose face is touched.
   [[nodiscard]] int owner(const Share& share) const { return tracker_.body_of(share.owner()); }
 
@@ -109,6 +118,7 @@ class ContactShares {
     double reach = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < shape.vertex_count; ++k)
       reach = std::max(reach, normal.dot(shape.vertex(k)));
+    reach += normal.dot(tracker_.shapes().grid_point(share.owner()) - origin(share));
     std::vector<Vec<Dim>> moved = share.polygon;
     for (Vec<Dim>& p : moved) p += (reach - normal.dot(p)) * normal;
     return moved;

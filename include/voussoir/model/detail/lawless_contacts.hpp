@@ -38,6 +38,10 @@ struct LawlessContacts {
 };
 
 /// Finds the contacts of bodies where they are now, and makes that the reference configuration.
+///
+/// Bodies that would hang on nothing keep all points of what is nearest, also those beyond the
+/// reach: without a spring the elastic equations of the rock that is left have no solution.
+///
 /// It is the same for all contact laws, and compiled once.
 template <int Dim>
 class ContactUpdate {
@@ -110,8 +114,13 @@ class ContactUpdate {
   /// degrees; or null.
   [[nodiscard]] const Contact* nearest(const Springs& group, int a, int b, const Vec<Dim>& normal,
                                        const Vec<Dim>& place) const;
+  /// Marks bodies that no chain of contacts, of `Dim` points at least, joins to a fixed one.
+  /// @return  whether there are any
+  bool find_loose(const Contacts& joints, const Contacts& boundary,
+                  std::vector<char>& is_loose) const;
+  /// @param reach, joined  see ContactRenewal
   void renew(const Springs& group, const Pair& pair, const voussoir::Contact<Dim>& found,
-             Contacts& to, const ContactArea<Dim>* joined = nullptr) const;
+             const ContactArea<Dim>* joined, double reach, Contacts& to) const;
   /// Whether the shapes may have but a share of a contact.
   [[nodiscard]] bool is_share(const Pair& pair, const voussoir::Contact<Dim>& found) const {
     return found.touch != Touch::edge_edge && (part_count_[index(tracker_.body_of(pair.a))] > 1 ||
@@ -146,6 +155,22 @@ void ContactUpdate<Dim>::add_part(int body, const Shape& part, const Vec<Dim>& c
 template <int Dim>
 void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& interface,
                              const Progress& progress) {
+  struct Seen {
+    Pair pair;
+    voussoir::Contact<Dim> found;
+    std::vector<Vec<Dim>> polygon;
+    ContactArea<Dim> area;  ///< if several pairs share the contact, else empty
+    bool of_blocks;
+  };
+  std::vector<Seen> seen;
+  const auto note = [&](const Pair& pair, const voussoir::Contact<Dim>& found,
+                        const ContactArea<Dim>* area, bool of_blocks) {
+    seen.push_back({pair,
+                    found,
+                    {found.polygon.begin(), found.polygon.end()},
+                    area != nullptr ? *area : ContactArea<Dim>{},
+                    of_blocks});
+  };
   StopCheck stop(progress);
   const Springs of_joints = as_moving(joints), of_boundary = as_moving(boundary),
                 of_interface = as_moving(interface);
@@ -164,17 +189,56 @@ void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& int
         if (is_share(pair, found))
           (of_blocks ? shares_of_joints : shares_of_boundary).add(pair, found, cut_of(pair, found));
         else
-          renew(of_blocks ? of_joints : of_boundary, pair, found, of_blocks ? joints : boundary);
+          note(pair, found, nullptr, of_blocks);
       },
       [](const Pair&) {});
   shares_of_joints.join([&](const auto& pair, const auto& found, const auto* area) {
-    renew(of_joints, pair, found, joints, area);
+    note(pair, found, area, true);
   });
   shares_of_boundary.join([&](const auto& pair, const auto& found, const auto* area) {
-    renew(of_boundary, pair, found, boundary, area);
+    note(pair, found, area, false);
   });
+  const auto renew_all = [&](const std::vector<char>& is_loose) {
+    for (Contacts* group : {&joints, &boundary}) *group = {group->has_many_laws, {}, {}, {}};
+    for (Seen& it : seen) {
+      stop();
+      const bool loose = is_loose[index(tracker_.body_of(it.pair.a))] != 0 ||
+                         is_loose[index(tracker_.body_of(it.pair.b))] != 0;
+      it.found.polygon = it.polygon;
+      renew(it.of_blocks ? of_joints : of_boundary, it.pair, it.found,
+            it.area.facets().empty() ? nullptr : &it.area,
+            loose ? std::numeric_limits<double>::infinity() : tracker_.reach(),
+            it.of_blocks ? joints : boundary);
+    }
+  };
+  std::vector<char> is_loose(bodies_.size(), 0);
+  renew_all(is_loose);
+  if (find_loose(joints, boundary, is_loose)) renew_all(is_loose);
   for (const Contact& c : of_interface.contacts)
     add(c, {of_interface.points.data() + c.first, index(c.last - c.first)}, interface);
+}
+
+template <int Dim>
+bool ContactUpdate<Dim>::find_loose(const Contacts& joints, const Contacts& boundary,
+                                    std::vector<char>& is_loose) const {
+  std::vector<int> group(bodies_.size());
+  for (std::size_t b = 0; b < group.size(); ++b) group[b] = static_cast<int>(b);
+  const auto root = [&](int b) {
+    while (group[index(b)] != b) b = group[index(b)] = group[index(group[index(b)])];
+    return b;
+  };
+  for (const Contacts* contacts : {&joints, &boundary})
+    for (const ReferenceContact<Dim>& c : contacts->contacts)
+      if (c.last - c.first >= Dim) group[index(root(c.a))] = root(c.b);
+  std::vector<char> is_held(bodies_.size(), 0);
+  for (std::size_t b = 0; b < group.size(); ++b)
+    if (!bodies_[b].movable()) is_held[index(root(static_cast<int>(b)))] = 1;
+  bool any = false;
+  for (std::size_t b = 0; b < group.size(); ++b) {
+    is_loose[b] = is_held[index(root(static_cast<int>(b)))] == 0;
+    any = any || is_loose[b] != 0;
+  }
+  return any;
 }
 
 template <int Dim>
@@ -236,31 +300,26 @@ auto ContactUpdate<Dim>::nearest(const Springs& group, int a, int b, const Vec<D
 
 template <int Dim>
 void ContactUpdate<Dim>::renew(const Springs& group, const Pair& pair,
-                               const voussoir::Contact<Dim>& found, Contacts& to,
-                               const ContactArea<Dim>* joined) const {
+                               const voussoir::Contact<Dim>& found, const ContactArea<Dim>* joined,
+                               double reach, Contacts& to) const {
+  const Vec<Dim>& from = tracker_.shapes().grid_point(pair.a);
   const bool of_a = found.touch != Touch::face_b;
   const std::size_t owner = of_a ? pair.a : pair.b;
   const int a = tracker_.body_of(owner), b = tracker_.body_of(of_a ? pair.b : pair.a);
   Vec<Dim> middle = zeros<Vec<Dim>>();
   for (const Vec<Dim>& p : found.polygon) middle += p;
   middle /= static_cast<double>(found.polygon.size());
+  middle += from;
   // Where a joint gapes it closes at an edge: only corner points lie there.
   const Rotation<Dim> turn = transposed(now(a).rotation) * now(b).rotation;
   const bool gapes = (turn - diagonal_of<Dim>(1)).norm() > gaping;
   const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
   const Contact* const old = nearest(group, a, b, found.normal, middle);
-  std::vector<WeightedPoint<Dim>> places;
-  if (joined != nullptr) {
-    std::vector<FacetPoint<Dim>> from_centre;
-    place_points_on(*joined, rule, from_centre);
-    // Seen along the normal.
-    const double scale = found.measure / joined->measure();
-    for (const FacetPoint<Dim>& p : from_centre)
-      places.push_back({joined->centre() + p.offset, scale * p.weight});
-  }
   std::vector<Point> points;
-  Contact contact = ContactRenewal<Dim, FormerPoint>(bodies_, group.points)
-                        .run(found, tracker_.shapes()[owner], a, b, rule, old, points, places);
+  using Renewal = ContactRenewal<Dim, FormerPoint>;
+  Contact contact = Renewal(bodies_, group.points)
+                        .run(found, from, tracker_.shapes(), owner, a, b, rule, reach,
+                             Renewal::Gaping::known, old, points, joined);
   contact.law = old != nullptr ? old->law
                 : group.has_many_laws
                     ? law_of(owner, a, of_a ? found.normal : Vec<Dim>(-found.normal))
