@@ -35,7 +35,6 @@ using voussoir_test::degree;
 
 constexpr double diameter = 4;
 inline const InSitu in_situ{.density = 2700, .k0 = 0.8, .surcharge = 3e5};
-inline const CoulombJoint interface_law({5e9, 5e8, 30 * degree});
 
 template <class Geometry>
 [[nodiscard]] RockMass<Geometry> rock();
@@ -105,6 +104,14 @@ inline BartonBandisJoint law() {
 template <>
 inline BurgersJoint law() {
   return BurgersJoint({5e9, 5e8, 35 * degree, 5e8 * 1e7, 5e8, 5e8 * 1e6});
+}
+template <class Law>
+[[nodiscard]] Law interface_law() {
+  return law<Law>();
+}
+template <>
+inline CoulombJoint interface_law() {
+  return CoulombJoint({5e9, 5e8, 30 * degree});
 }
 template <>
 inline AxialBolt law() {
@@ -187,7 +194,8 @@ template <class Geometry, class... Policies>
   tunnel.excavate(opening<Geometry>(), smallest_piece);
   const auto bolts = bars(opening<Geometry>());
   for (const auto& bar : bolts) tunnel.install_bolt(bar, law<typename Parts::BoltLaw>());
-  tunnel.install_lining(frame(tunnel.mass()), sections<Geometry>(), interface_law);
+  tunnel.install_lining(frame(tunnel.mass()), sections<Geometry>(),
+                        interface_law<typename Parts::Models::InterfaceLaw>());
   const EquilibriumReport report = tunnel.equilibrium();
   CHECK(report.verdict == Verdict::stable);
   return std::string(to_string(report)) + ", " + ask(state_of(tunnel), tunnel.mass(), bolts);
@@ -198,14 +206,16 @@ template <class Geometry, class... Policies>
 [[nodiscard]] std::string in_motion() {
   using Parts = Composition<Geometry, Policies...>;
   const auto mass = carve(rock<Geometry>(), opening<Geometry>(), smallest_piece);
-  auto run = moving_rock(mass, law<typename Parts::JointLaw>(), in_situ, {.local_damping = 0.3});
+  using InterfaceLaw = typename Parts::Models::InterfaceLaw;
+  auto run = moving_rock<InterfaceLaw>(mass, law<typename Parts::JointLaw>(), in_situ,
+                                       {.local_damping = 0.3});
   run.set_held(0.5);
   run.advance_steps(10);
   const auto bolts = bars(opening<Geometry>());
   const auto held =
       add_bolts(run, mass, bolts, law<typename Parts::BoltLaw>(), 1.0, typename Parts::Anchors{});
   const auto lining = add_lining<typename Parts::Lining>(run, frame(mass), sections<Geometry>(),
-                                                         interface_law, thickness);
+                                                         interface_law<InterfaceLaw>(), thickness);
   constexpr int stages = 8;
   for (int k = 1; k <= stages; ++k) {
     run.set_held(0.5 * (1 - static_cast<double>(k) / stages));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every lining.
+// Every lining, and every law of its interface with the rock.
 #include "models/every_model.hpp"
 
 namespace linings_test {
@@ -11,6 +11,11 @@ TEST_SUITE("models/linings") {
   TEST_CASE("TimoshenkoBeam") { in_all_settings<TimoshenkoBeam>().print(); }
   TEST_CASE("PinnedBar") { in_all_settings<PinnedBar>().print(); }
   TEST_CASE("BondedChain") { in_all_settings<BondedChain>().print(); }
+  TEST_CASE("rock on lining") {
+    in_all_settings<RockOnLining<MohrCoulombJoint>>().print();
+    in_all_settings<RockOnLining<BartonBandisJoint>>().print();
+    in_all_settings<RockOnLining<BurgersJoint>>().print();
+  }
 }
 
 }  // namespace linings_test

@@ -122,7 +122,16 @@ TEST_SUITE("rockmass/carving") {
 
   TEST_CASE("every point of the ground is in one part or in the opening") {
     const SimplePolygon opening(letter_l);
-    const auto mass = carve(jointed_rock(ground, 2), opening, 0);
+    const auto rock = jointed_rock(ground, 2);
+    const auto mass = carve(rock, opening, 0);
+    // Of what every body is a piece: it lies in it.
+    REQUIRE(mass.origins.size() == mass.bodies.size());
+    for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
+      const auto& whole = rock.bodies[static_cast<std::size_t>(mass.origins[b])].parts.front();
+      const Vec2 middle = mass.bodies[b].parts.front().vertices().front();
+      for (std::size_t k = 0; k < whole.size(); ++k)
+        CHECK(whole.half_space(k).distance(middle) < mass.domain.tolerance());
+    }
     Random random(1);
     for (int k = 0; k < 3000; ++k) {
       const Vec2 p(10 * (2 * random.uniform() - 1), -8 + 17 * random.uniform());

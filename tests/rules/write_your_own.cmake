@@ -25,7 +25,7 @@ foreach(header IN LISTS headers)
       if(at EQUAL -1)
         message(SEND_ERROR "docs/write-your-own.md: the row of roles::${role} does not name ${type}")
       endif()
-      if(NOT tried MATCHES "(in_all_settings|at_rest_only|row_of_detector|at_rest|in_motion)<[A-Za-z<>, ]*${type}[>,]"
+      if(NOT tried MATCHES "(in_all_settings|at_rest_only|row_of_detector|at_rest|in_motion)<[A-Za-z<>, ]*${type}[<>,]"
          AND NOT tried MATCHES "\"${type} is ")
         message(SEND_ERROR "tests/models: no row tries ${type}, of roles::${role}")
       endif()

@@ -141,7 +141,7 @@ template <class Shape>
 /// where a block falls apart each connected group becomes a body of its own. Outline cuts do not
 /// obey the block limits, so bodies at the wall smaller than `smallest` are dropped, and counted.
 /// New corners are welded with the corners nearby; bodies that no edge of the outline cuts stay as
-/// they are, bit for bit.
+/// they are, bit for bit. Of which body each is what is left: `RockMass::origins`.
 ///
 /// @param smallest  area (2-D) or volume (3-D) below which a body at the wall is dropped [m^2],
 ///                  [m^3]
@@ -169,14 +169,20 @@ template <class Geometry>
   CarvingReport& report = mass.carving;
   std::vector<Body<Geometry>> kept;
   kept.reserve(mass.bodies.size());
+  mass.origins.clear();
+  const auto keep = [&](Body<Geometry> body, std::size_t origin) {
+    kept.push_back(std::move(body));
+    mass.origins.push_back(static_cast<int>(origin));
+  };
   std::vector<std::size_t> beside, cut;  // indices of kept bodies
   StopCheck stop(progress);
-  for (Body<Geometry>& body : mass.bodies) {
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
+    Body<Geometry>& body = mass.bodies[b];
     stop();
     if (std::all_of(body.parts.begin(), body.parts.end(), [&](const Shape& part) {
           return detail::apart(part, box.first, box.second);
         })) {
-      kept.push_back(std::move(body));
+      keep(std::move(body), b);
       continue;
     }
     std::vector<Shape> pieces = body.parts;
@@ -201,7 +207,7 @@ template <class Geometry>
     });
     if (pieces.size() == before && pieces.size() == body.parts.size()) {
       beside.push_back(kept.size());
-      kept.push_back(std::move(body));
+      keep(std::move(body), b);
       continue;
     }
     if (pieces.empty()) {
@@ -220,15 +226,15 @@ template <class Geometry>
         report.dropped_measure += rest.properties.measure;
       } else {
         cut.push_back(kept.size());
-        kept.push_back(std::move(rest));
+        keep(std::move(rest), b);
       }
     }
   }
   if (kept.empty()) throw InvalidInput("opening: no rock is left around it");
   VertexWelder<dim> welder(tolerance);
   for (const auto* bodies : {&beside, &cut})
-    for (const std::size_t b : *bodies)
-      for (Shape& part : kept[b].parts) part.move_vertices(welder);
+    for (const std::size_t k : *bodies)
+      for (Shape& part : kept[k].parts) part.move_vertices(welder);
   mass.bodies = std::move(kept);
   mass.openings.push_back(opening);
   return mass;

@@ -69,6 +69,8 @@ struct RockMass {
   SlicingReport slicing;
   CarvingReport carving;
   std::vector<typename Geometry::Opening> openings;  ///< carved so far
+  /// Of every body, its number before the last opening was carved, ascending; empty: none was.
+  std::vector<int> origins;
 };
 
 }  // namespace voussoir
