@@ -48,6 +48,7 @@ class LevelSpring : public SupportModel<LevelSpring, 2> {
   }
   // Nothing here is at rest.
   void remove(const BodyMarks&) override {}
+  void take_over(const Heirs<2>&) override {}
   void add_forces(const double*, double*, const BodyMarks*) const override {}
   void add_stiffness(const StiffnessSink&) const override {}
   void add_tangent(const double*, const BodyMarks*, const StiffnessSink&) const override {}

@@ -41,6 +41,10 @@ inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& a, double
   target.resize(a.size());
   for (Eigen::Index k = 0; k < a.size(); ++k) target.data()[k] = a.data()[k] + factor * b.data()[k];
 }
+/// target += a
+inline void add_to(Eigen::VectorXd& target, const Eigen::VectorXd& a) {
+  for (Eigen::Index k = 0; k < a.size(); ++k) target.data()[k] += a.data()[k];
+}
 /// The largest entry of a over that of b. @pre neither is empty, every entry of b > 0
 [[nodiscard]] inline double largest_quotient(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   double largest = a.data()[0] / b.data()[0];

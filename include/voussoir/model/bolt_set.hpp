@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/model/bolt_spring.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -61,6 +62,22 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
     }
     springs_.resize(kept, Spring{});
     travels_.resize(kept);
+  }
+  void take_over(const Heirs<Dim>& heirs) override {
+    for (Spring& s : springs_) {
+      const auto follow = [&](int& body, Vec<Dim>& joint, Vec<Dim>& anchor) {
+        const Heir<Dim> at_joint = heirs(body, joint), at_anchor = heirs(body, anchor);
+        if (at_joint.body < 0 || at_anchor.body != at_joint.body)
+          throw InvalidInput(
+              message({"excavate: bolt ", s.bolt, " holds rock at ", text_of<Dim>(at_anchor.place),
+                       " m that is to be excavated: install it afterwards, or end it outside"}));
+        body = at_joint.body;
+        joint = at_joint.arm;
+        anchor = at_anchor.arm;
+      };
+      follow(s.a, s.joint_a, s.arm_a);
+      follow(s.b, s.joint_b, s.arm_b);
+    }
   }
   void list_broken(std::vector<bool>& broken) const override {
     for (const Spring& s : springs_) broken.push_back(s.broken);

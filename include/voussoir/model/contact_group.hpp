@@ -138,6 +138,14 @@ class ContactGroup {
     contacts_.push_back(contact);
   }
 
+  /// Calls visit(contact, points) for every contact; both may be changed, but for their number.
+  template <class Visit>
+  void each_contact(Visit&& visit) {
+    for (Contact& c : contacts_)
+      visit(c,
+            std::span<Point>(points_.data() + c.first, static_cast<std::size_t>(c.last - c.first)));
+  }
+
   /// Sets the initial force at every point from the stress there: on b, -traction of the facet.
   template <class StressAt>
   void set_initial(StressAt&& stress_at) {

@@ -50,6 +50,15 @@ class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim
                   [&](const Element& m) { return is_marked(gone, m.i) || is_marked(gone, m.j); });
   }
 
+  void take_over(const Heirs<dim>& heirs) override {
+    const auto number = [&](int b) { return heirs(b, zeros<Vec<dim>>()).body; };
+    first_ = number(first_);
+    for (Element& m : members_) {
+      m.i = number(m.i);
+      m.j = number(m.j);
+    }
+  }
+
   void add_forces(const double* u, double* f, const BodyMarks* chosen) const override {
     for (const Element& m : members_)
       if (is_chosen(m, chosen)) m.add_force(u, f);

@@ -26,6 +26,17 @@ using BodyMarks = std::vector<char>;
   return marks[static_cast<std::size_t>(body)] != 0;
 }
 
+/// What has become of a point of a body where rock has been excavated.
+template <int Dim>
+struct Heir {
+  int body;        ///< its new number; -1: the point lay on rock that is gone
+  Vec<Dim> arm;    ///< from the centre that it has now [m]
+  Vec<Dim> place;  ///< of the point in the in-situ state [m]
+};
+/// heirs(body, arm): of a point at this lever from the centre of a body.
+template <int Dim>
+using Heirs = std::function<Heir<Dim>(int body, const Vec<Dim>& arm)>;
+
 /// What holds bodies besides contacts, at rest and in motion: bolts, a lining, a spring of a test.
 ///
 /// The search for equilibrium knows bodies by small displacements from the reference configuration,
@@ -56,6 +67,9 @@ class Support {
   [[nodiscard]] virtual std::vector<std::pair<int, int>> links() const { return {}; }
   /// Forgets what it was to these bodies.
   virtual void remove(const BodyMarks& gone) = 0;
+  /// Takes the numbers and centres that bodies have after rock has been excavated.
+  /// @throws InvalidInput  it holds excavated rock; the support is then of no use
+  virtual void take_over(const Heirs<Dim>& heirs) = 0;
   /// For every element that can break, whether it has.
   virtual void list_broken(std::vector<bool>& /*broken*/) const {}
 

@@ -103,8 +103,13 @@ class System {
   void set_found() {
     std::vector<Rotation<dim>> turned;
     for (int b = 0; b < body_count(); ++b) turned.push_back(pose(b).rotation);
+    set_found(displacement, std::move(turned));
+  }
+  /// The same of another displacement.
+  /// @param turned  how every body lay there
+  void set_found(Eigen::VectorXd found_at, std::vector<Rotation<dim>> turned) {
     turned_ = std::move(turned);
-    found_at_ = displacement;
+    found_at_ = std::move(found_at);
   }
   /// How far the block that has moved most has done so since contacts were found; turning counts at
   /// the radius of gyration [m].
@@ -126,22 +131,32 @@ class System {
 
   Eigen::VectorXd displacement;  ///< since the in-situ state
   Eigen::VectorXd load;          ///< weight, surcharge
-  /// What the excavated rock exerted on the wall: with all of it the in-situ state is in
-  /// equilibrium. Where joints cannot carry the in-situ shear (`InSitu::required_friction_angle`)
-  /// it also holds the blocks beside them, away from the wall, and they move when it goes.
+  /// What the excavated rock exerted on the walls that this stage unloads: with all of it the
+  /// in-situ state is in equilibrium. Where joints cannot carry the in-situ shear
+  /// (`InSitu::required_friction_angle`) it also holds the blocks beside them, away from the wall,
+  /// and they move when it goes.
   Eigen::VectorXd wall_load;
-  double wall_fraction = 1;  ///< part of `wall_load` still acting
+  double wall_fraction = 1;   ///< part of `wall_load` still acting
+  Eigen::VectorXd wall_held;  ///< what acts on walls whatever that is; empty: nothing
 
   /// Out-of-balance force at displacement `u`; zero for bodies that cannot move.
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
     set_to_sum(f, load, wall_fraction, wall_load);
+    if (wall_held.size() > 0) add_to(f, wall_held);
     joints.template add_forces<History>(u.data(), f.data());
     boundary.template add_forces<History>(u.data(), f.data());
     interface.template add_forces<History>(u.data(), f.data());
     add_support_forces<History>(u.data(), f.data(), nullptr);
     for (int b = 0; b < body_count(); ++b)
       if (!body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
+  }
+
+  /// What acts on a body from outside: weight, surcharge, walls.
+  [[nodiscard]] Fixed<dof, 1> load_on(int b) const {
+    Fixed<dof, 1> sum = part<dof>(load, dof * b) + wall_fraction * part<dof>(wall_load, dof * b);
+    if (wall_held.size() > 0) sum += part<dof>(wall_held, dof * b);
+    return sum;
   }
 
   /// Those of the supports alone, on chosen bodies (null: all).
@@ -252,6 +267,7 @@ int System<Geometry, JointLaw, InterfaceLaw>::add_bodies(std::span<const Body> b
     turned_.resize(bodies_.size(), diagonal_of<dim>(1));
   }
   grow(wall_load, size);
+  if (wall_held.size() > 0) grow(wall_held, size);
   return first;
 }
 

@@ -13,9 +13,12 @@
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/contact_update.hpp>
+#include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
+#include <voussoir/model/wall_tractions.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
@@ -27,9 +30,10 @@ namespace voussoir {
 
 /// Rock, excavation, supports and the search for equilibrium. `Solver` composes it from policies.
 ///
-/// The order of calls is that of the construction: the rock in its in-situ stress; excavate; then
-/// any number of stages of installing supports, changing the wall traction and finding equilibrium.
-/// History is committed when an equilibrium is found.
+/// The order of calls is that of the construction: the rock in its in-situ stress; then excavating,
+/// installing supports and finding equilibrium, in any order and any number of times: heading and
+/// bench, twin tunnels, rounds along an axis, bolts ahead of the face. History is committed when an
+/// equilibrium is found.
 ///
 /// 2-D forces are per metre of tunnel; a bolt's values are per bolt, shared over its spacing.
 ///
@@ -72,13 +76,18 @@ class ComposedSolver {
                  const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
                  ContactPoints points = ContactPoints::gauss, const Progress& progress = {});
 
-  /// Takes the opening out of the rock. The traction that the excavated rock exerted on the wall
-  /// goes on acting until a stage takes it away.
+  /// Takes an opening out of the rock: a round. The traction that the excavated rock exerted on the
+  /// walls that it leaves goes on acting until a stage takes it away; that of every round has a
+  /// part of its own. What is left of a block is where it was as a part of the whole; joints
+  /// remember their slip, bolts and linings what they carry. Blocks get new numbers:
+  /// `RockMass::origins`.
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]; by default
   ///                        see `smallest_piece_of`
   /// @param progress        asked now and then whether to go on
-  /// @throws InvalidInput   the rock has already moved, or the opening does not fit (see `carve`)
-  /// @throws Stopped        the solver is then of no more use
+  /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt or a lining that
+  /// stands
+  ///                        holds rock in it; the solver is as it was
+  /// @throws Stopped        the same, but before the first round: the solver is then of no more use
   void excavate(const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
                 const Progress& progress = {});
 
@@ -104,12 +113,18 @@ class ComposedSolver {
                       const InterfaceLaw& interface_law);
 
   /// Lets the rock and its supports find their equilibrium at a residual wall traction
-  /// on the wall (relaxation before support: > 0; the final state: 0).
+  /// on the wall (relaxation before support: > 0; the final state: 0). Of several rounds each keeps
+  /// that part of its traction, or what was left of it before if that is less.
   /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before; a limit of
   ///                         the acceptance out of range
   /// @throws NumericalFault  see the method
   EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
                                 const Acceptance& acceptance = {}, const Progress& progress = {});
+
+  /// The same with a part of its own for every round, in the order in which they were excavated.
+  EquilibriumReport equilibrium(const std::vector<double>& wall_fractions,
+                                const Method& method = {}, const Acceptance& acceptance = {},
+                                const Progress& progress = {});
 
   /// What `creep` found at a time.
   struct CreepState {
@@ -136,7 +151,7 @@ class ComposedSolver {
       const double step = std::min(longest, duration - time);
       system_.joints.creep(system_.displacement.data(), step);
       time = duration - time <= longest ? duration : time + step;
-      states.push_back({time, equilibrium(system_.wall_fraction, method, acceptance)});
+      states.push_back({time, equilibrium(walls_.fractions(), method, acceptance)});
       if (states.back().report.verdict != Verdict::stable || !seen(states.back())) break;
     }
     return states;
@@ -159,6 +174,8 @@ class ComposedSolver {
     return system_.supports.template first<LiningType>();
   }
   [[nodiscard]] int bolt_count() const { return bolt_count_; }
+  /// Of every round that was excavated, the part of its wall traction that still acts.
+  [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
   /// Number of the first node of the first lining among the bodies of the system; -1 without
@@ -179,7 +196,15 @@ class ComposedSolver {
                  const InSitu& in_situ, ContactPoints points);
 
   void build(const Progress& progress);
-  void hold_wall();
+  /// All that the rock in the opening has exerted on the walls goes on acting.
+  /// @param touched  the blocks that it touched; null: all, nothing has moved yet
+  void hold_wall(const BodyMarks* touched = nullptr);
+  /// Takes a round out of rock that has moved, or has been excavated before.
+  void excavate_further(const typename Geometry::Opening& opening, double smallest_piece,
+                        const Progress& progress);
+  /// Makes the next stage one that brings the walls to these parts of their traction.
+  /// @return  the largest of them
+  double aim_at(const std::vector<double>& wall_fractions);
 
   /// The intersections of a bar without the bodies that are detached.
   [[nodiscard]] std::vector<BlockIntersection> intersections_of_present_rock(
@@ -191,8 +216,10 @@ class ComposedSolver {
   InSitu in_situ_;
   ContactPoints points_;
   SystemType system_;
+  WallTractions walls_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
+  double update_limit_ = Acceptance{}.refind_limit;  ///< of the last search
   int bolt_count_ = 0;
   bool started_ = false;
 };
@@ -254,9 +281,9 @@ ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointL
 template <class Models>
 void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
                                       double smallest_piece, const Progress& progress) {
-  if (started_) throw InvalidInput("excavate: the rock has already moved; excavate first");
-  system_.shapes.reset();  // they are those of the mass
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
+  if (started_ || walls_.count() > 0) return excavate_further(opening, smallest_piece, progress);
+  system_.shapes.reset();  // they are those of the mass
   const bool is_shared = mass_.use_count() > 1;
   mass_ = std::make_shared<RockMass<Geometry>>(
       carve(is_shared ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
@@ -265,13 +292,57 @@ void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
   hold_wall();
 }
 
-/// All that the rock in the opening has exerted on the wall goes on acting.
 template <class Models>
-void ComposedSolver<Models>::hold_wall() {
+void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& opening,
+                                              double smallest_piece, const Progress& progress) {
+  const auto mass = std::make_shared<RockMass<Geometry>>(
+      carve(RockMass<Geometry>(*mass_), opening, smallest_piece, progress));
+  SystemType next(joint_laws_, joint_laws_.stiffest());
+  std::vector<double> measures;
+  detail::InitialModel<Detector, SystemType> model(*mass, in_situ_, points_, next, progress);
+  model.add_bodies(measures);
+  model.add_contacts(joint_laws_);
+  model.add_edges();
+  next.shapes = detail::shapes_of<SystemType>(mass);
+  detail::CarryOver<SystemType> carry(system_, mass->origins, next, mass->domain.tolerance());
+  carry.run();
+  if (system_.has_found_again())
+    find_contacts_again(next, 2 * update_limit_, progress);
+  else
+    model.set_initial_stress();
+  // From here on nothing throws.
+  walls_.carry_over([&](const Eigen::VectorXd& load) { return carry.carry_load(load); });
+  const BodyMarks touched = carry.touched();
+  std::vector<int> fallen;
+  for (const int b : fallen_)
+    for (int piece = carry.pieces(b).first; piece < carry.pieces(b).second; ++piece)
+      fallen.push_back(piece);
+  measures.resize(static_cast<std::size_t>(next.body_count()), 0.0);
+  system_ = std::move(next);
+  mass_ = mass;
+  measures_ = std::move(measures);
+  fallen_ = std::move(fallen);
+  hold_wall(&touched);
+}
+
+template <class Models>
+void ComposedSolver<Models>::hold_wall(const BodyMarks* touched) {
+  (void)aim_at(walls_.fractions());
   Eigen::VectorXd f;
   system_.forces(system_.displacement, f);
-  system_.wall_load = opposite(f);
-  system_.wall_fraction = 1;
+  for (int b = 0; touched != nullptr && b < system_.body_count(); ++b)
+    if (!is_marked(*touched, b)) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
+  walls_.add(opposite(f));
+  (void)aim_at(std::vector<double>(static_cast<std::size_t>(walls_.count()), 0.0));
+}
+
+template <class Models>
+double ComposedSolver<Models>::aim_at(const std::vector<double>& wall_fractions) {
+  WallTractions::Stage stage = walls_.stage_to(wall_fractions, system_.load.size());
+  system_.wall_load = std::move(stage.going);
+  system_.wall_held = std::move(stage.held);
+  system_.wall_fraction = stage.from;
+  return stage.to;
 }
 
 template <class Models>
@@ -369,12 +440,25 @@ template <class Models>
 EquilibriumReport ComposedSolver<Models>::equilibrium(double wall_fraction, const Method& method,
                                                       const Acceptance& acceptance,
                                                       const Progress& progress) {
-  require(wall_fraction >= 0 && wall_fraction <= system_.wall_fraction, "wall traction",
-          wall_fraction, "0 to 1 and no more than was left before");
+  require(wall_fraction >= 0 && wall_fraction <= walls_.largest(), "wall traction", wall_fraction,
+          "0 to 1 and no more than was left before");
+  std::vector<double> fractions = walls_.fractions();
+  for (double& fraction : fractions) fraction = std::min(fraction, wall_fraction);
+  return equilibrium(fractions, method, acceptance, progress);
+}
+
+template <class Models>
+EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>& wall_fractions,
+                                                      const Method& method,
+                                                      const Acceptance& acceptance,
+                                                      const Progress& progress) {
   acceptance.check();
+  const double to = aim_at(wall_fractions);
   started_ = true;
-  const SearchContext context{acceptance, &measures_, wall_fraction, progress, open_length(*mass_)};
+  update_limit_ = acceptance.refind_limit;
+  const SearchContext context{acceptance, &measures_, to, progress, open_length(*mass_)};
   EquilibriumReport report = method.find(system_, context);
+  walls_.reach(system_.wall_fraction);
   fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
   return report;
 }
