@@ -41,11 +41,14 @@ const InSitu deep{.density = 2700, .k0 = 0.9, .surcharge = 2e7};
 const CoulombJoint frictional({5e9, 5e8, 35 * degree});
 const InSitu shallow{.density = 2700, .k0 = 0.8, .surcharge = 5e5};
 
+const CoulombJoint elastic_coulomb({1e11, 4e10, 60 * degree});
+const LiningSection shell = LiningSection::rectangular(0.1, 20e9);
+
 SimplePolygon box(double x0, double y0, double x1, double y1) {
   return SimplePolygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
 }
-const SimplePolygon whole = box(-3, -3, 3, 3), heading = box(-3, 0.5, 3, 3),
-                    bench = box(-3, -3, 3, 0.5);
+const SimplePolygon whole = box(-3, -3, 3, 3), heading = box(-3, 0, 3, 3),
+                    bench = box(-3, -3, 3, 0);
 const Domain<2> ground = domain_around(whole, 24, 8, 8);
 
 template <class Tunnel>
@@ -111,7 +114,8 @@ TEST_SUITE("solver/construction") {
   TEST_CASE("elastic rock: two tunnels in either order, each relaxed by its own steps") {
     const SimplePolygon left = box(-6, -1.5, -3, 1.5), right = box(2, -2, 5, 1.5);
     const auto rock = jointed_rock(ground, 3);
-    Elastic<Planar> first(rock, elastic, deep), second(rock, elastic, deep), together(rock, elastic, deep);
+    Elastic<Planar> first(rock, elastic, deep), second(rock, elastic, deep),
+        together(rock, elastic, deep);
     first.excavate(left, 0);
     settle(first, 0.4);
     first.excavate(right, 0);
@@ -193,6 +197,112 @@ TEST_SUITE("solver/construction") {
       const Eigen::VectorXd u = next.system().displacement;
       REQUIRE(next.equilibrium(std::vector<double>{0.2, 1}).verdict == Verdict::stable);
       CHECK((next.system().displacement - u).norm() <= 1e-2 * u.norm());
+    }
+  }
+
+  TEST_CASE("an arch in the heading carries on over the bench") {
+    Solver<> tunnel(jointed_rock(ground, 2), frictional, shallow);
+    tunnel.excavate(heading);
+    settle(tunnel, 0.6, {});
+    tunnel.install_lining(
+        lining_frame(tunnel.mass(), {.nodes = 36, .from = 30 * degree, .to = 150 * degree}), shell,
+        CoulombJoint({1e9, 1e9, 30 * degree}));
+    settle(tunnel, 0.2, {});
+    const auto before = lining_forces(tunnel);
+    tunnel.excavate(bench);
+    const auto after = lining_forces(tunnel);
+    REQUIRE(after.size() == before.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      CHECK(after[k].thrust == before[k].thrust);
+      CHECK(after[k].moment == before[k].moment);
+    }
+    CHECK(tunnel.equilibrium(std::vector<double>{0.2, 1}).verdict == Verdict::stable);
+    CHECK(tunnel.equilibrium(std::vector<double>{0.2, 0.5}).verdict == Verdict::stable);
+    CHECK(lining_forces(tunnel)[10].thrust != before[10].thrust);
+  }
+
+  TEST_CASE("after contact updates, too, excavating alone moves nothing") {
+    const Acceptance updating{.refind_limit = 2e-4};
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      CAPTURE(seed);
+      Solver<> tunnel(jointed_rock(ground, seed), frictional, shallow);
+      tunnel.excavate(heading);
+      tunnel.install_bolt({{0, 3}, {0, 6}}, AxialBolt({.axial_stiffness = 2e8}));
+      settle(tunnel, 0.2, updating);
+      REQUIRE(tunnel.system().has_found_again());
+      const double largest = tunnel.system().largest_translation(tunnel.system().displacement);
+      Solver<> next = tunnel;
+      next.excavate(bench);
+      REQUIRE(next.equilibrium(std::vector<double>{0.2, 1}, {}, updating).verdict ==
+              Verdict::stable);
+      // A block that is not cut has the same centre; it stays within what an update moves it.
+      double apart = 0;
+      std::size_t same = 0;
+      for (std::size_t b = 0; b < next.mass().bodies.size(); ++b) {
+        const auto old = static_cast<std::size_t>(next.mass().origins[b]);
+        const Vec2 centre = next.mass().bodies[b].properties.centroid;
+        if (centre != tunnel.mass().bodies[old].properties.centroid) continue;
+        ++same;
+        apart = std::max(apart, (next.displacement_of(static_cast<int>(b), centre) -
+                                 tunnel.displacement_of(static_cast<int>(old), centre))
+                                    .norm());
+      }
+      CHECK(same > 100);
+      CHECK(apart < 0.03 * largest);
+    }
+  }
+
+  TEST_CASE("what has detached stays detached, under its new numbers") {
+    Solver<> tunnel(jointed_rock(ground, 4), CoulombJoint({5e9, 5e8, 25 * degree}), shallow);
+    tunnel.excavate(heading);
+    (void)tunnel.equilibrium();
+    REQUIRE(!tunnel.fallen().empty());
+    std::vector<Vec2> places;
+    for (const int b : tunnel.fallen())
+      places.push_back(tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.centroid);
+    tunnel.excavate(box(-8, -6, -6, -4));  // far from there
+    REQUIRE(tunnel.fallen().size() == places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto b = static_cast<std::size_t>(tunnel.fallen()[k]);
+      CHECK(tunnel.mass().bodies[b].properties.centroid == places[k]);
+      CHECK(tunnel.system().body(tunnel.fallen()[k]).is_gone);
+    }
+  }
+
+  TEST_CASE("an island between two rounds hangs on nothing and falls") {
+    Solver<> tunnel(slice(ground, {}, {}), elastic_coulomb, shallow);
+    const auto c_shape = [](double side) {
+      std::vector<Vec2> v{{0, 3}, {3, 3}, {3, -3}, {0, -3}, {0, -1}, {1, -1}, {1, 1}, {0, 1}};
+      for (Vec2& p : v) p.x() *= side;
+      if (side > 0) std::reverse(v.begin(), v.end());
+      return SimplePolygon(v);
+    };
+    tunnel.excavate(c_shape(1), 0);
+    settle(tunnel, 0, {});
+    CHECK(tunnel.fallen().empty());
+    tunnel.excavate(c_shape(-1), 0);
+    const EquilibriumReport report = tunnel.equilibrium();
+    CHECK(report.verdict == Verdict::stable);
+    CHECK(report.fallen.size() == 1);
+    CHECK(report.fallen_measure == doctest::Approx(4));
+  }
+
+  TEST_CASE("supports that would lose their rock are named, and nothing is changed") {
+    Solver<> tunnel(jointed_rock(ground, 2), frictional, shallow);
+    tunnel.excavate(heading);
+    settle(tunnel, 0.5, {});
+    Solver<> bolted = tunnel, lined = tunnel;
+    bolted.install_bolt({{0, 0.5}, {0, -6}}, AxialBolt({.axial_stiffness = 2e8}));
+    lined.install_lining(lining_frame(lined.mass(), {.nodes = 36}), shell,
+                         CoulombJoint({1e9, 1e9, 30 * degree}));
+    CHECK_THROWS_WITH_AS(bolted.excavate(bench),
+                         doctest::Contains("excavate: bolt 0 holds rock at"), InvalidInput);
+    CHECK_THROWS_WITH_AS(lined.excavate(bench), doctest::Contains("the rock behind the lining at"),
+                         InvalidInput);
+    for (Solver<>* it : {&bolted, &lined}) {
+      CHECK(it->mass().openings.size() == 1);
+      CHECK(it->wall_fractions() == std::vector<double>{0.5});
+      CHECK(it->equilibrium(0.4).verdict == Verdict::stable);
     }
   }
 
