@@ -64,10 +64,12 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
     travels_.resize(kept);
   }
   void take_over(const Heirs<Dim>& heirs) override {
-    for (Spring& s : springs_) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      Spring& s = springs_[k];
       const auto follow = [&](int& body, Vec<Dim>& joint, Vec<Dim>& anchor) {
         const Heir<Dim> at_joint = heirs(body, joint), at_anchor = heirs(body, anchor);
-        if (at_joint.body < 0 || at_anchor.body != at_joint.body)
+        if (at_joint.is_excavated || at_anchor.is_excavated)
           throw InvalidInput(
               message({"excavate: bolt ", s.bolt, " holds rock at ", text_of<Dim>(at_anchor.place),
                        " m that is to be excavated: install it afterwards, or end it outside"}));
@@ -77,7 +79,12 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
       };
       follow(s.a, s.joint_a, s.arm_a);
       follow(s.b, s.joint_b, s.arm_b);
+      if (s.a < 0 || s.b < 0) continue;
+      springs_[kept] = springs_[k];
+      travels_[kept++] = travels_[k];
     }
+    springs_.resize(kept, Spring{});
+    travels_.resize(kept);
   }
   void list_broken(std::vector<bool>& broken) const override {
     for (const Spring& s : springs_) broken.push_back(s.broken);

@@ -29,9 +29,10 @@ using BodyMarks = std::vector<char>;
 /// What has become of a point of a body where rock has been excavated.
 template <int Dim>
 struct Heir {
-  int body;        ///< its new number; -1: the point lay on rock that is gone
-  Vec<Dim> arm;    ///< from the centre that it has now [m]
-  Vec<Dim> place;  ///< of the point in the in-situ state [m]
+  int body;           ///< its new number; -1: the point lay on rock that is gone
+  bool is_excavated;  ///< by that; else what was left there was too small a piece
+  Vec<Dim> arm;       ///< from the centre that it has now [m]
+  Vec<Dim> place;     ///< of the point in the in-situ state [m]
 };
 /// heirs(body, arm): of a point at this lever from the centre of a body.
 template <int Dim>

@@ -304,7 +304,8 @@ void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
   model.add_contacts(joint_laws_);
   model.add_edges();
   next.shapes = detail::shapes_of<SystemType>(mass);
-  detail::CarryOver<SystemType> carry(system_, mass->origins, next, mass->domain.tolerance());
+  detail::CarryOver<SystemType> carry(system_, mass->origins, next, mass->domain.tolerance(),
+                                      opening);
   carry.run();
   if (system_.has_found_again())
     find_contacts_again(next, 2 * update_limit_, progress);

@@ -32,13 +32,20 @@ class CarryOver {
  public:
   static constexpr int dim = System::dim;
   static constexpr int dof = System::dof;
+  using Opening = typename System::GeometryType::Opening;
 
   /// @param old      the model so far: blocks, the ground, nodes of linings
   /// @param origins  of every block of the next one, which block it is a piece of; ascending
   /// @param next     its blocks, the ground and the contacts of the in-situ state; shapes
   /// @param tolerance  of the domain [m]
-  CarryOver(const System& old, const std::vector<int>& origins, System& next, double tolerance)
-      : old_(old), next_(next), tolerance_(tolerance), ground_(next.body_count() - 1) {
+  /// @param opening  what is excavated; it outlives this
+  CarryOver(const System& old, const std::vector<int>& origins, System& next, double tolerance,
+            const Opening& opening)
+      : old_(old),
+        next_(next),
+        tolerance_(tolerance),
+        opening_(opening),
+        ground_(next.body_count() - 1) {
     old_ground_ = static_cast<int>(old.shapes->size()) - 1;
     first_piece_.assign(index(old_ground_) + 2, 0);
     for (const int b : origins) ++first_piece_[index(b) + 1];
@@ -75,20 +82,18 @@ class CarryOver {
     return {first_piece_[index(old)], first_piece_[index(old) + 1]};
   }
 
-  /// What is left of a load on all bodies; of a body in several pieces the heaviest takes it.
+  /// What is left of a load on the blocks; of one in several pieces the heaviest takes it.
+  /// @param load  may end before the nodes of linings that came later
   [[nodiscard]] Eigen::VectorXd carry_load(const Eigen::VectorXd& load) const {
     Eigen::VectorXd next = Eigen::VectorXd::Zero(next_.displacement.size());
-    for (int b = 0; b < old_.body_count(); ++b) {
-      int heir = number(b);
-      if (b < old_ground_) {
-        const auto [first, last] = pieces(b);
-        if (first == last) continue;
-        heir = first;
-        for (int k = first + 1; k < last; ++k)
-          if (next_.body(k).weight > next_.body(heir).weight) heir = k;
-      }
+    for (int b = 0; b < old_ground_; ++b) {
+      const auto [first, last] = pieces(b);
+      if (first == last) continue;
+      int heir = first;
+      for (int k = first + 1; k < last; ++k)
+        if (next_.body(k).weight > next_.body(heir).weight) heir = k;
       Fixed<dof, 1> on_body = part<dof>(load, dof * b);
-      if (b < old_ground_ && !is_unchanged(b)) {
+      if (!is_unchanged(b)) {
         const Vec<dim> shift = old_.arm(b, next_.body(heir).centre);
         add_at<dof - dim>(on_body.data() + dim, moment_of(Vec<dim>(-shift), part<dim>(on_body, 0)));
       }
@@ -168,10 +173,11 @@ class CarryOver {
   [[nodiscard]] Heir<dim> heir(int b, const Vec<dim>& arm) const {
     const Pose<dim> pose = old_.pose_when_found(b);
     const Vec<dim> place = old_.body(b).centre + Vec<dim>(transposed_product(pose.rotation, arm));
-    if (b >= old_ground_) return {number(b), arm, place};
+    if (b >= old_ground_) return {number(b), false, arm, place};
     const int piece = piece_at(b, place);
-    if (piece < 0 || is_unchanged(b)) return {piece, arm, place};
-    return {piece, Vec<dim>(arm - old_.arm(b, next_.body(piece).centre)), place};
+    if (piece < 0) return {piece, opening_.contains(place), arm, place};
+    if (is_unchanged(b)) return {piece, false, arm, place};
+    return {piece, false, Vec<dim>(arm - old_.arm(b, next_.body(piece).centre)), place};
   }
   /// The piece of a block in which a place of the in-situ state lies; -1: in none.
   [[nodiscard]] int piece_at(int b, const Vec<dim>& place) const {
@@ -321,6 +327,7 @@ class CarryOver {
   const System& old_;
   System& next_;
   double tolerance_;
+  const Opening& opening_;
   int ground_, old_ground_ = 0;
   std::vector<int> origins_, first_piece_;
 };
