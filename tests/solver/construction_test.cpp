@@ -235,8 +235,12 @@ TEST_SUITE("solver/construction") {
             // Of stresses of 1e6 Pa: 1e-9 of the force, and of displacements rounded at 1e-18 m.
             CHECK(std::abs(now.normal - then.normal) <= 1e-9 * std::abs(then.normal) + 1e-6);
             CHECK((now.tangential - then.tangential).norm() <= 1e-9 * std::abs(then.normal) + 1e-6);
-            const auto& state = before.points()[static_cast<std::size_t>(same)].state;
-            slipped += state.plastic_slip.norm() > 1e-6;
+            // A joint that slides carries the same without its history, but not when it turns back.
+            const auto slip = before.points()[static_cast<std::size_t>(same)].state.plastic_slip;
+            CHECK(next.system()
+                      .joints.points()[static_cast<std::size_t>(c.first + k)]
+                      .state.plastic_slip == slip);
+            slipped += slip.norm() > 1e-6;
             ++compared;
           }
         }
@@ -250,11 +254,14 @@ TEST_SUITE("solver/construction") {
     tunnel.excavate(heading);
     settle(tunnel, 0.6, {});
     tunnel.install_lining(
-        lining_frame(tunnel.mass(), {.nodes = 36, .from = 30 * degree, .to = 150 * degree}), shell,
+        lining_frame(tunnel.mass(), {.nodes = 72, .from = 2 * degree, .to = 178 * degree}), shell,
         CoulombJoint({1e9, 1e9, 30 * degree}));
     settle(tunnel, 0.2, {});
     const auto before = lining_forces(tunnel);
+    const double out_of_balance = unbalance(tunnel);
     tunnel.excavate(bench);
+    // The lowest nodes bear on blocks that the bench cuts.
+    CHECK(unbalance(tunnel) <= out_of_balance * (1 + 1e-9));
     const auto after = lining_forces(tunnel);
     REQUIRE(after.size() == before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
