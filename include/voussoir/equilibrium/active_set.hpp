@@ -55,8 +55,7 @@ class ActiveSet {
   /// are left without meaning.
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
-    for (const int b : bodies_)
-      set_part<dof>(f, dof * b, system_->load_on(b));
+    for (const int b : bodies_) set_part<dof>(f, dof * b, system_->load_on(b));
     system_->joints.template add_forces<History>(joints_, u.data(), f.data());
     system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
     system_->interface.template add_forces<History>(interface_, u.data(), f.data());

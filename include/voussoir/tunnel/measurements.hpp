@@ -83,8 +83,8 @@ requires(Solver::dim == 3)
 /// Of rock that moves.
 /// @param mass  from which the run was made
 template <class JointLaw, class InterfaceLaw, class Geometry>
-[[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
-                                                  const RockMass<Geometry>& mass) {
+[[nodiscard]] std::vector<WallMotion> wall_motion(
+    const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass) {
   return detail::wall_motion_of(
       mass, [&](int b, const auto&) { return !run.body(b).is_gone; },
       [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });

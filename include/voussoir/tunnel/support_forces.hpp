@@ -105,7 +105,7 @@ template <class Solver, int Dim = Solver::SystemType::dim>
   for (const auto* lining : solver.linings())
     for (const auto& e : lining->members())
       members.push_back(detail::lining_member<Dim>(system.body(e.i).centre, system.body(e.j).centre,
-                                                 e.end_forces(system.displacement.data())));
+                                                   e.end_forces(system.displacement.data())));
   return members;
 }
 /// The same of a lining that moves, where its nodes are now.

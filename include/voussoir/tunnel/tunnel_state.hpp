@@ -160,9 +160,9 @@ void add_support(TunnelState<Geometry>& state, const Run& run,
 /// @param mass      from which the run was made: its body b is body b of the run
 /// @param supports  what `add_bolts` and `add_lining` gave, if anything
 template <class JointLaw, class InterfaceLaw, class Geometry, class... Supports>
-[[nodiscard]] TunnelState<Geometry> state_of(const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
-                                             const RockMass<Geometry>& mass,
-                                             const Supports&... supports) {
+[[nodiscard]] TunnelState<Geometry> state_of(
+    const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass,
+    const Supports&... supports) {
   TunnelState<Geometry> state;
   for (std::size_t k = 0; k < mass.bodies.size(); ++k) {
     const int b = static_cast<int>(k);
