@@ -27,7 +27,9 @@ TEST_SUITE("dynamics/lining_tiles") {
     REQUIRE(rock.carving.dropped_pieces > 0);
     const auto run = moving_rock(rock, CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});
     const auto frame = lining_frame(rock, {.nodes = 36});
-    const detail::LiningTiles<Planar, Dynamics<2, CoulombJoint>> tiles(run, frame, thickness);
+    const LiningSurface<Planar> tiles(
+        frame, thickness, [&](int b) { return run.motion(b); },
+        [&](int b) { return run.body(b).is_gone; });
     std::vector<double> on_rock(36, 0.0), whole(36, 0.0);
     for (const auto& c : frame.contacts)
       on_rock[static_cast<std::size_t>(c.node)] += c.facet.length();

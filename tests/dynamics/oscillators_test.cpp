@@ -52,7 +52,8 @@ class LevelSpring : public SupportModel<LevelSpring, 2> {
   void add_forces(const double*, double*, const BodyMarks*) const override {}
   void add_stiffness(const StiffnessSink&) const override {}
   void add_tangent(const double*, const BodyMarks*, const StiffnessSink&) const override {}
-  void set_reference(const Poses&, const Poses&, const double*, const double*) override {}
+  void to_frames(const Poses&, const double*) override {}
+  void from_frames(const Poses&, const double*) override {}
   static constexpr double height = 0.02;  ///< of the centre: low, so that it does not rock
 
  private:

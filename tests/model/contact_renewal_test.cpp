@@ -157,9 +157,8 @@ TEST_SUITE("model/contact_renewal") {
       }
       const std::vector<BodyRole> roles(bodies.size(), BodyRole::block);
       const auto law_of = [](std::size_t, const Vec<dim>&) { return 0; };
-      ContactNetwork<dim, CoulombJoint> network(
-          LawsBySet<CoulombJoint>(CoulombJoint({5e9, 5e8, 35 * degree})), ContactPoints::corners,
-          0);
+      ContactNetwork<dim, CoulombJoint> network({CoulombJoint({5e9, 5e8, 35 * degree})}, 5e9, {},
+                                                {}, ContactPoints::corners, 0);
       double gained = 0;
       network.find(tracker, bodies, roles, law_of, gained);
       network.prescribe(

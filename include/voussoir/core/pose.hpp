@@ -29,6 +29,18 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
   return diagonal_of<3>(1) + ratio * skew + (0.5 * half_ratio * half_ratio * skew) * skew;
 }
 
+/// The inverse: -pi < angle <= pi.
+[[nodiscard]] inline Spin<2> spin_of(const Rotation<2>& r) {
+  return Spin<2>(std::atan2(r(1, 0), r(0, 0)));
+}
+/// The inverse: axis times angle, 0 <= angle < pi. Within 1e-8 of half a turn the axis is lost.
+[[nodiscard]] inline Spin<3> spin_of(const Rotation<3>& r) {
+  const Spin<3> twice(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));  // axis 2 sin(t)
+  const double sine = 0.5 * length_of(twice), cosine = 0.5 * (r(0, 0) + r(1, 1) + r(2, 2) - 1);
+  const double angle = std::atan2(sine, cosine);
+  return (sine > 1e-8 ? 0.5 * angle / sine : 0.5) * twice;
+}
+
 /// Where a rigid body is: a point p of its own frame lies at position + rotation p.
 template <int Dim>
 struct Pose {

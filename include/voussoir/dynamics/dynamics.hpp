@@ -54,9 +54,15 @@ class Dynamics : public MovingBodies<Dim> {
   /// @param law_of_cut  for every label of the blocks' faces the index of its law
   Dynamics(const LawsBySet<JointLaw>& laws, std::vector<int> law_of_cut,
            const DynamicsSettings& settings = {})
+      : Dynamics(laws.all(), laws.stiffest(), {}, std::move(law_of_cut), settings) {}
+  /// @param wall_stiffness  of smooth walls [Pa/m]
+  /// @param interface_laws  of linings
+  Dynamics(std::vector<JointLaw> laws, double wall_stiffness,
+           std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
+           const DynamicsSettings& settings)
       : settings_(settings),
-        law_of_cut_(std::move(law_of_cut)),
-        network_(laws, settings.points, settings.viscous_damping),
+        network_(std::move(laws), wall_stiffness, std::move(interface_laws), std::move(law_of_cut),
+                 settings.points, settings.viscous_damping),
         stepping_(settings.threads) {
     settings.check();
   }
@@ -75,9 +81,13 @@ class Dynamics : public MovingBodies<Dim> {
   /// @throws InvalidInput  a node without mass or inertia
   int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
                        const InterfaceLaw& interface_law) {
+    return add_lining_nodes(nodes, network_.add_interface_law(interface_law));
+  }
+  /// @param law  index into those of the rock-lining interface
+  int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes, int law) {
     for (const auto& node : nodes) node.check();
     const int first = this->body_count();
-    network_.set_interface_law(interface_law, first, static_cast<int>(nodes.size()));
+    network_.set_interface_law(law, first, static_cast<int>(nodes.size()));
     for (const auto& node : nodes) this->add_node(node, BodyRole::lining);
     return first;
   }
@@ -86,6 +96,18 @@ class Dynamics : public MovingBodies<Dim> {
     fix(b);
     bodies_[index(b)].is_gone = true;
     find_contacts();
+  }
+  /// The same before anything is computed.
+  void leave_out(int b) {
+    this->stop(b);
+    bodies_[index(b)].is_gone = true;
+  }
+  /// Contacts of a model that is set in motion, before anything is computed (see
+  /// `ContactNetwork::carry_on`).
+  void carry_on(typename Network::template Former<JointLaw> joints,
+                typename Network::template Former<SmoothWall> walls,
+                typename Network::template Former<InterfaceLaw> interface) {
+    network_.carry_on(std::move(joints), std::move(walls), std::move(interface));
   }
   /// Holds a block where it is from now on.
   void fix(int b) {
@@ -124,6 +146,11 @@ class Dynamics : public MovingBodies<Dim> {
   /// Loads every block with what it needs to be in equilibrium now, besides its other loads. This
   /// is what an excavation takes away: `set_held(fraction)` leaves a part of it.
   void hold();
+  /// The same with these loads, one for every body.
+  void hold(std::vector<Load<Dim>> loads) {
+    held_ = std::move(loads);
+    set_held(1);
+  }
   void set_held(double fraction) {
     held_fraction_ = fraction;
     fresh_ = false;
@@ -134,6 +161,9 @@ class Dynamics : public MovingBodies<Dim> {
 
   [[nodiscard]] const DynamicsSettings& settings() const { return settings_; }
   [[nodiscard]] const auto& joints() const { return network_.joints(); }
+  [[nodiscard]] const auto& walls() const { return network_.walls(); }
+  [[nodiscard]] const auto& interface() const { return network_.interface(); }
+  [[nodiscard]] const SupportSet<Dim>& supports() const { return supports_; }
   [[nodiscard]] double time() const { return time_; }  ///< [s]
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   [[nodiscard]] double step() const { return step_; }  ///< the last one [s]
@@ -247,7 +277,6 @@ class Dynamics : public MovingBodies<Dim> {
   int run_batch(int count, double step);
 
   DynamicsSettings settings_;
-  std::vector<int> law_of_cut_;  ///< empty: the first for all
   Network network_;
   detail::Stepping<Dim, Network> stepping_;
   static constexpr int lining_family = -1;
@@ -339,15 +368,13 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::take_in() {
 
 template <int Dim, class JointLaw, class InterfaceLaw>
 void Dynamics<Dim, JointLaw, InterfaceLaw>::find_contacts() {
-  const auto law_of = [this](std::size_t shape, const Vec<Dim>& normal) {
-    if (law_of_cut_.empty()) return 0;
+  const auto cut_of = [this](std::size_t shape, const Vec<Dim>& outward) {
     const auto& [part, b] = shapes_[shape];
     const Rotation<Dim> turn =
         home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
-    const int cut = cut_facing(part, Vec<Dim>(turn * normal));
-    return cut < 0 || index(cut) >= law_of_cut_.size() ? 0 : law_of_cut_[index(cut)];
+    return cut_facing(part, Vec<Dim>(turn * outward));
   };
-  if (!network_.find(*tracker_, bodies_, roles_, law_of, audit_.contact_updates)) return;
+  if (!network_.find(*tracker_, bodies_, roles_, cut_of, audit_.contact_updates)) return;
   stable_step_ = 0;
   fresh_ = false;
 }

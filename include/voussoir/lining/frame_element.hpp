@@ -66,6 +66,7 @@ struct FrameElement {
   /// Forces on the ends at displacement zero, element axes: not zero once contacts have been
   /// updated and the element has turned.
   Values start = zeros<Values>();
+  bool is_pinned = false;  ///< its nodes turn as they like: that strains it only where they cannot
 
   /// Forces on the two ends in element axes at displacement `u`.
   [[nodiscard]] Values end_forces(const double* u) const {
@@ -116,6 +117,7 @@ struct FrameElement {
     const Rotation<dim> now = axes_along(along, a);
     Values q = zeros<Values>();
     q[dof] = along.norm() - length;
+    if (is_pinned) return q;
     write_at(q.data() + dim, small_turn(now * a.rotation * transposed(at_rest)));
     write_at(q.data() + dof + dim, small_turn(now * b.rotation * transposed(at_rest)));
     return q;

@@ -19,6 +19,11 @@ struct LiningSection {
   double lateral_bending_stiffness = 0;  ///< in 3-D: E I out of the plane of the section [N m^2]
   double torsional_stiffness = 0;        ///< in 3-D: G J [N m^2]
 
+  /// Of the rectangle with these stiffnesses: sqrt(12 I / A) [m].
+  [[nodiscard]] double thickness() const {
+    return std::sqrt(12 * bending_stiffness / axial_stiffness);
+  }
+
   /// A rectangular section: shotcrete or concrete of thickness t, one metre wide, kappa = 5/6.
   /// @param thickness      [m], > 0 and <= 10
   /// @param young_modulus  E [Pa], >= 1e6;  @param poisson_ratio  -1 < nu < 0.5

@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_spring.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -35,6 +36,37 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
   void add(Spring spring) {
     springs_.push_back(std::move(spring));
     travels_.emplace_back();
+  }
+  /// Installs a bolt where bodies are now, free of force but for its pretension.
+  /// @param crossings  of its bar with joints, in the in-situ state
+  /// @param axis       of the bar there, towards its tip
+  /// @param share      1 / bolt spacing along the tunnel in 2-D [1/m], 1 in 3-D
+  /// @param frame_of   frame_of(body): its pose in the in-situ state, in the axes in which the set
+  ///                   knows it
+  /// @param span_of    span_of(spring): as it is now, in the axes of body a
+  template <class FrameOf, class SpanOf>
+  void install(const std::vector<BoltCrossingPoint<Dim>>& crossings, const Vec<Dim>& axis,
+               int number, int law, double share, FrameOf&& frame_of, SpanOf&& span_of) {
+    for (const BoltCrossingPoint<Dim>& at : crossings) {
+      const Pose<Dim> a = frame_of(at.a), b = frame_of(at.b);
+      Spring spring{};
+      spring.a = at.a;
+      spring.b = at.b;
+      spring.bolt = number;
+      spring.position = at.position;
+      spring.joint_a = transposed_product(a.rotation, Vec<Dim>(at.joint_a - a.position));
+      spring.joint_b = transposed_product(b.rotation, Vec<Dim>(at.joint_b - b.position));
+      spring.arm_a = spring.joint_a - at.before * transposed_product(a.rotation, axis);
+      spring.arm_b = spring.joint_b + at.after * transposed_product(b.rotation, axis);
+      spring.span = {transposed_product(a.rotation, at.initial),
+                     transposed_product(a.rotation, axis), zeros<Vec<Dim>>()};
+      const BoltSpan<Dim> present = span_of(spring);
+      spring.span.motion = -present.motion;
+      spring.span.jump = -present.jump;
+      spring.share = share;
+      spring.law = law;
+      add(spring);
+    }
   }
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
   [[nodiscard]] const Law& law_of(const Spring& s) const {
@@ -108,11 +140,11 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
     for (const Spring& s : springs_)
       if (is_chosen(s, chosen)) s.add_tangent(law_of(s), u, sink);
   }
-  void set_reference(const Poses& then, const Poses& now, const double* u_then,
-                     const double* u_now) override {
-    for (Spring& s : springs_)
-      s.set_reference(then[index(s.a)], now[index(s.a)], then[index(s.b)], now[index(s.b)], u_then,
-                      u_now);
+  void to_frames(const Poses& frames, const double* u) override {
+    for (Spring& s : springs_) s.to_frames(frames[index(s.a)], frames[index(s.b)], u);
+  }
+  void from_frames(const Poses& frames, const double* u) override {
+    for (Spring& s : springs_) s.from_frames(frames[index(s.a)], frames[index(s.b)], u);
   }
 
   void act(const Bodies& bodies, std::vector<Load<Dim>>& loads) override {

@@ -85,28 +85,33 @@ struct BoltSpring {
               derivative(spring, now, state, &BoltSpan<Dim>::jump, &BoltForce<Dim>::dowel), sink);
   }
 
-  /// See `Support::set_reference`; of its two bodies.
-  void set_reference(const Pose<Dim>& then_a, const Pose<Dim>& now_a, const Pose<Dim>& then_b,
-                     const Pose<Dim>& now_b, const double* u_then, const double* u_now) {
-    const BoltSpan<Dim> was = u_then != nullptr ? span_at(u_then) : span;
-    const Rotation<Dim> turn_a = now_a.rotation * transposed(then_a.rotation),
-                        turn_b = now_b.rotation * transposed(then_b.rotation);
-    // Of a point of b against one of a, since that reference.
-    const auto moved = [&](const Vec<Dim>& on_a, const Vec<Dim>& on_b) {
-      return Vec<Dim>((now_b.position + turn_b * on_b) - (then_b.position + on_b) -
-                      (now_a.position + turn_a * on_a) + (then_a.position + on_a));
-    };
-    const Vec<Dim> reach = was.initial + was.motion + moved(arm_a, arm_b);
-    const Vec<Dim> jump = was.jump + moved(joint_a, joint_b);
-    for (Vec<Dim>* arm : {&arm_a, &joint_a}) *arm = turn_a * *arm;
-    for (Vec<Dim>* arm : {&arm_b, &joint_b}) *arm = turn_b * *arm;
-    span = {turn_a * was.initial, turn_a * was.axis, zeros<Vec<Dim>>()};
-    const BoltSpan<Dim> linear = span_at(u_now);
-    span.motion = reach - span.initial - linear.motion;
-    span.jump = jump - linear.jump;
+  /// See `Support::to_frames`.
+  /// @param at_a, at_b  of its bodies
+  void to_frames(const Pose<Dim>& at_a, const Pose<Dim>& at_b, const double* u) {
+    const BoltSpan<Dim> was = u != nullptr ? span_at(u) : span;
+    const Vec<Dim> apart = at_b.position - at_a.position;
+    span.motion = in_axes_of(at_a, was.initial + was.motion - (apart + arm_b - arm_a));
+    span.jump = in_axes_of(at_a, was.jump - (apart + joint_b - joint_a));
+    span.initial = in_axes_of(at_a, was.initial);
+    span.axis = in_axes_of(at_a, was.axis);
+    for (Vec<Dim>* arm : {&arm_a, &joint_a}) *arm = in_axes_of(at_a, *arm);
+    for (Vec<Dim>* arm : {&arm_b, &joint_b}) *arm = in_axes_of(at_b, *arm);
+  }
+  /// See `Support::from_frames`.
+  void from_frames(const Pose<Dim>& at_a, const Pose<Dim>& at_b, const double* u) {
+    const BoltSpan<Dim> now = span_at(at_a, at_b);
+    for (Vec<Dim>* arm : {&arm_a, &joint_a}) *arm = at_a.rotation * *arm;
+    for (Vec<Dim>* arm : {&arm_b, &joint_b}) *arm = at_b.rotation * *arm;
+    span = {now.initial, now.axis, zeros<Vec<Dim>>()};
+    const BoltSpan<Dim> linear = span_at(u);
+    span.motion = now.motion - linear.motion;
+    span.jump = now.jump - linear.jump;
   }
 
  private:
+  [[nodiscard]] static Vec<Dim> in_axes_of(const Pose<Dim>& frame, const Vec<Dim>& v) {
+    return transposed_product(frame.rotation, v);
+  }
   using Lever = Fixed<dof, Dim>;
   [[nodiscard]] static Lever lever(const Vec<Dim>& arm) {
     Lever l;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -16,6 +18,8 @@
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/contact_shares.hpp>
+#include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -37,13 +41,24 @@ class ContactNetwork {
   using Tracker = ContactTracker<Dim>;
   static constexpr int dof = Dim + spin_count<Dim>;
 
+  template <class Law>
+  using Former = detail::FormerContacts<Dim, typename Law::template State<Dim>>;
+
+  /// @param laws  of the joints;  @param wall_stiffness  of the walls [Pa/m]
+  /// @param interface_laws  of linings that there are already
+  /// @param law_of_cut  for every label of the blocks' faces the index of its law; empty: the first
   /// @param viscous_damping  ratio to critical of the dashpots [-]
-  ContactNetwork(const LawsBySet<JointLaw>& laws, ContactPoints rule, double viscous_damping)
-      : groups_(Joints(laws.all()), Walls({SmoothWall(laws.stiffest())}), Interface({})),
+  ContactNetwork(std::vector<JointLaw> laws, double wall_stiffness,
+                 std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
+                 ContactPoints rule, double viscous_damping)
+      : groups_(Joints(std::move(laws)), Walls({SmoothWall(wall_stiffness)}),
+                Interface(std::move(interface_laws))),
+        law_of_cut_(std::move(law_of_cut)),
         rule_(rule),
         viscous_damping_(viscous_damping) {}
 
   [[nodiscard]] const Joints& joints() const { return std::get<0>(groups_); }
+  [[nodiscard]] const Walls& walls() const { return std::get<1>(groups_); }
   [[nodiscard]] const Interface& interface() const { return std::get<2>(groups_); }
   [[nodiscard]] std::size_t size() const {
     std::size_t sum = 0;
@@ -65,12 +80,20 @@ class ContactNetwork {
     });
   }
 
+  /// @return  its index
+  int add_interface_law(const InterfaceLaw& law) { return std::get<2>(groups_).add_law(law); }
   /// Rock touches these bodies, nodes of one lining, by this law.
-  /// @param first  of the bodies;  @param count  of them
-  void set_interface_law(const InterfaceLaw& law, int first, int count) {
-    const std::int32_t number = std::get<2>(groups_).add_law(law);
+  /// @param number  of the law;  @param first  of the bodies;  @param count  of them
+  void set_interface_law(int number, int first, int count) {
     interface_law_of_.resize(index(first + count), -1);
     std::fill(interface_law_of_.begin() + first, interface_law_of_.end(), number);
+  }
+
+  /// The contacts of a model that is set in motion: those that are found first carry them on.
+  /// @param interface  laws numbered as by `set_interface_law`
+  void carry_on(Former<JointLaw> joints, Former<SmoothWall> walls, Former<InterfaceLaw> interface) {
+    former_ = {std::move(joints), std::move(walls), std::move(interface)};
+    is_everything_new_ = false;
   }
 
   /// Gives every contact that is open by no more than `closed` [m] the traction of a stress field,
@@ -95,49 +118,51 @@ class ContactNetwork {
 
   /// Updates contacts where bodies have moved.
   /// @param roles   of every body
-  /// @param law_of  law_of(shape, normal): index of the law of the face of a shape that looks
-  /// there
+  /// @param cut_of  cut_of(shape, outward): label of the face of a shape that looks there
   /// @param gained  energy that springs gain by their new form is added to it [J]
   /// @return  true if anything has changed
-  template <class LawOf>
+  template <class CutOf>
   bool find(Tracker& tracker, const Bodies& bodies, const std::vector<BodyRole>& roles,
-            LawOf&& law_of, double& gained) {
+            CutOf&& cut_of, double& gained) {
     // Bodies may have come since.
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
-    bool changed = false, relisted = first_end_.size() != bodies.size() + 1;
-    const auto kind_of = [&](const typename Tracker::Pair& pair) {
-      const BodyRole a = roles[index(tracker.body_of(pair.a))],
-                     b = roles[index(tracker.body_of(pair.b))];
-      if (a == BodyRole::wall || b == BodyRole::wall) return std::size_t{1};
-      return a == BodyRole::lining || b == BodyRole::lining ? std::size_t{2} : std::size_t{0};
+    Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
+                                       cut_of,  gained, first_end_.size() != bodies.size() + 1};
+    detail::ContactShares<Dim> shares(tracker);
+    std::vector<Left> left;
+    const auto leave = [&](Pair& pair) {
+      if (pair.contact >= 0)
+        left.push_back({std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b)),
+                        update.kind_of(pair), pair.contact});
+      pair.contact = -1;
     };
     tracker.update(
         bodies,
-        [&](typename Tracker::Pair& pair, const Contact<Dim>& found) {
-          group_of_kind(kind_of(pair), [&](auto& group, std::size_t kind) {
-            const bool in_place = renew(group, tracker, pair, found, bodies, kind, law_of, gained);
-            relisted = relisted || !in_place;
-          });
-          changed = true;
+        [&](Pair& pair, const Contact<Dim>& found) {
+          if (tracker.is_shared(pair)) {
+            leave(pair);
+            shares.add(pair, found, update.common_cut(pair, found));
+          } else {
+            renew(update, pair, found, nullptr);
+          }
         },
-        [&](typename Tracker::Pair& pair) {
-          group_of_kind(kind_of(pair), [&](auto& group, std::size_t) {
-            gained -= group.stored_energy(index(pair.contact), bodies);
-            auto& contact = group.contacts()[index(pair.contact)];
-            contact.last = contact.first;
-          });
-          pair.contact = -1;
-          ++unused_;
-          is_stale_[index(tracker.body_of(pair.a))] = 1;
-          is_stale_[index(tracker.body_of(pair.b))] = 1;
-          relisted = changed = true;
-        });
-    if (relisted) {
-      if (unused_ > size() / 16) tidy(tracker, kind_of);
+        leave);
+    std::sort(left.begin(), left.end());
+    shares.join([&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
+      take_nearest(update, left, pair, found);
+      renew(update, pair, found, area);
+    });
+    for (const Left& it : left)
+      if (it.contact >= 0) drop(update, it);
+    former_ = {};
+    is_everything_new_ = true;
+    if (update.relisted) {
+      if (unused_ > size() / 16)
+        tidy(tracker, [&](const Pair& pair) { return update.kind_of(pair); });
       list(bodies.size());
     }
-    return changed;
+    return update.changed;
   }
 
   /// Other laws for the joints from now on: as many, of the same kind.
@@ -189,46 +214,150 @@ class ContactNetwork {
   void each_group(Visit&& visit) const {
     std::apply([&](const auto&... group) { (visit(group), ...); }, groups_);
   }
-  /// Calls visit(group, kind).
+  /// Calls visit(group, former) with the contacts of a kind and those that they carry on.
   /// @param kind  0: joints, 1: walls, 2: interface
   template <class Visit>
   void group_of_kind(std::size_t kind, Visit&& visit) {
-    std::size_t k = 0;
-    each_group([&](auto& group) {
-      if (k++ == kind) visit(group, kind);
+    if (kind == 0)
+      visit(std::get<0>(groups_), std::get<0>(former_));
+    else if (kind == 1)
+      visit(std::get<1>(groups_), std::get<1>(former_));
+    else
+      visit(std::get<2>(groups_), std::get<2>(former_));
+  }
+
+  using Pair = typename Tracker::Pair;
+  /// What one update of contacts goes by, and what comes of it.
+  template <class CutOf>
+  struct Update {
+    Tracker& tracker;
+    const Bodies& bodies;
+    const std::vector<BodyRole>& roles;
+    const CutOf& cut_of;
+    double& gained;        ///< energy of springs [J]
+    bool relisted;         ///< contacts have other places in the lists
+    bool changed = false;  ///< anything has
+
+    /// 0: joints, 1: walls, 2: interface
+    [[nodiscard]] std::size_t kind_of(const Pair& pair) const {
+      const BodyRole a = roles[index(tracker.body_of(pair.a))],
+                     b = roles[index(tracker.body_of(pair.b))];
+      if (a == BodyRole::wall || b == BodyRole::wall) return 1;
+      return a == BodyRole::lining || b == BodyRole::lining ? 2 : 0;
+    }
+    /// -1 for the tiles of a lining, whose labels mean nothing.
+    [[nodiscard]] int common_cut(const Pair& pair, const Contact<Dim>& found) const {
+      if (kind_of(pair) == 2) return -1;
+      return detail::common_cut(
+          tracker, pair, found, [this](int b) { return roles[index(b)] == BodyRole::block; },
+          cut_of);
+    }
+  };
+  /// A contact that was, of bodies of several parts: taken up again or dropped.
+  struct Left {
+    std::pair<int, int> bodies;  ///< the lower first
+    std::size_t kind;
+    std::int32_t contact;  ///< -1: taken up
+    [[nodiscard]] bool operator<(const Left& other) const {
+      return std::tie(bodies, contact) < std::tie(other.bodies, other.contact);
+    }
+  };
+
+  /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
+  template <class U>
+  void take_nearest(const U& update, std::vector<Left>& left, Pair& pair,
+                    const Contact<Dim>& found) {
+    const std::pair<int, int> wanted =
+        std::minmax(update.tracker.body_of(pair.a), update.tracker.body_of(pair.b));
+    const Vec<Dim> place = middle_of(found) + update.tracker.shapes().grid_point(pair.a);
+    auto best = left.end();
+    double least = std::numeric_limits<double>::infinity();
+    group_of_kind(update.kind_of(pair), [&](auto& group, const auto&) {
+      auto it = std::lower_bound(left.begin(), left.end(), wanted,
+                                 [](const Left& x, const auto& value) { return x.bodies < value; });
+      for (; it != left.end() && it->bodies == wanted; ++it) {
+        if (it->contact < 0) continue;
+        const double distance =
+            detail::squared_distance<Dim>(update.bodies, group.contacts()[index(it->contact)],
+                                          group.points(), found.normal, place);
+        if (distance >= least) continue;
+        least = distance;
+        best = it;
+      }
     });
+    if (best != left.end()) pair.contact = std::exchange(best->contact, -1);
+  }
+
+  template <class U>
+  void drop(U& update, const Left& it) {
+    group_of_kind(it.kind, [&](auto& group, const auto&) {
+      update.gained -= group.stored_energy(index(it.contact), update.bodies);
+      auto& contact = group.contacts()[index(it.contact)];
+      contact.last = contact.first;
+    });
+    ++unused_;
+    is_stale_[index(it.bodies.first)] = is_stale_[index(it.bodies.second)] = 1;
+    update.relisted = update.changed = true;
   }
 
   /// Gives a pair the contact that was found.
+  /// @param joined  what several pairs have of it, see ContactRenewal
+  template <class U>
+  void renew(U& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined) {
+    group_of_kind(update.kind_of(pair), [&](auto& group, const auto& former) {
+      const bool in_place = renew(update, group, former, pair, found, joined);
+      update.relisted = update.relisted || !in_place;
+    });
+    update.changed = true;
+  }
   /// @return  true if the contact has kept its place in the lists
-  template <class Group, class LawOf>
-  bool renew(Group& group, const Tracker& tracker, typename Tracker::Pair& pair,
-             const Contact<Dim>& found, const Bodies& bodies, std::size_t kind, LawOf&& law_of,
-             double& gained) {
+  template <class U, class Group, class FormerGroup>
+  bool renew(U& update, Group& group, const FormerGroup& former, Pair& pair,
+             const Contact<Dim>& found, const ContactArea<Dim>* joined) {
+    const auto& [tracker, bodies] = std::tie(update.tracker, update.bodies);
+    const std::size_t kind = update.kind_of(pair);
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
     const std::size_t owner = of_a ? pair.a : pair.b;
     const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
+    const Vec<Dim>& from = tracker.shapes().grid_point(pair.a);
     std::vector<typename Group::Point> points;
     const typename Group::Contact* const old =
-        known ? &group.contacts()[index(pair.contact)] : nullptr;
-    detail::ContactRenewal<Dim, typename Group::State> renewal(bodies, group.points());
-    typename Group::Contact contact =
-        renewal.run(found, tracker.shapes().grid_point(pair.a), tracker.shapes(), owner, a, b,
-                    rule_, tracker.reach(), decltype(renewal)::Gaping::facing, old, points);
-    if (known)
+        known ? &group.contacts()[index(pair.contact)]
+              : former.nearest(bodies, a, b, found.normal, middle_of(found) + from);
+    const std::vector<typename Group::Point>& old_points = known ? group.points() : former.points();
+    detail::ContactRenewal<Dim, typename Group::State> renewal(bodies, old_points);
+    if (!is_everything_new_) renewal.start_at_rest();
+    const bool is_centred =
+        known ? old->is_centred : kind == 2 && old != nullptr && old->last - old->first == 1;
+    typename Group::Contact contact = renewal.run(
+        found, from, tracker.shapes(), owner, a, b, is_centred ? ContactPoints::centre : rule_,
+        tracker.reach(), decltype(renewal)::Gaping::facing, old, points, joined);
+    contact.is_centred = is_centred;
+    if (old != nullptr)
       contact.law = old->law;
     else if (kind == 0)
-      contact.law = law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal));
+      contact.law = law_of(update.cut_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal)));
     else if (kind == 2)
       contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
-    if (renewal.keeps_history()) keep_shear(group, *old, contact, bodies, points);
+    if (renewal.keeps_history()) keep_shear(group, *old, old_points, contact, bodies, points);
     if (viscous_damping_ > 0)
       contact.viscosity = viscosity(
           bodies[index(a)], bodies[index(b)],
           group.law_of(contact).joint_normal_stiffness() * std::max(found.measure, 1e-12));
+    return put(update, group, pair, contact, points);
+  }
+
+  /// Puts a contact in the place of the pair's old one, or behind all others.
+  template <class U, class Group>
+  bool put(U& update, Group& group, Pair& pair, typename Group::Contact& contact,
+           const std::vector<typename Group::Point>& points) {
+    const Bodies& bodies = update.bodies;
+    const bool known = pair.contact >= 0;
+    const typename Group::Contact* const old =
+        known ? &group.contacts()[index(pair.contact)] : nullptr;
     const auto count = static_cast<std::int32_t>(points.size());
-    const bool in_place = known && a == old->a && count == old->last - old->first;
-    if (known) gained -= group.stored_energy(index(pair.contact), bodies);
+    const bool in_place = known && contact.a == old->a && count == old->last - old->first;
+    if (known) update.gained -= group.stored_energy(index(pair.contact), bodies);
     if (in_place) {
       contact.first = old->first;
       std::copy(points.begin(), points.end(), group.points().begin() + contact.first);
@@ -243,9 +372,14 @@ class ContactNetwork {
       group.contacts().emplace_back();
     }
     group.contacts()[index(pair.contact)] = contact;
-    gained += group.stored_energy(index(pair.contact), bodies);
-    is_stale_[index(a)] = is_stale_[index(b)] = 1;
+    update.gained += group.stored_energy(index(pair.contact), bodies);
+    is_stale_[index(contact.a)] = is_stale_[index(contact.b)] = 1;
     return in_place;
+  }
+
+  /// Of a joint: the index of its law.
+  [[nodiscard]] std::int32_t law_of(int cut) const {
+    return cut >= 0 && index(cut) < law_of_cut_.size() ? law_of_cut_[index(cut)] : 0;
   }
 
   /// -1: no node of a lining.
@@ -253,20 +387,35 @@ class ContactNetwork {
     return index(body) < interface_law_of_.size() ? interface_law_of_[index(body)] : -1;
   }
 
-  /// Gives the new points of a contact the shear force of the old ones.
+  [[nodiscard]] static Vec<Dim> middle_of(const Contact<Dim>& found) {
+    Vec<Dim> sum = zeros<Vec<Dim>>();
+    for (const Vec<Dim>& p : found.polygon) sum += p;
+    return sum / static_cast<double>(found.polygon.size());
+  }
+
+  /// Gives the new points of a contact the shear force of the old ones, or of what they share of a
+  /// contact that was common to several pairs the part that their area is of it.
   template <class Group>
   static void keep_shear(const Group& group, const typename Group::Contact& old,
+                         const std::vector<typename Group::Point>& old_points,
                          const typename Group::Contact& contact, const Bodies& bodies,
                          std::vector<typename Group::Point>& points) {
+    const auto area_of = [](const auto& of) {
+      double sum = 0;
+      for (const auto& p : of) sum += p.weight;
+      return sum;
+    };
+    const auto before_points =
+        std::span(old_points).subspan(index(old.first), index(old.last) - index(old.first));
     const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
       const auto at = c.place(bodies[index(c.a)].pose, bodies[index(c.b)].pose);
       Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
       for (const auto& p : of) sum += group.law_of(c).force(p.load(at), p.state).tangential;
       return sum;
     };
-    const Vec<Dim - 1> before = shear_of(
-        old,
-        std::span(group.points()).subspan(index(old.first), index(old.last) - index(old.first)));
+    Vec<Dim - 1> before = shear_of(old, before_points);
+    if (&old_points != &group.points())
+      before *= std::min(1.0, area_of(points) / area_of(before_points));
     detail::match_shear<Dim>(before, points, [&] { return shear_of(contact, points); });
   }
 
@@ -340,6 +489,9 @@ class ContactNetwork {
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
+  std::tuple<Former<JointLaw>, Former<SmoothWall>, Former<InterfaceLaw>> former_;
+  bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
+  std::vector<int> law_of_cut_;
   std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
   ContactPoints rule_;
   double viscous_damping_;

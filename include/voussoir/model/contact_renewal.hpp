@@ -14,6 +14,7 @@
 #include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
 #include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/detail/facing_normal.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -133,10 +134,16 @@ class ContactRenewal {
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
       if (is_old) inherit(*old, frame, it.place, point);
+      if (old == nullptr && new_at_rest_) point.zero[0] = std::min(point.zero[0], now.opening);
       points.push_back(point);
     }
     return contact;
   }
+
+  /// From now on contacts that are found overlapping, without one before, exert nothing as they
+  /// lie: those of a model that is set in motion from rest, where blocks that met at an edge have
+  /// come nearer by what the joints between them have closed.
+  void start_at_rest() { new_at_rest_ = true; }
 
   /// Whether the last contact has taken over what the old one remembered.
   [[nodiscard]] bool keeps_history() const { return keeps_history_; }
@@ -176,15 +183,6 @@ class ContactRenewal {
         }
     }
     return low;
-  }
-
-  /// The normal of the face that looks most nearly in a direction.
-  [[nodiscard]] static Vec<Dim> facing_normal(const PlacedShape<Dim>& shape,
-                                              const Vec<Dim>& direction) {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < shape.face_count; ++k)
-      if (direction.dot(shape.normal(k)) > direction.dot(shape.normal(best))) best = k;
-    return shape.normal(best);
   }
 
   [[nodiscard]] static double area_of(std::span<const Vec<Dim>> polygon) {
@@ -327,7 +325,7 @@ class ContactRenewal {
   Vec<Dim> from_ = zeros<Vec<Dim>>();
   Fixed<Dim, Dim - 1> gradient_ = zeros<Fixed<Dim, Dim - 1>>();  ///< of the initial stress [Pa/m]
   double squared_extent_ = 0;                                    ///< of the old contact [m^2]
-  bool keeps_history_ = false;
+  bool keeps_history_ = false, new_at_rest_ = false;
 };
 
 }  // namespace voussoir::detail

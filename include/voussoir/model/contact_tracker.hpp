@@ -49,6 +49,11 @@ class ContactTracker {
   [[nodiscard]] double reach() const { return reach_; }
   [[nodiscard]] const PlacedShapes<Dim>& shapes() const { return shapes_; }
   [[nodiscard]] int body_of(std::size_t shape) const { return body_of_[shape]; }
+  /// Whether one of the bodies has several parts: the pair may have but a share of a contact, and
+  /// all pairs of the two bodies are asked together.
+  [[nodiscard]] bool is_shared(const Pair& pair) const {
+    return part_count_[index(body_of_[pair.a])] > 1 || part_count_[index(body_of_[pair.b])] > 1;
+  }
   [[nodiscard]] std::vector<Pair>& pairs() { return pairs_; }
   [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
 
@@ -60,6 +65,8 @@ class ContactTracker {
            int family) {
     shapes_.add(shape, centre);
     body_of_.push_back(body);
+    if (part_count_.size() <= index(body)) part_count_.resize(index(body) + 1, 0);
+    ++part_count_[index(body)];
     family_of_.push_back(family);
     home_.push_back(transposed(rotation));
   }
@@ -83,15 +90,12 @@ class ContactTracker {
       since_looked_ = 0;
     }
     typename FaceContacts::Pair<Dim> detector(shapes_);
-    for (Pair& pair : pairs_) {
+    const auto ask = [&](Pair& pair) {
       if (is_gone(bodies, pair)) {
         if (pair.contact >= 0) parts(pair);
-        continue;
+        return;
       }
-      const double now = path_[index(body_of_[pair.a])] + path_[index(body_of_[pair.b])];
-      const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
-      if (pair.moved >= 0 && now - pair.moved <= allowed) continue;
-      pair.moved = now;
+      pair.moved = way_of(pair);
       place(pair.a);
       place(pair.b);
       // The whole of the faces that lie over one another, not what is within reach of touching: the
@@ -104,6 +108,16 @@ class ContactTracker {
         touches(pair, contact);
       else if (pair.contact >= 0)
         parts(pair);
+    };
+    for (Pair& pair : pairs_)
+      if (!is_shared(pair) && is_due(bodies, pair)) ask(pair);
+    for (std::size_t k = 0; k < shared_.size();) {
+      std::size_t end = k;
+      bool due = false;
+      for (; end < shared_.size() && bodies_of(shared_[end]) == bodies_of(shared_[k]); ++end)
+        due = due || is_due(bodies, pairs_[shared_[end]]);
+      for (; k < end; ++k)
+        if (due) ask(pairs_[shared_[k]]);
     }
   }
 
@@ -113,6 +127,19 @@ class ContactTracker {
   template <class Bodies>
   [[nodiscard]] bool is_gone(const Bodies& bodies, const Pair& pair) const {
     return bodies[index(body_of_[pair.a])].is_gone || bodies[index(body_of_[pair.b])].is_gone;
+  }
+
+  /// Of both bodies, summed up [m].
+  [[nodiscard]] double way_of(const Pair& pair) const {
+    return path_[index(body_of_[pair.a])] + path_[index(body_of_[pair.b])];
+  }
+  template <class Bodies>
+  [[nodiscard]] bool is_due(const Bodies& bodies, const Pair& pair) const {
+    const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
+    return pair.moved < 0 || way_of(pair) - pair.moved > allowed || is_gone(bodies, pair);
+  }
+  [[nodiscard]] std::pair<int, int> bodies_of(std::size_t pair) const {
+    return std::minmax(body_of_[pairs_[pair].a], body_of_[pairs_[pair].b]);
   }
 
   /// Adds what bodies have moved to their paths.
@@ -161,6 +188,11 @@ class ContactTracker {
     }
     while (old != pairs_.end()) leave_behind();
     pairs_.swap(kept);
+    shared_.clear();
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      if (is_shared(pairs_[k])) shared_.push_back(k);
+    std::stable_sort(shared_.begin(), shared_.end(),
+                     [this](std::size_t x, std::size_t y) { return bodies_of(x) < bodies_of(y); });
   }
 
   static constexpr double unseen = 0.1;      ///< of the margin
@@ -170,6 +202,8 @@ class ContactTracker {
   double since_looked_ = 0;  ///< path of the fastest body since the list was looked at [m]
   PlacedShapes<Dim> shapes_;
   std::vector<int> body_of_, family_of_;
+  std::vector<int> part_count_;      ///< of every body
+  std::vector<std::size_t> shared_;  ///< pairs of bodies of several parts, by their bodies
   std::vector<Rotation<Dim>> home_;  ///< from the shape's own frame to that of its body
   NeighbourList<Dim> neighbours_;
   std::vector<Pair> pairs_;

@@ -178,8 +178,10 @@ class FoundAgain {
       now.push_back(update_.now(b));
     }
     const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
-    for (const auto& support : system_.supports)
-      support->set_reference(then, now, found_at, system_.displacement.data());
+    for (const auto& support : system_.supports) {
+      support->to_frames(then, found_at);
+      support->from_frames(now, system_.displacement.data());
+    }
   }
 
   System& system_;

@@ -74,8 +74,10 @@ class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim
           sink(i, j, ii, ij, transposed(ij), jj);
         });
   }
-  void set_reference(const Poses&, const Poses& now, const double*, const double* u_now) override {
-    for (Element& m : members_) m.follow(now[index(m.i)], now[index(m.j)], u_now);
+  /// What strains a member is told by the poses of its nodes.
+  void to_frames(const Poses&, const double*) override {}
+  void from_frames(const Poses& frames, const double* u) override {
+    for (Element& m : members_) m.follow(frames[index(m.i)], frames[index(m.j)], u);
   }
 
   void act(const Bodies& bodies, std::vector<Load<dim>>& loads) override {

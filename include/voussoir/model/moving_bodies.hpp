@@ -65,9 +65,16 @@ class MovingBodies {
     return add(parts, moving_body(mass_properties(parts), density));
   }
   /// Adds a block that stays where it is.
-  int add_fixed_block(const Shape& shape) { return add_fixed(shape, BodyRole::block); }
+  int add_fixed_block(const Shape& shape) { return add_fixed({shape}, BodyRole::block); }
   /// Adds a smooth wall: a block that stays, and against which nothing rubs.
-  int add_wall(const Shape& shape) { return add_fixed(shape, BodyRole::wall); }
+  int add_wall(const Shape& shape) { return add_fixed({shape}, BodyRole::wall); }
+  /// The same of several convex parts.
+  /// @param centre  from which levers are counted [m]
+  int add_wall(const std::vector<Shape>& parts, const Vec<Dim>& centre) {
+    Body body;
+    body.pose.position = centre;
+    return add(parts, body, BodyRole::wall);
+  }
   /// The same of one that moves, until it is fixed.
   int add_wall(const Shape& shape, double density) {
     const int b = add_block(shape, density);
@@ -96,6 +103,15 @@ class MovingBodies {
     body.velocity = velocity;
     body.momentum = scaled_by(body.inertia, body.to_body(spin));
     kinetic_given_ += body.kinetic_energy() - before;
+    fresh_ = false;
+  }
+
+  /// Puts a block where a motion brings it from where it was added, before anything is computed.
+  void place(int b, const Pose<Dim>& motion) {
+    Pose<Dim>& pose = bodies_[index(b)].pose;
+    const Pose<Dim>& then = home_[index(b)];
+    pose.position = motion(then.position + origin_) - origin_;
+    pose.rotation = motion.rotation * then.rotation;
     fresh_ = false;
   }
 
@@ -174,10 +190,10 @@ class MovingBodies {
     pose.position += origin_;
     return pose;
   }
-  int add_fixed(const Shape& shape, BodyRole role) {
+  int add_fixed(const std::vector<Shape>& parts, BodyRole role) {
     Body body;
-    body.pose.position = mass_properties(shape).centroid;
-    return add({shape}, body, role);
+    body.pose.position = mass_properties(parts).centroid;
+    return add(parts, body, role);
   }
   int add(const std::vector<Shape>& parts, Body body, BodyRole role = BodyRole::block);
 };

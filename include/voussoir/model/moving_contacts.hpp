@@ -33,6 +33,7 @@ struct MovingContact {
   std::int32_t a, b;         ///< bodies; a owns the face
   std::int32_t first, last;  ///< points
   std::int32_t law = 0;      ///< index into the laws of the group
+  bool is_centred = false;   ///< touches in the middle alone: a lining that was installed at rest
   double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
 
   /// Where its frame is with its bodies at these poses, and what follows from that.

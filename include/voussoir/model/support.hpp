@@ -87,12 +87,15 @@ class Support {
   /// Its stiffness at a displacement, history held: the negative derivative of the forces.
   virtual void add_tangent(const double* u, const BodyMarks* chosen,
                            const StiffnessSink& sink) const = 0;
-  /// Where bodies are now becomes the reference; displacements go on counting from where they did.
-  /// @param then, now  of all bodies: the reference so far, and the new one
-  /// @param u_then     displacement at the reference so far; null: zero
-  /// @param u_now      the present one
-  virtual void set_reference(const Poses& then, const Poses& now, const double* u_then,
-                             const double* u_now) = 0;
+  /// From the axes of the reference configuration to the frames of the bodies, in which a run
+  /// knows it. A contact update goes to the frames and back.
+  /// @param frames  of all bodies: where they are in the reference configuration
+  /// @param u       displacement there; null: zero
+  virtual void to_frames(const Poses& frames, const double* u) = 0;
+  /// And back: where bodies are now becomes the reference configuration.
+  /// @param frames  of all bodies now
+  /// @param u       their displacement, from wherever it is counted
+  virtual void from_frames(const Poses& frames, const double* u) = 0;
 
   // ---- in motion --------------------------------------------------------------------------------
 

@@ -22,6 +22,7 @@
 #include <voussoir/linear/block_matrix.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/lining_surface.hpp>
 #include <voussoir/model/support.hpp>
 
 namespace voussoir {
@@ -71,6 +72,7 @@ class System {
   Boundary boundary;    ///< rock on the fixed edge of the domain
   Interface interface;  ///< rock on lining
   SupportSet<dim> supports;
+  std::vector<InstalledLining<Geometry>> linings;
   /// For every body its convex parts in the in-situ state; bodies behind the last have none. Null:
   /// contacts cannot be updated. What it points to, it keeps alive.
   std::shared_ptr<const Shapes> shapes;
@@ -88,12 +90,26 @@ class System {
 
   /// Where a body is: from axes of the in-situ state with their origin in its centre to the world.
   [[nodiscard]] Pose<dim> pose(int b) const;
+  /// How a body has moved since the in-situ state: a point p then is now at motion_of(b)(p).
+  [[nodiscard]] Pose<dim> motion_of(int b) const {
+    Pose<dim> motion = pose(b);
+    motion.position -= motion.rotation * body(b).centre;
+    return motion;
+  }
   /// The same when contacts were last found.
   [[nodiscard]] Pose<dim> pose_when_found(int b) const;
   /// The lever of a point that was there in the in-situ state, when contacts were last found [m].
   [[nodiscard]] Vec<dim> arm(int b, const Vec<dim>& point) const {
     const Vec<dim> arm = point - body(b).centre;
     return has_found_again() ? Vec<dim>(turned_[static_cast<std::size_t>(b)] * arm) : arm;
+  }
+  /// Where a body was in the in-situ state, in the axes that are the world's in the reference
+  /// configuration.
+  [[nodiscard]] Pose<dim> frame_at_start(int b) const {
+    Pose<dim> frame;
+    frame.position = body(b).centre;
+    if (has_found_again()) frame.rotation = transposed(turned_[static_cast<std::size_t>(b)]);
+    return frame;
   }
   /// Whether contacts have been updated since the in-situ state.
   [[nodiscard]] bool has_found_again() const { return found_at_.size() > 0; }

@@ -126,6 +126,19 @@ class ComposedSolver {
                                 const Method& method = {}, const Acceptance& acceptance = {},
                                 const Progress& progress = {});
 
+  /// Goes on at rest from where a run has brought the bodies (`set_in_motion(solver, settings)`):
+  /// what moves is stopped, and the walls keep what `Dynamics::held` is then.
+  /// @param run     made from this solver, which has not changed since
+  /// @param fallen  bodies that are taken out now: those that have come down
+  /// @throws InvalidInput  the run has other bodies
+  template <class Run>
+  void take_back(Run& run, const std::vector<int>& fallen = {}) {
+    bring_to_rest(run, system_, fallen);
+    walls_.reach(system_.wall_fraction);
+    fallen_.insert(fallen_.end(), fallen.begin(), fallen.end());
+    started_ = true;
+  }
+
   /// What `creep` found at a time.
   struct CreepState {
     double time;  ///< since the call [s]
@@ -367,24 +380,10 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
   const int law_index = bolts->add_law(law);
   const auto crossings =
       bolt_crossings(intersections_of_present_rock(bar), bar, anchors, domain.tolerance());
-  for (const BoltCrossingPoint<dim>& at : crossings) {
-    typename BoltsType::Spring spring{};
-    spring.a = at.a;
-    spring.b = at.b;
-    spring.bolt = bolt_count_;
-    spring.position = at.position;
-    spring.joint_a = system_.arm(at.a, at.joint_a);
-    spring.joint_b = system_.arm(at.b, at.joint_b);
-    spring.arm_a = spring.joint_a - at.before * axis;
-    spring.arm_b = spring.joint_b + at.after * axis;
-    spring.span = {at.initial, axis, zeros<Vec<dim>>()};
-    const BoltSpan<dim> present = spring.span_at(system_.displacement.data());
-    spring.span.motion = -present.motion;
-    spring.span.jump = -present.jump;
-    spring.share = dim == 2 ? 1.0 / spacing : 1.0;
-    spring.law = law_index;
-    bolts->add(spring);
-  }
+  bolts->install(
+      crossings, axis, bolt_count_, law_index, dim == 2 ? 1 / spacing : 1,
+      [this](int b) { return system_.frame_at_start(b); },
+      [this](const auto& spring) { return spring.span_at(system_.displacement.data()); });
   ++bolt_count_;
   started_ = true;
   return static_cast<int>(crossings.size());
@@ -406,19 +405,17 @@ void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
     system_.load[dof * node + dim - 1] = -weight;
     measures_.push_back(0.0);
   }
-  std::vector<typename LiningType::Element> members;
-  for (const auto& member : frame.members) {
-    const Vec<dim>& a = frame.nodes[static_cast<std::size_t>(member.first)];
-    const Vec<dim>& b = frame.nodes[static_cast<std::size_t>(member.second)];
-    const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
-    const double length = (b - a).norm();
-    members.push_back({first_node + member.first, first_node + member.second, length,
-                       frame_axes<dim>(b - a, member.outward),
-                       Lining::template stiffness<dof>(section, length)});
-  }
-  system_.supports.add(std::make_shared<LiningType>(std::move(members), first_node,
-                                                    static_cast<int>(frame.nodes.size())));
+  system_.supports.add(std::make_shared<LiningType>(
+      lining_elements<Lining>(frame, sections, frame.nodes, first_node), first_node,
+      static_cast<int>(frame.nodes.size())));
   const int law = system_.interface.add_law(interface_law);
+  double thickness = 0;
+  for (const LiningSection& section : sections)
+    thickness = std::max(thickness, section.thickness());
+  system_.linings.push_back({first_node, law, is_pinned_lining<Lining>(), thickness,
+                             LiningSurface<Geometry>(
+                                 frame, thickness, [this](int b) { return system_.motion_of(b); },
+                                 [this](int b) { return !system_.body(b).movable; })});
   const std::size_t before = system_.interface.contacts().size();
   for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
          return std::pair<int, int>(c.body, first_node + c.node);
@@ -477,11 +474,7 @@ auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) co
 template <class Models>
 void ComposedSolver<Models>::build(const Progress& progress) {
   detail::InitialModel<Detector, SystemType> model(*mass_, in_situ_, points_, system_, progress);
-  model.add_bodies(measures_);
-  model.add_contacts(joint_laws_);
-  model.add_edges();
-  system_.shapes = detail::shapes_of<SystemType>(mass_);
-  model.set_initial_stress();
+  model.run(mass_, joint_laws_, measures_);
 }
 
 template <class Models>

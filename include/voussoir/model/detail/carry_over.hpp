@@ -137,6 +137,8 @@ class CarryOver {
       const int node = next_.add_body(old_.body(b));
       set_part<dof>(next_.load, dof * node, part<dof>(old_.load, dof * b));
     }
+    next_.linings = old_.linings;
+    for (auto& lining : next_.linings) lining.first = number(lining.first);
   }
 
   void carry_displacement() {

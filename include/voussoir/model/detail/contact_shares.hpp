@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/facing_normal.hpp>
 
 namespace voussoir::detail {
 
@@ -28,7 +30,8 @@ namespace voussoir::detail {
 }
 
 /// What pairs of shapes have of the contacts between bodies of several parts: two bodies make one
-/// contact on the faces of one cut, as in the rock that has not moved (`visit_joined`).
+/// contact on the faces of one cut, as in the rock that has not moved (`visit_joined`). An edge of
+/// a part that lies in the plane of such faces is no edge of the body, and makes none.
 template <int Dim>
 class ContactShares {
  public:
@@ -38,10 +41,20 @@ class ContactShares {
   /// @param tracker  that finds the pairs; it outlives this
   explicit ContactShares(const Tracker& tracker) : tracker_(tracker) {}
 
-  /// @param cut  label of the faces that touch; -1: not those of one cut, a contact by itself
-  void add(const Pair& pair, const Contact<Dim>& found, int cut) {
-    shares_.push_back({pair, found, {found.polygon.begin(), found.polygon.end()}, {}, cut});
-    shares_.back().bodies = std::minmax(tracker_.body_of(pair.a), tracker_.body_of(pair.b));
+  /// @param pair  keeps its place until `join`
+  /// @param cut   label of the faces that touch; -1: not those of one cut, a contact by itself
+  void add(Pair& pair, const Contact<Dim>& found, int cut) {
+    const bool is_edge = found.touch == Touch::edge_edge;
+    const bool of_a = found.touch != Touch::face_b;
+    const Vec<Dim> outward = of_a ? found.normal : Vec<Dim>(-found.normal);
+    shares_.push_back(
+        {&pair,
+         found,
+         {found.polygon.begin(), found.polygon.end()},
+         is_edge ? outward : facing_normal(tracker_.shapes()[of_a ? pair.a : pair.b], outward),
+         std::minmax(tracker_.body_of(pair.a), tracker_.body_of(pair.b)),
+         is_edge,
+         is_edge ? -1 : cut});
   }
 
   /// Calls visit(pair, found, area) for every contact. Where several pairs share it, `area` is what
@@ -49,24 +62,30 @@ class ContactShares {
   /// first shape and with the measure of all, and else null.
   template <class Visit>
   void join(Visit&& visit) {
-    // The largest of a contact tells its plane: it comes first.
+    // The largest of a contact tells its plane: it comes first. Edges come last.
     std::sort(shares_.begin(), shares_.end(), [](const Share& x, const Share& y) {
-      return std::tuple(x.bodies, x.cut, -x.found.measure) <
-             std::tuple(y.bodies, y.cut, -y.found.measure);
+      return std::tuple(x.bodies, x.is_edge, x.cut, -x.found.measure, x.pair->a, x.pair->b) <
+             std::tuple(y.bodies, y.is_edge, y.cut, -y.found.measure, y.pair->a, y.pair->b);
     });
     for (Share& share : shares_) share.found.polygon = share.polygon;
     for (std::size_t k = 0; k < shares_.size();) {
       std::size_t end = k + 1;
+      if (shares_[k].is_edge) {
+        if (!lies_in_a_face(k))
+          visit(*shares_[k].pair, shares_[k].found, static_cast<const ContactArea<Dim>*>(nullptr));
+        k = end;
+        continue;
+      }
       while (end < shares_.size() && shares_[end].bodies == shares_[k].bodies &&
-             shares_[end].cut == shares_[k].cut)
+             !shares_[end].is_edge && shares_[end].cut == shares_[k].cut)
         ++end;
       Share& first = shares_[k];
-      const Vec<Dim> normal = first.outward();
+      const Vec<Dim> normal = first.outward;
       ContactArea<Dim> area;
       for (std::size_t i = k; i < end; ++i) {
         const Share& share = shares_[i];
         const bool same_face = owner(share) == owner(first);
-        const Vec<Dim> outward = same_face ? share.outward() : Vec<Dim>(-share.outward());
+        const Vec<Dim> outward = same_face ? share.outward : Vec<Dim>(-share.outward);
         std::vector<Vec<Dim>> corners = same_face ? share.polygon : on_face(share);
         const Vec<Dim> shift = origin(share) - origin(first);
         for (Vec<Dim>& p : corners) p += shift;
@@ -78,34 +97,45 @@ class ContactShares {
           area.add(std::move(facet));
           if (i != k) first.found.measure += share.found.measure;
         } else if (i != k) {
-          visit(share.pair, share.found, static_cast<const ContactArea<Dim>*>(nullptr));
+          visit(*share.pair, share.found, static_cast<const ContactArea<Dim>*>(nullptr));
         }
       }
-      visit(first.pair, first.found, area.facets().size() > 1 ? &area : nullptr);
+      visit(*first.pair, first.found, area.facets().size() > 1 ? &area : nullptr);
       k = end;
     }
   }
 
  private:
   struct Share {
-    Pair pair;
+    Pair* pair;
     Contact<Dim> found;
     std::vector<Vec<Dim>> polygon;
+    Vec<Dim> outward;            ///< of the face that is touched
     std::pair<int, int> bodies;  ///< the lower first
+    bool is_edge;
     int cut;
 
     [[nodiscard]] std::size_t owner() const {
-      return found.touch != Touch::face_b ? pair.a : pair.b;
-    }
-    /// Out of the face that is touched.
-    [[nodiscard]] Vec<Dim> outward() const {
-      return found.touch != Touch::face_b ? found.normal : Vec<Dim>(-found.normal);
+      return found.touch != Touch::face_b ? pair->a : pair->b;
     }
   };
 
+  /// Whether an edge lies in the plane of a face over which the same bodies touch.
+  [[nodiscard]] bool lies_in_a_face(std::size_t edge) const {
+    const Share& it = shares_[edge];
+    for (std::size_t k = edge; k-- > 0 && shares_[k].bodies == it.bodies;) {
+      const Share& face = shares_[k];
+      if (face.is_edge) continue;
+      const Vec<Dim> apart =
+          it.polygon.front() - face.polygon.front() + (origin(it) - origin(face));
+      if (std::abs(face.outward.dot(apart)) <= tracker_.reach()) return true;
+    }
+    return false;
+  }
+
   /// What the polygon is counted from.
   [[nodiscard]] const Vec<Dim>& origin(const Share& share) const {
-    return tracker_.shapes().grid_point(share.pair.a);
+    return tracker_.shapes().grid_point(share.pair->a);
   }
 
   /// The body whose face is touched.
@@ -114,7 +144,7 @@ class ContactShares {
   /// The polygon, which lies on what touches the face, moved along its normal onto the face.
   [[nodiscard]] std::vector<Vec<Dim>> on_face(const Share& share) const {
     const PlacedShape<Dim>& shape = tracker_.shapes()[share.owner()];
-    const Vec<Dim> normal = share.outward();
+    const Vec<Dim> normal = share.outward;
     double reach = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < shape.vertex_count; ++k)
       reach = std::max(reach, normal.dot(shape.vertex(k)));
@@ -127,5 +157,21 @@ class ContactShares {
   const Tracker& tracker_;
   std::vector<Share> shares_;
 };
+
+/// The label of the faces that touch if they are of one cut, else -1.
+/// @param is_block  is_block(body): else it is the edge of the domain
+/// @param cut_of    cut_of(shape, outward): label of the face that looks there
+template <int Dim, class IsBlock, class CutOf>
+[[nodiscard]] int common_cut(const ContactTracker<Dim>& tracker,
+                             const typename ContactTracker<Dim>::Pair& pair,
+                             const Contact<Dim>& found, IsBlock&& is_block, CutOf&& cut_of) {
+  // Both sides of a cut have its label; the edge of the domain has that of the block at it. What
+  // else is within reach are faces that lie one behind the other.
+  const Vec<Dim> back = -found.normal;
+  if (!is_block(tracker.body_of(pair.a))) return cut_of(pair.b, back);
+  const int cut = cut_of(pair.a, found.normal);
+  if (!is_block(tracker.body_of(pair.b))) return cut;
+  return cut == cut_of(pair.b, back) ? cut : -1;
+}
 
 }  // namespace voussoir::detail

@@ -65,6 +65,19 @@ class InitialModel {
         progress_(progress),
         stop_(progress) {}
 
+  /// All of it.
+  /// @param mass      the same as above, to be kept alive for its shapes
+  /// @param measures  of bodies, in place of what is there [m^2 or m^3]
+  template <class LawsOfSets>
+  void run(std::shared_ptr<const RockMass<Geometry>> mass, const LawsOfSets& laws,
+           std::vector<double>& measures) {
+    add_bodies(measures);
+    add_contacts(laws);
+    add_edges();
+    system_.shapes = shapes_of<System>(std::move(mass));
+    set_initial_stress();
+  }
+
   /// The bodies, and as the last the ground, which is fixed.
   /// @param measures  of them, in place of what is there [m^2 or m^3]
   void add_bodies(std::vector<double>& measures) {

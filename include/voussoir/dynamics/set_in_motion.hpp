@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/ordering.hpp>
+#include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/model/detail/contact_frames.hpp>
+#include <voussoir/model/detail/former_contacts.hpp>
+#include <voussoir/model/system.hpp>
+
+namespace voussoir {
+
+/// The run that a model at rest belongs to.
+template <class System>
+struct MotionOf;
+template <class Geometry, class JointLaw, class InterfaceLaw>
+struct MotionOf<System<Geometry, JointLaw, InterfaceLaw>> {
+  using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw>;
+};
+
+namespace detail {
+
+/// Takes a model at rest over into a run and back. Bodies have the same numbers in both.
+template <class System>
+class Handover {
+ public:
+  static constexpr int dim = System::dim, dof = System::dof;
+  using Run = typename MotionOf<System>::type;
+
+  explicit Handover(const System& system) : system_(system) {
+    if (system.shapes == nullptr)
+      throw InvalidInput("set in motion: the model does not know the shapes of its bodies");
+    std::size_t known = system.shapes->size();
+    for (const auto& lining : system.linings) known += lining.surface.node_count();
+    require(static_cast<int>(known) == system.body_count(), "bodies of the model",
+            system.body_count(), "blocks, the ground and nodes of linings, which have shapes");
+  }
+
+  void add_bodies(Run& run) const {
+    const double gravity = run.settings().gravity;
+    for (std::size_t b = 0; b < system_.shapes->size(); ++b) {
+      const auto& body = system_.body(static_cast<int>(b));
+      const auto parts = (*system_.shapes)[b];
+      std::vector<typename Run::Shape> shapes(parts.begin(), parts.end());
+      if (body.is_block)
+        run.add_block(shapes, body.weight / (gravity * mass_properties(shapes).measure));
+      else
+        run.add_wall(shapes, body.centre);
+    }
+    for (const auto& lining : system_.linings) {
+      std::vector<LiningNode<dim>> nodes;
+      for (std::size_t k = 0; k < lining.surface.node_count(); ++k) {
+        const auto& body = system_.body(lining.first + static_cast<int>(k));
+        const double mass = body.weight / gravity;
+        nodes.push_back({body.centre, lining.surface.tiles(k), mass,
+                         all_entries<dof - dim>(node_inertia(mass, body.gyration, lining.thickness,
+                                                             lining.is_pinned))});
+      }
+      run.add_lining_nodes(nodes, lining.law);
+    }
+    for (int b = 0; b < system_.body_count(); ++b) {
+      run.place(b, system_.motion_of(b));
+      if (system_.body(b).is_gone) run.leave_out(b);
+    }
+  }
+
+  /// What acts from outside; of the walls, `wall_load` as what an excavation has taken away.
+  void add_loads(Run& run) const {
+    std::vector<Load<dim>> walls;
+    for (int b = 0; b < system_.body_count(); ++b) {
+      const auto on_body = [&](const Eigen::VectorXd& load) {
+        return Load<dim>{part<dim>(load, dof * b), part<dof - dim>(load, dof * b + dim)};
+      };
+      Load<dim> load = on_body(system_.load);
+      load.force[dim - 1] += system_.body(b).weight;
+      if (system_.wall_held.size() > 0) {
+        const Load<dim> held = on_body(system_.wall_held);
+        load.force += held.force;
+        load.moment += held.moment;
+      }
+      run.add_load(b, load.force, load.moment);
+      walls.push_back(on_body(system_.wall_load));
+    }
+    run.hold(std::move(walls));
+    run.set_held(system_.wall_fraction);
+  }
+
+  void carry_contacts(Run& run) const {
+    const std::vector<Pose<dim>> frames = frames_of(run);
+    const double* u = system_.has_found_again() ? system_.found_at().data() : nullptr;
+    const auto former = [&](const auto& group) {
+      using State = typename std::decay_t<decltype(group)>::State;
+      return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
+        return group.points()[static_cast<std::size_t>(k)].state;
+      });
+    };
+    run.carry_on(former(system_.joints), former(system_.boundary), former(system_.interface));
+  }
+
+  void carry_supports(Run& run) const {
+    const std::vector<Pose<dim>> frames = frames_of(run);
+    const double* u = system_.has_found_again() ? system_.found_at().data() : nullptr;
+    SupportSet<dim> supports = system_.supports;
+    for (const auto& support : supports) {
+      support->to_frames(frames, u);
+      run.add_support(support);
+    }
+  }
+
+  /// Brings a model to where the bodies of a run are.
+  static void store(Run& run, System& system) {
+    std::vector<Pose<dim>> frames;
+    std::vector<Rotation<dim>> turned;
+    Eigen::VectorXd u(system.displacement.size());
+    for (int b = 0; b < system.body_count(); ++b) {
+      const Pose<dim> motion = run.motion(b);
+      frames.push_back(run.body(b).pose);
+      turned.push_back(motion.rotation);
+      const Vec<dim> moved = run.position(b) - system.body(b).centre;
+      set_part<dof>(u, dof * b,
+                    system.body(b).is_block || system.body(b).movable
+                        ? stacked(moved, spin_of(motion.rotation))
+                        : zeros<Fixed<dof, 1>>());
+    }
+    take(run.joints(), frames, u, system.joints);
+    take(run.walls(), frames, u, system.boundary);
+    take(run.interface(), frames, u, system.interface);
+    system.supports = run.supports();
+    for (const auto& support : system.supports) support->from_frames(frames, u.data());
+    system.displacement = std::move(u);
+    system.wall_fraction = run.held();
+    system.set_found(system.displacement, std::move(turned));
+  }
+
+ private:
+  /// Where bodies of the run are in the reference configuration of the model.
+  [[nodiscard]] std::vector<Pose<dim>> frames_of(const Run& run) const {
+    std::vector<Pose<dim>> frames;
+    for (int b = 0; b < system_.body_count(); ++b) {
+      Pose<dim> frame = run.body(b).pose;
+      const Pose<dim> now = system_.pose(b), then = system_.pose_when_found(b);
+      frame.position += then.position - now.position;
+      frame.rotation = then.rotation * transposed_product(now.rotation, frame.rotation);
+      frames.push_back(frame);
+    }
+    return frames;
+  }
+
+  template <class Moving, class Group>
+  static void take(const Moving& moving, const std::vector<Pose<dim>>& frames,
+                   const Eigen::VectorXd& u, Group& group) {
+    using Point = typename Group::Point;
+    const auto at = [](auto i) { return static_cast<std::size_t>(i); };
+    Group next(group.laws());
+    std::vector<Point> points;
+    for (const int n : order_by_bodies(
+             moving.contacts(), [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
+      const auto& c = moving.contacts()[at(n)];
+      if (c.first == c.last) continue;
+      const std::span of(moving.points().data() + c.first, at(c.last - c.first));
+      points.clear();
+      const auto contact = from_frames(c, frames[at(c.a)], frames[at(c.b)], u.data(), of,
+                                       [&](const ReferencePoint<dim>& p) {
+                                         points.push_back({p, {}});
+                                       });
+      for (std::size_t k = 0; k < points.size(); ++k) points[k].state = of[k].state;
+      next.add(contact, points);
+    }
+    group = std::move(next);
+  }
+
+  const System& system_;
+};
+
+}  // namespace detail
+
+/// A model at rest set in motion, from where its bodies are: their contacts with all that they
+/// remember, bolts, linings, loads, what still acts on the walls (`Dynamics::set_held`). Bodies
+/// have the same numbers.
+///
+/// A lining is touched there by rock that lands on it, too: its nodes have tiles as thick as its
+/// section (`LiningSection::thickness`), and its mass must be given. Contacts are found anew where
+/// bodies are, as a contact update does; with `ContactPoints::gauss` forces and moments are those
+/// at rest, to second order of the displacements since contacts were last found.
+/// @param settings  gravity as that of the weights
+/// @throws InvalidInput  a body without shape; a lining without mass or thickness
+template <class Geometry, class JointLaw, class InterfaceLaw>
+[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> set_in_motion(
+    const System<Geometry, JointLaw, InterfaceLaw>& system, const DynamicsSettings& settings) {
+  const detail::Handover<System<Geometry, JointLaw, InterfaceLaw>> handover(system);
+  const std::vector<JointLaw>& laws = system.joints.laws();
+  Dynamics<Geometry::dim, JointLaw, InterfaceLaw> run(
+      laws, system.boundary.laws().front().joint_normal_stiffness(), system.interface.laws(),
+      laws.size() > 1 && system.law_of_cut != nullptr ? *system.law_of_cut : std::vector<int>{},
+      settings);
+  handover.add_bodies(run);
+  handover.add_loads(run);
+  handover.carry_contacts(run);
+  handover.carry_supports(run);
+  return run;
+}
+
+/// The tunnel of a solver set in motion. Of several rounds those that are still held are let go
+/// together.
+/// @param settings  gravity is that of the solver
+template <class Solver>
+requires requires(const Solver& solver) { solver.in_situ().gravity; }
+[[nodiscard]] auto set_in_motion(const Solver& solver, DynamicsSettings settings = {}) {
+  settings.gravity = solver.in_situ().gravity;
+  return set_in_motion(solver.system(), settings);
+}
+
+/// Takes a model back from the run in which it was set, to go on at rest from where its bodies are:
+/// what moves is stopped, and displacements go on counting from the in-situ state.
+/// @param system  from which the run was made
+/// @param gone    bodies that are taken out of it now: those that have fallen
+template <class Geometry, class JointLaw, class InterfaceLaw>
+void bring_to_rest(Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
+                   System<Geometry, JointLaw, InterfaceLaw>& system,
+                   const std::vector<int>& gone = {}) {
+  require(run.body_count() == system.body_count(), "bodies of the run", run.body_count(),
+          "those of the model");
+  detail::Handover<System<Geometry, JointLaw, InterfaceLaw>>::store(run, system);
+  if (!gone.empty()) system.remove(gone);
+}
+
+}  // namespace voussoir

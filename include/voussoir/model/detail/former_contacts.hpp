@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+#include <voussoir/core/ordering.hpp>
+#include <voussoir/core/pose.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/detail/contact_frames.hpp>
+#include <voussoir/model/moving_body.hpp>
+#include <voussoir/model/moving_contacts.hpp>
+
+namespace voussoir::detail {
+
+/// Squared distance of a place from the nearest point of a contact [m^2]; infinite if its normal
+/// has turned by more than 60 degrees from the one given: it is another contact then.
+template <int Dim, class Points>
+[[nodiscard]] double squared_distance(const std::vector<MovingBody<Dim>>& bodies,
+                                      const MovingContact<Dim>& c, const Points& points,
+                                      const Vec<Dim>& normal, const Vec<Dim>& place) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto index = [](auto i) { return static_cast<std::size_t>(i); };
+  const Vec<Dim> was = bodies[index(c.a)].pose.rotation * column(c.frame, 0);
+  if (std::abs(was.dot(normal)) < 0.5) return least;
+  for (auto k = index(c.first); k < index(c.last); ++k)
+    least = std::min(least, (bodies[index(c.b)].pose(points[k].place) - place).squaredNorm());
+  return least;
+}
+
+/// The contacts of one kind that bodies had before, in their frames, to be carried on by those that
+/// are found now.
+template <int Dim, class State>
+class FormerContacts {
+ public:
+  using Contact = MovingContact<Dim>;
+  using Point = MovingContactPoint<Dim, State>;
+  using Bodies = std::vector<MovingBody<Dim>>;
+
+  FormerContacts() = default;
+
+  /// @param contacts, points  in the axes of the reference configuration
+  /// @param frames    of all bodies: where they are there
+  /// @param u         displacement there; null: zero
+  /// @param state_of  state_of(number): what is remembered of a point
+  template <class ReferencePoints, class StateOf>
+  FormerContacts(const std::vector<ReferenceContact<Dim>>& contacts, const ReferencePoints& points,
+                 const std::vector<Pose<Dim>>& frames, const double* u, StateOf&& state_of) {
+    contacts_.reserve(contacts.size());
+    points_.reserve(points.size());
+    for (const ReferenceContact<Dim>& c : contacts) {
+      const Pose<Dim>&a = frames[index(c.a)], &b = frames[index(c.b)];
+      Contact contact = to_frames(c, a);
+      const auto at = contact.place(a, b);
+      contact.first = static_cast<std::int32_t>(points_.size());
+      for (int k = c.first; k < c.last; ++k)
+        points_.push_back(to_frames<Dim, State>(c, points[index(k)], at, b, u, state_of(k)));
+      contact.last = static_cast<std::int32_t>(points_.size());
+      contacts_.push_back(contact);
+      bodies_.emplace_back(std::minmax(c.a, c.b));
+    }
+    order_ = order_of_pairs(bodies_, static_cast<int>(frames.size()));
+  }
+
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] std::span<const Point> points_of(const Contact& c) const {
+    return {points_.data() + c.first, index(c.last - c.first)};
+  }
+
+  /// The contact of these bodies that is nearest to a place, its normal turned by less than 60
+  /// degrees; or null.
+  [[nodiscard]] const Contact* nearest(const Bodies& bodies, int a, int b, const Vec<Dim>& normal,
+                                       const Vec<Dim>& place) const {
+    const std::pair<int, int> wanted = std::minmax(a, b);
+    auto it = std::lower_bound(
+        order_.begin(), order_.end(), wanted,
+        [&](int x, const std::pair<int, int>& value) { return bodies_[index(x)] < value; });
+    const Contact* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (; it != order_.end() && bodies_[index(*it)] == wanted; ++it) {
+      const Contact& c = contacts_[index(*it)];
+      const double distance = squared_distance(bodies, c, points_, normal, place);
+      if (distance >= least) continue;
+      least = distance;
+      best = &c;
+    }
+    return best;
+  }
+
+ private:
+  template <class Number>
+  [[nodiscard]] static std::size_t index(Number i) {
+    return static_cast<std::size_t>(i);
+  }
+
+  std::vector<Contact> contacts_;
+  std::vector<Point> points_;
+  std::vector<std::pair<int, int>> bodies_;  ///< of every contact, the lower first
+  std::vector<int> order_;                   ///< of contacts, by their bodies
+};
+
+}  // namespace voussoir::detail
