@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 #include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/detail/facing_contact.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
 namespace voussoir::detail {
@@ -45,6 +46,10 @@ class FacePair2 {
   [[nodiscard]] Contact<2> contact_near(std::size_t a, std::size_t b, Memory& memory,
                                         double reach) {
     return contact_from(zeros<Vec2>(), a, b, memory, reach);
+  }
+  [[nodiscard]] Contact<2> facing_contact(std::size_t a, std::size_t b, Memory& memory,
+                                          double reach) {
+    return detail::facing_contact(*this, a, b, memory, reach);
   }
 
  private:

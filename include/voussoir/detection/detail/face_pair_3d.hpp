@@ -12,6 +12,7 @@
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/detail/edge_pairs.hpp>
 #include <voussoir/detection/detail/face_clip.hpp>
+#include <voussoir/detection/detail/facing_contact.hpp>
 #include <voussoir/detection/detail/section.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -109,6 +110,11 @@ class FacePair3 {
     }
     found.polygon = polygon_;
     return found;
+  }
+
+  [[nodiscard]] Contact<3> facing_contact(std::size_t a, std::size_t b, Memory& memory,
+                                          double reach) {
+    return detail::facing_contact(*this, a, b, memory, reach);
   }
 
  private:
