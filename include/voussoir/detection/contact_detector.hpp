@@ -55,10 +55,9 @@ concept HasPairQueries = requires(const PlacedShapes<Dim>& shapes,
 };
 
 template <class Detector, int Dim>
-concept HasFacingContact =
-    requires(typename Detector::template Pair<Dim>& pair,
-             typename Detector::template Pair<Dim>::Memory& memory, std::size_t shape,
-             double reach) {
+concept HasFacingContact = requires(typename Detector::template Pair<Dim>& pair,
+                                    typename Detector::template Pair<Dim>::Memory& memory,
+                                    std::size_t shape, double reach) {
   { pair.facing_contact(shape, shape, memory, reach) } -> std::same_as<Contact<Dim>>;
 };
 

@@ -13,6 +13,7 @@
 #include <voussoir/detection/detail/edge_pairs.hpp>
 #include <voussoir/detection/detail/face_clip.hpp>
 #include <voussoir/detection/detail/facing_contact.hpp>
+#include <voussoir/detection/detail/facing_face.hpp>
 #include <voussoir/detection/detail/section.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -269,36 +270,13 @@ class FacePair3 {
   void clip_face(const LinkedShape& reference, const LinkedShape& incident, std::size_t face,
                  double reach) {
     const Shape &p = reference.shape, &q = incident.shape;
-    const Vec3 normal = p.normal(face);
-    if (heights_.size() < q.vertex_stride()) heights_.resize(q.vertex_stride());
-    for (std::size_t k = 0; k < q.vertex_stride(); k += lane_count)
-      along(normal, q, k).store(heights_.data() + k);
-    std::size_t deepest = 0, highest = 0;
-    double low = heights_[0], high = low;
-    for (std::size_t k = 1; k < q.vertex_count; ++k) {
-      deepest = heights_[k] < low ? k : deepest;
-      low = std::min(low, heights_[k]);
-      highest = heights_[k] > high ? k : highest;
-      high = std::max(high, heights_[k]);
-    }
-    double facing = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](std::size_t vertex) {
-      for (const std::uint16_t candidate : incident.topology.faces_at(vertex)) {
-        const double cosine = dot_product(normal, q.normal(candidate));
-        other_ = cosine < facing ? candidate : other_;
-        facing = std::min(facing, cosine);
-      }
-    };
-    look_at(deepest);
-    // Where vertices stand out of faces, the deepest may not be of the face that touches.
-    const double uneven = reference.topology.unevenness + incident.topology.unevenness;
-    if (uneven > preference)
-      for (std::size_t k = 0; k < q.vertex_count; ++k)
-        if (heights_[k] <= low + 2 * uneven) look_at(k);
-    deepest_ = q.vertex(deepest);
-    highest_ = q.vertex(highest);
+    const FacingFace across = facing_face<Lanes>(reference, face, incident, heights_);
+    other_ = across.face;
+    deepest_ = q.vertex(across.deepest);
+    highest_ = q.vertex(across.highest);
     other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other_)) : q.normal(other_);
-    clip_.run(p, reference.topology.loop(face), normal, q, incident.topology.loop(other_), reach);
+    clip_.run(p, reference.topology.loop(face), p.normal(face), q, incident.topology.loop(other_),
+              reach);
     area_ = clip_.area();
   }
 
