@@ -248,7 +248,7 @@ class FacePair3 {
       memory.apart = best > limit;
       return best;
     }
-    if (clip_.size() > 0 && best <= 0) {
+    if (best <= 0 && clip_.size() > 0 && clip_.heights().first <= 0) {
       near(a, b, -best);
     } else {
       all(a.topology, edges_of_a_);
