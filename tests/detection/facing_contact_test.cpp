@@ -236,7 +236,7 @@ TEST_SUITE("detection/facing_contact") {
       CAPTURE(shift);
       const double reach = 1e-3;
       const auto shapes = shaken<Geometry>(shift);
-      int overlapping = 0, same = 0, gaping = 0, gaping_too = 0;
+      int touching = 0, by_centre_alone = 0, overlapping = 0, same = 0;
       for (const auto& [a, b] : near_pairs<dim>(shapes, reach)) {
         CAPTURE(a);
         CAPTURE(b);
@@ -244,8 +244,10 @@ TEST_SUITE("detection/facing_contact") {
         const auto centre = facing<AnalyticCentre, dim>(shapes, a, b, reach);
         // Within reach by all axes is within reach by faces and by swelling.
         if (faces.touches()) CHECK(centre.touches());
-        gaping += faces.touches() && !(faces.separation < 0) ? 1 : 0;
-        gaping_too += centre.touches() && !(centre.separation < 0) ? 1 : 0;
+        // The other way round not all: of two edges that keep the shapes further apart than any
+        // face does it has no part in the decision.
+        touching += centre.touches() ? 1 : 0;
+        by_centre_alone += centre.touches() && !faces.touches() ? 1 : 0;
         if (!(faces.separation < -1e-9)) continue;
         ++overlapping;
         REQUIRE(centre.separation < 0);
@@ -261,7 +263,7 @@ TEST_SUITE("detection/facing_contact") {
       CHECK(overlapping > 300);
       // What is left are corners between corners, in 3-D where many faces are nearly as deep.
       CHECK(same >= (dim == 2 ? 0.99 : 0.95) * overlapping);
-      CHECK(std::abs(gaping_too - gaping) <= 0.05 * gaping + 5);
+      CHECK(by_centre_alone <= (dim == 2 ? 0 : 0.01) * touching);
     }
   }
 
@@ -384,14 +386,20 @@ TEST_SUITE("detection/facing_contact") {
       if (std::abs(exact) < 5e-10 || std::abs(exact - reach) < 5e-10) continue;
       CAPTURE(exact);
       const auto found = facing<typename C::Detector, dim>(shapes, 0, 1, reach);
+      // Apart, the axes beyond doubt count: edges that are nearly parallel have one that is not.
+      const double sure =
+          exact < 0 ? exact
+                    : static_cast<double>(separating_axes(long_shape(pair.a, pair.pose_a),
+                                                          long_shape(pair.b, pair.pose_b), 1e-6L)
+                                              .value);
       if (exact <= reach) CHECK(found.touches());
-      if (!by_centre || exact < 0) CHECK(found.touches() == (exact <= reach));
+      if (!by_centre && sure > reach) CHECK_FALSE(found.touches());
       ++(found.touches() ? touching : apart);
       if (!found.touches()) continue;
       REQUIRE(found.touch != Touch::interior);
       CHECK(std::abs(found.normal.norm() - 1) < 1e-14);
       CHECK(found.separation <= exact + 1e-9);
-      if (!by_centre) CHECK(found.separation >= exact - 1e-9);
+      if (!by_centre) CHECK(found.separation >= sure - 1e-9);
       const bool of_a = found.touch == Touch::face_a;
       REQUIRE(shapes.grid_point(0) == shapes.grid_point(1));
       const PlacedShape<dim> reference = shapes[of_a ? 0 : 1], other = shapes[of_a ? 1 : 0];

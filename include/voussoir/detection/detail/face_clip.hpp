@@ -72,15 +72,11 @@ class FaceClip {
            (0.5 * share * sum.h) * normal_;
   }
 
-  /// Heights of the polygon's lowest and highest point over the reference face [m].
-  /// @pre the polygon is not empty
-  [[nodiscard]] std::pair<double, double> heights() const {
-    double low = points_[0].h, high = low;
-    for (std::size_t k = 1; k < count_; ++k) {
-      low = std::min(low, points_[k].h);
-      high = std::max(high, points_[k].h);
-    }
-    return {low, high};
+  /// Height of the polygon's lowest point over the reference face [m]; infinity if it is empty.
+  [[nodiscard]] double lowest() const {
+    double low = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < count_; ++k) low = std::min(low, points_[k].h);
+    return low;
   }
 
   /// Square of a length that no two points of the polygon are further apart than [m^2].

@@ -248,7 +248,7 @@ class FacePair3 {
       memory.apart = best > limit;
       return best;
     }
-    if (best <= 0 && clip_.size() > 0 && clip_.heights().first <= 0) {
+    if (best <= 0 && clip_.lowest() <= 0) {
       near(a, b, -best);
     } else {
       all(a.topology, edges_of_a_);
@@ -338,8 +338,8 @@ class FacePair3 {
   /// other within d*. So an edge of a that lies further inside a face of a than b reaches and d*,
   /// or further outside a face of b than d*, plays no part. The two faces of each shape that are
   /// entered least are looked at. If the shapes are apart, although no face says so, the axis
-  /// wanted is that of two edges as near as the shapes are, and these are within `depth` too, for
-  /// so far below the reference face there is a point of the clipped one.
+  /// wanted is that of two edges as near as the shapes are, and these are within `depth` too if a
+  /// point of the clipped face is below the reference face, for it is no deeper than that.
   void near(const LinkedShape& linked_a, const LinkedShape& linked_b, double depth) {
     const Shape &a = linked_a.shape, &b = linked_b.shape;
     alignas(32) std::array<double, lane_count> x, y, z, limit_a, limit_b;
