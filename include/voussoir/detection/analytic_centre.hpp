@@ -54,6 +54,23 @@ namespace voussoir {
 /// The centre depends on planes, not on faces: a plane that no longer bounds
 /// the overlap still pushes it a little. There is no contact area: `measure` is 0.
 ///
+/// **What a model asks, `Pair::facing_contact`, has an area**, which the source does not: the
+/// normal names a face of each shape, in 3-D maybe two edges, and area, normal and depth are those
+/// of the features named. A depth that jumps with the shape of a sliver, and a normal that is off
+/// by 26 degrees, would be forces that no movement has made. The reference is the face in which the
+/// other shape is less deep. The same masses, pairs that overlap, against FaceContacts, which tries
+/// all axes; "alike" are faces, reference and area to 1e-9, or the same two edges:
+///
+///     overlapping pairs        alike     same faces, other reference
+///     plane, small   26 422    all but 1     -
+///     plane, large   26 381    99.0 %    0.3 %
+///     space, small   24 869    97.3 %    0.4 %
+///     space, large   23 888    96.0 %    0.3 %
+///
+/// What differs are corners beside corners, where several faces and edges are nearly as deep, and
+/// in 3-D edges whose common normal is within 0.1 rad of that of a face with an area: the face is
+/// named. The depth is never less than that of FaceContacts.
+///
 /// Two deviations from the source. It takes the normal from a smooth "inner potential particle"
 /// whose corners have a radius, a parameter; this is `Pair`'s `rounding`, and the default is the
 /// barrier itself, which needs no parameter and leans less: with a radius of 0.1 m a quarter of the

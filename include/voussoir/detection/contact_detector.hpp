@@ -74,8 +74,9 @@ concept HasFacingContact = requires(typename Detector::template Pair<Dim>& pair,
 ///    when they were last asked: that answer should cost one axis.
 ///  - `touch` names whose face it is, face_a or face_b; in 3-D crossing edges may touch, edge_edge.
 ///    Never `interior`.
-///  - `normal` is that of the face, or the common one of the edges; `separation` is that of the
-///    lowest vertex of the other shape over the face, of the two edges along their normal [m].
+///  - `normal` is that of the face, to 0.1 rad, or the common one of the edges; `separation` is
+///  that
+///    of the shapes along it, the lowest vertex of the other shape over the face [m].
 ///  - `polygon` is the *whole* part of the other shape's face that lies over the face, the prism
 ///    upright on it, no matter how high: springs then do not change with the depth of the overlap,
 ///    which would make or lose energy. Its points are counted from the grid point of a. `measure`
