@@ -58,13 +58,13 @@ namespace voussoir {
 /// normal names a face of each shape, in 3-D maybe two edges, and area, normal and depth are those
 /// of the features named. A depth that jumps with the shape of a sliver, and a normal that is off
 /// by 26 degrees, would be forces that no movement has made. The reference is the face in which the
-/// other shape is less deep. The same masses, pairs that overlap, against FaceContacts, which tries
-/// all axes; "alike" are faces, reference and area to 1e-9, or the same two edges:
+/// other shape is less deep. Masses of that kind, pairs that overlap, against FaceContacts, which
+/// tries all axes; "alike" are faces, reference and area to 1e-9, or the same two edges:
 ///
 ///     overlapping pairs        alike     same faces, other reference
 ///     plane, small   26 422    all but 1     -
 ///     plane, large   26 381    99.0 %    0.3 %
-///     space, small   24 869    97.3 %    0.4 %
+///     space, small   24 872    97.3 %    0.4 %
 ///     space, large   23 888    96.0 %    0.3 %
 ///
 /// What differs are corners beside corners, where several faces and edges are nearly as deep, and
