@@ -13,6 +13,9 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/detail/barrier_centre.hpp>
+#include <voussoir/detection/detail/centre_normal.hpp>
+#include <voussoir/detection/detail/contact_facets.hpp>
+#include <voussoir/detection/detail/facing_area.hpp>
 #include <voussoir/detection/detail/least_excess.hpp>
 #include <voussoir/detection/detail/plane_axis.hpp>
 #include <voussoir/detection/detail/plane_pair.hpp>
@@ -51,6 +54,23 @@ namespace voussoir {
 /// The centre depends on planes, not on faces: a plane that no longer bounds
 /// the overlap still pushes it a little. There is no contact area: `measure` is 0.
 ///
+/// **What a model asks, `Pair::facing_contact`, has an area**, which the source does not: the
+/// normal names a face of each shape, in 3-D maybe two edges, and area, normal and depth are those
+/// of the features named. A depth that jumps with the shape of a sliver, and a normal that is off
+/// by 26 degrees, would be forces that no movement has made. The reference is the face in which the
+/// other shape is less deep. Masses of that kind, pairs that overlap, against FaceContacts, which
+/// tries all axes; "alike" are faces, reference and area to 1e-9, or the same two edges:
+///
+///     overlapping pairs        alike     same faces, other reference
+///     plane, small   26 422    all but 1     -
+///     plane, large   26 381    99.0 %    0.3 %
+///     space, small   24 872    97.3 %    0.4 %
+///     space, large   23 888    96.0 %    0.3 %
+///
+/// What differs are corners beside corners, where several faces and edges are nearly as deep, and
+/// in 3-D edges whose common normal is within 0.1 rad of that of a face with an area: the face is
+/// named. The depth is never less than that of FaceContacts.
+///
 /// Two deviations from the source. It takes the normal from a smooth "inner potential particle"
 /// whose corners have a radius, a parameter; this is `Pair`'s `rounding`, and the default is the
 /// barrier itself, which needs no parameter and leans less: with a radius of 0.1 m a quarter of the
@@ -73,6 +93,12 @@ struct AnalyticCentre {
 
   template <int Dim>
   class Pair;
+
+  /// The contacts of a rock mass as it lies, found by search (see FaceContacts::find).
+  template <class Mass>
+  [[nodiscard]] static auto find(const Mass& mass) {
+    return detail::contact_facets<detail::ByFacing<AnalyticCentre>>(mass);
+  }
 };
 
 /// The queries of one pair of shapes; one object per thread, since it holds scratch memory.
@@ -139,11 +165,44 @@ class AnalyticCentre::Pair {
     return found;
   }
 
+  /// How they touch, for a model (see PairDetector).
+  ///
+  /// Shapes overlap, or how far they are apart, by the linear program, which also says how far they
+  /// must be swollen to overlap; that they are swollen twice as far gives them a centre and a
+  /// normal whatever the reach is. The normal names faces or edges (see `FacingArea`): their normal
+  /// and depth are taken in place of those of the centre.
+  [[nodiscard]] Contact<Dim> facing_contact(std::size_t a, std::size_t b, Memory& memory,
+                                            double reach) {
+    const Shape shape_a = (*shapes_)[a], shape_b = shapes_->seen_from(a, b, shifted_);
+    if (!find_near(shape_a, shape_b, reach, memory)) return {};
+    centre_.move_to_centre(planes_);
+    memory.inside = planes_.point();
+    const bool in_order = a <= b;
+    const Linked linked_a = linked(a, shape_a), linked_b = linked(b, shape_b);
+    const Contact<Dim> found =
+        area_.run(linked_a, linked_b, normal(shape_a, shape_b, in_order), in_order);
+    // An overlap without an area would grow without a force.
+    if (found.measure > 0 || !(found.separation < 0)) return found;
+    return area_.by_shortest_way(linked_a, linked_b, in_order);
+  }
+
  private:
   using Shape = PlacedShape<Dim>;
+  using Linked = typename detail::FacingArea<Dim>::Shape;
   using Planes = detail::PlanePair<Dim>;
   using Lanes = typename Planes::Lanes;
+  /// Overlaps and gaps that are not much more than a rounding are swollen by this much, which
+  /// gives them a normal that is good to a hundredth [m].
+  static constexpr double doubt = 1e-12;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] Linked linked([[maybe_unused]] std::size_t number, const Shape& shape) const {
+    if constexpr (Dim == 2) {
+      return shape;
+    } else {
+      return {shape, shapes_->topology(number)};
+    }
+  }
 
   /// Whether the shapes overlap; if so `planes_` are seen from a point inside both.
   bool find_inside(const Shape& a, const Shape& b, Memory& memory) {
@@ -169,9 +228,37 @@ class AnalyticCentre::Pair {
     return std::fmax(2 * program.excess(), 0.0);  // a rounding below 0 is no overlap
   }
 
-  [[nodiscard]] detail::LeastExcess<Dim> least_excess(const Shape& a, const Shape& b,
-                                                      const detail::ActivePlanes<Dim>& start,
-                                                      detail::Until until) {
+  /// Whether the shapes are no further apart than `reach`; if so `planes_` are seen from a point
+  /// inside both, swollen if need be.
+  bool find_near(const Shape& a, const Shape& b, double reach, Memory& memory) {
+    if (memory.overlapping) {
+      planes_.gather(a, b, memory.inside);
+      if (planes_.smallest_room() > doubt) return true;
+    } else if (memory.axis.separation_by_face(a, b) > reach) {
+      return false;
+    }
+    const auto program =
+        least_excess(a, b, memory.axis.active(), detail::Until::optimum, 0.5 * reach);
+    const double excess = program.excess();
+    planes_.move(program.point());
+    memory.overlapping = excess < -doubt;
+    memory.axis.set(a, b, program.active(), excess > 0);
+    if (excess > 0.5 * reach) return false;
+    // Swollen shapes reach further at their corners than they were swollen.
+    if (excess > 0 && detail::largest_separation_by_faces<Dim>(a, b) > reach) return false;
+    if (!memory.overlapping) planes_.swell(2 * std::fmax(excess, 0.0) + doubt);
+    // The centre of last time is nearer to that of now than a corner of the program.
+    if (memory.inside != zeros<Vec<Dim>>()) {
+      const Vec<Dim> step = memory.inside - planes_.point();
+      planes_.move(step);
+      if (!(planes_.smallest_room() > 0)) planes_.move(-step);
+    }
+    return true;
+  }
+
+  [[nodiscard]] detail::LeastExcess<Dim> least_excess(
+      const Shape& a, const Shape& b, const detail::ActivePlanes<Dim>& start, detail::Until until,
+      double enough = std::numeric_limits<double>::infinity()) {
     // A vertex of a sees all of the overlap within the extent of a.
     const Vec<Dim> view = a.vertex(0);
     Lanes region = Lanes::all(0);
@@ -182,64 +269,12 @@ class AnalyticCentre::Pair {
           region = max(region, max(to_vertex, Lanes::all(0) - to_vertex));
         }
     planes_.gather(a, b, view);
-    return {planes_, 2 * region.largest(), start, until};
+    return {planes_, 2 * region.largest(), start, until, enough};
   }
 
-  /// Unit vector up the potential of a and down that of b, at the point of view of `planes_`.
   /// @param in_order  whether a has the lower number
   [[nodiscard]] Vec<Dim> normal(const Shape& a, const Shape& b, bool in_order) const {
-    Vec<Dim> n = rounding_ > 0 ? rounded_gradients() : barrier_gradients();
-    const double length = n.norm();
-    // Concentric shapes: the gradients vanish, or are the same, and no direction is any better.
-    return length > 1e-6 ? Vec<Dim>(n / length) : shallowest(a, b, in_order);
-  }
-
-  /// Half the gradient of a's barrier less that of b's, over the sum of the weights 1 / room.
-  [[nodiscard]] Vec<Dim> barrier_gradients() const {
-    std::array<Lanes, Dim + 1> sums;
-    sums.fill(Lanes::all(0));
-    for (std::size_t group = 0; group < planes_.padded_count(); group += lane_count) {
-      const Lanes weight = Lanes::all(1) / planes_.room(group);
-      const Lanes signed_weight = planes_.side(group) * weight;
-      for (int axis = 0; axis < Dim; ++axis) {
-        Lanes& sum = sums[static_cast<std::size_t>(axis)];
-        sum = sum + signed_weight * planes_.normal(axis, group);
-      }
-      sums[Dim] = sums[Dim] + weight;
-    }
-    Vec<Dim> n;
-    for (int axis = 0; axis < Dim; ++axis) n[axis] = sums[static_cast<std::size_t>(axis)].sum();
-    return n / sums[Dim].sum();
-  }
-
-  /// The unit gradient of a's rounded inner particle less that of b's.
-  [[nodiscard]] Vec<Dim> rounded_gradients() const {
-    Vec<Dim> difference = zeros<Vec<Dim>>();
-    for (const bool of_a : {true, false}) {
-      const std::size_t first = of_a ? 0 : planes_.count_a();
-      const std::size_t last = of_a ? planes_.count_a() : planes_.count();
-      Vec<Dim> gradient = zeros<Vec<Dim>>();
-      std::size_t nearest = first;
-      for (std::size_t plane = first; plane < last; ++plane) {
-        gradient += std::fmax(rounding_ - planes_.room_of(plane), 0.0) * planes_.normal_of(plane);
-        if (planes_.room_of(plane) < planes_.room_of(nearest)) nearest = plane;
-      }
-      const double length = gradient.norm();
-      // Inside the inner particle its potential is flat.
-      const Vec<Dim> n = length > 0 ? Vec<Dim>(gradient / length) : planes_.normal_of(nearest);
-      difference += of_a ? n : Vec<Dim>(-n);
-    }
-    return difference;
-  }
-
-  /// Normal, from a to b, of the face of either that is left by the shortest way. Of equals the
-  /// one of the shape with the lower number, so that (b, a) has the opposite normal.
-  [[nodiscard]] Vec<Dim> shallowest(const Shape& a, const Shape& b, bool in_order) const {
-    const Shape &first = in_order ? a : b, &second = in_order ? b : a;
-    const detail::ShallowFace<Dim> of_first(first, second), of_second(second, first);
-    const bool use_first = of_first.separation >= of_second.separation;
-    const Vec<Dim> n = use_first ? of_first.normal : of_second.normal;
-    return use_first == in_order ? n : Vec<Dim>(-n);
+    return detail::centre_normal(planes_, rounding_, a, b, in_order);
   }
 
   /// Way from the point to where it leaves a along the normal, and b against it [m].
@@ -260,6 +295,7 @@ class AnalyticCentre::Pair {
   double rounding_;
   Planes planes_;
   detail::BarrierCentre<Dim> centre_;
+  detail::FacingArea<Dim> area_;
   Vec<Dim> point_ = zeros<Vec<Dim>>();
 };
 

@@ -32,6 +32,8 @@ struct FaceContacts {
   ///  - `contact(a, b, memory, reach)`  how they touch; Touch::none if further apart than `reach`
   ///  - `contact_near(a, b, memory, reach)`  the same, points counted from the grid point of a: at
   ///                                the coordinates of a site nothing is rounded then
+  ///  - `facing_contact(a, b, memory, reach)`  how they touch, for a model (see PairDetector): that
+  ///                                of `contact_near`, with all of the face, however high
   ///
   /// `Memory` keeps, per pair, what decided last time. It never changes an answer, only its cost.
   template <int Dim, class Lanes = detail::VectorLanes>

@@ -12,6 +12,33 @@
 
 namespace voussoir::detail {
 
+/// A detector whose `contact` has no area, with that of its `facing_contact` instead.
+template <class Detector>
+struct ByFacing {
+  using role = typename Detector::role;
+
+  template <int Dim>
+  class Pair : public Detector::template Pair<Dim> {
+   public:
+    using Base = typename Detector::template Pair<Dim>;
+
+    explicit Pair(const PlacedShapes<Dim>& shapes) : Base(shapes), shapes_(&shapes) {}
+
+    [[nodiscard]] Contact<Dim> contact(std::size_t a, std::size_t b, typename Base::Memory& memory,
+                                       double reach) {
+      Contact<Dim> found = Base::facing_contact(a, b, memory, reach);
+      points_.assign(found.polygon.begin(), found.polygon.end());
+      for (Vec<Dim>& point : points_) point += shapes_->grid_point(a);
+      found.polygon = points_;
+      return found;
+    }
+
+   private:
+    const PlacedShapes<Dim>* shapes_;
+    std::vector<Vec<Dim>> points_;
+  };
+};
+
 template <class Mass>
 struct GeometryOf;
 template <template <class> class Mass, class Geometry>

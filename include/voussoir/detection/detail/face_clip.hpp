@@ -72,6 +72,13 @@ class FaceClip {
            (0.5 * share * sum.h) * normal_;
   }
 
+  /// Height of the polygon's lowest point over the reference face [m]; infinity if it is empty.
+  [[nodiscard]] double lowest() const {
+    double low = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < count_; ++k) low = std::min(low, points_[k].h);
+    return low;
+  }
+
   /// Square of a length that no two points of the polygon are further apart than [m^2].
   [[nodiscard]] double squared_extent() const {
     if (count_ == 0) return 0;

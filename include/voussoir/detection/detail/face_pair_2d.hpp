@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 #include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/detail/edge_clip.hpp>
+#include <voussoir/detection/detail/facing_contact.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
 namespace voussoir::detail {
@@ -45,6 +47,10 @@ class FacePair2 {
   [[nodiscard]] Contact<2> contact_near(std::size_t a, std::size_t b, Memory& memory,
                                         double reach) {
     return contact_from(zeros<Vec2>(), a, b, memory, reach);
+  }
+  [[nodiscard]] Contact<2> facing_contact(std::size_t a, std::size_t b, Memory& memory,
+                                          double reach) {
+    return detail::facing_contact(*this, a, b, memory, reach);
   }
 
  private:
@@ -135,28 +141,12 @@ class FacePair2 {
   /// Clips the edge of q that faces the given face of p to what lies in front of that face.
   void clip(const PlacedShape<2>& p, const PlacedShape<2>& q, const Memory& axis, double reach,
             const Vec2& grid_point, Contact<2>& found) {
-    const std::size_t face = axis.face, next = following(face, p.vertex_count);
-    const Vec2 normal = p.normal(face), along = perpendicular(normal), origin = p.vertex(face);
-    const std::size_t edge = axis.edge;
-    // From `low` to `high` the coordinate along the face rises; s is the fraction of the way.
-    const Vec2 low = q.vertex(following(edge, q.vertex_count));
-    const Vec2 span = q.vertex(edge) - low;
-    const double length = dot_product(along, span), start = dot_product(along, low - origin);
-    const double height = dot_product(normal, low - origin), rise = dot_product(normal, span);
-    const double face_length = dot_product(along, p.vertex(next) - origin);
-    const double scale = 1 / length;
-    // Where the edge leaves the reach; parallel to the face it never does.
-    const double leaves = (reach - height) / rise;
-    const double highest = rise > 0 ? leaves : 1.0, lowest = rise < 0 ? leaves : 0.0;
-    double from = std::max(std::max(0.0, lowest), -start * scale);
-    double to = std::min(std::min(1.0, highest), (face_length - start) * scale);
-    if (!(from <= to)) from = to = rise > 0 ? 0 : 1;  // a rounding: the deepest point
-    const Vec2 start_at = low + grid_point;
-    ends_[axis.side] = start_at + from * span;
-    ends_[1 - axis.side] = start_at + to * span;
+    const ClippedEdge clipped = clip_edge(p, axis.face, q, axis.edge, reach, grid_point);
+    ends_[axis.side] = clipped.start;
+    ends_[1 - axis.side] = clipped.end;
     found.touch = axis.side == 0 ? Touch::face_a : Touch::face_b;
-    found.normal = (1.0 - 2.0 * axis.side) * normal;
-    found.measure = (to - from) * length;
+    found.normal = (1.0 - 2.0 * axis.side) * p.normal(axis.face);
+    found.measure = clipped.length;
     found.polygon = ends_;
   }
 
@@ -172,25 +162,6 @@ class FacePair2 {
 #else
     (void)memory;
 #endif
-  }
-
-  /// The edge of q that faces `normal` most squarely: one of the two at the deepest vertex, for the
-  /// normals of a polygon go round in order and the opposite of `normal` lies between theirs.
-  [[nodiscard]] static std::uint16_t facing_edge(const PlacedShape<2>& q, const Vec2& normal) {
-    const double *x = q.normals(0), *y = q.normals(1);
-    std::size_t facing = 0;
-    double cosine = normal.x() * x[0] + normal.y() * y[0];
-    for (std::size_t k = 1; k < q.face_stride(); ++k) {
-      const double c = normal.x() * x[k] + normal.y() * y[k];
-      facing = c < cosine ? k : facing;
-      cosine = std::min(c, cosine);
-    }
-    return static_cast<std::uint16_t>(facing);
-  }
-
-  /// Without a branch.
-  [[nodiscard]] static std::size_t following(std::size_t k, std::size_t count) {
-    return (k + 1) * static_cast<std::size_t>(k + 1 != count);
   }
 
   const PlacedShapes<2>* shapes_;

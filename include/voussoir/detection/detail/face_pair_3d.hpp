@@ -12,6 +12,8 @@
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/detail/edge_pairs.hpp>
 #include <voussoir/detection/detail/face_clip.hpp>
+#include <voussoir/detection/detail/facing_contact.hpp>
+#include <voussoir/detection/detail/facing_face.hpp>
 #include <voussoir/detection/detail/section.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -109,6 +111,11 @@ class FacePair3 {
     }
     found.polygon = polygon_;
     return found;
+  }
+
+  [[nodiscard]] Contact<3> facing_contact(std::size_t a, std::size_t b, Memory& memory,
+                                          double reach) {
+    return detail::facing_contact(*this, a, b, memory, reach);
   }
 
  private:
@@ -241,7 +248,7 @@ class FacePair3 {
       memory.apart = best > limit;
       return best;
     }
-    if (clip_.size() > 0 && best <= 0) {
+    if (best <= 0 && clip_.lowest() <= 0) {
       near(a, b, -best);
     } else {
       all(a.topology, edges_of_a_);
@@ -263,36 +270,13 @@ class FacePair3 {
   void clip_face(const LinkedShape& reference, const LinkedShape& incident, std::size_t face,
                  double reach) {
     const Shape &p = reference.shape, &q = incident.shape;
-    const Vec3 normal = p.normal(face);
-    if (heights_.size() < q.vertex_stride()) heights_.resize(q.vertex_stride());
-    for (std::size_t k = 0; k < q.vertex_stride(); k += lane_count)
-      along(normal, q, k).store(heights_.data() + k);
-    std::size_t deepest = 0, highest = 0;
-    double low = heights_[0], high = low;
-    for (std::size_t k = 1; k < q.vertex_count; ++k) {
-      deepest = heights_[k] < low ? k : deepest;
-      low = std::min(low, heights_[k]);
-      highest = heights_[k] > high ? k : highest;
-      high = std::max(high, heights_[k]);
-    }
-    double facing = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](std::size_t vertex) {
-      for (const std::uint16_t candidate : incident.topology.faces_at(vertex)) {
-        const double cosine = dot_product(normal, q.normal(candidate));
-        other_ = cosine < facing ? candidate : other_;
-        facing = std::min(facing, cosine);
-      }
-    };
-    look_at(deepest);
-    // Where vertices stand out of faces, the deepest may not be of the face that touches.
-    const double uneven = reference.topology.unevenness + incident.topology.unevenness;
-    if (uneven > preference)
-      for (std::size_t k = 0; k < q.vertex_count; ++k)
-        if (heights_[k] <= low + 2 * uneven) look_at(k);
-    deepest_ = q.vertex(deepest);
-    highest_ = q.vertex(highest);
+    const FacingFace across = facing_face<Lanes>(reference, face, incident, heights_);
+    other_ = across.face;
+    deepest_ = q.vertex(across.deepest);
+    highest_ = q.vertex(across.highest);
     other_normal_ = face_side_ == 0 ? Vec3(-q.normal(other_)) : q.normal(other_);
-    clip_.run(p, reference.topology.loop(face), normal, q, incident.topology.loop(other_), reach);
+    clip_.run(p, reference.topology.loop(face), p.normal(face), q, incident.topology.loop(other_),
+              reach);
     area_ = clip_.area();
   }
 
@@ -354,8 +338,8 @@ class FacePair3 {
   /// other within d*. So an edge of a that lies further inside a face of a than b reaches and d*,
   /// or further outside a face of b than d*, plays no part. The two faces of each shape that are
   /// entered least are looked at. If the shapes are apart, although no face says so, the axis
-  /// wanted is that of two edges as near as the shapes are, and these are within `depth` too, for
-  /// so far below the reference face there is a point of the clipped one.
+  /// wanted is that of two edges as near as the shapes are, and these are within `depth` too if a
+  /// point of the clipped face is below the reference face, for it is no deeper than that.
   void near(const LinkedShape& linked_a, const LinkedShape& linked_b, double depth) {
     const Shape &a = linked_a.shape, &b = linked_b.shape;
     alignas(32) std::array<double, lane_count> x, y, z, limit_a, limit_b;

@@ -47,9 +47,11 @@ class LeastExcess {
   /// @param region  their intersection, if any, lies within this distance of where the planes are
   ///                seen from [m]
   /// @param start   active planes of an earlier time; used if they still hold up a lower bound
+  /// @param enough  where s is above this it may be any value above [m]
   LeastExcess(const PlanePair<Dim>& planes, double region, const ActivePlanes<Dim>& start,
-              Until until)
+              Until until, double enough = std::numeric_limits<double>::infinity())
       : planes_(&planes), active_(start) {
+    if (until == Until::sign) enough = 0;
     if (!take_start()) take_walls(1000 * region);
     const double tolerance = 1e-15 * region;
     for (int round = 0; round < 100; ++round) {
@@ -61,7 +63,7 @@ class LeastExcess {
       }
       // An active plane is beyond s by a rounding only.
       const bool done = worst.excess <= excess() + tolerance || is_active(worst.plane) ||
-                        (until == Until::sign && excess() > 0 && walls_ == 0);
+                        (excess() > enough && walls_ == 0);
       if (done && exact_) return;
       if (done)
         invert();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,26 @@ struct ShallowFace {
   }
 };
 
+/// How far apart the planes of either shape keep the other at most [m].
+template <int Dim>
+[[nodiscard]] double largest_separation_by_faces(const PlacedShape<Dim>& a,
+                                                 const PlacedShape<Dim>& b) {
+  return std::max(ShallowFace<Dim>(a, b).separation, ShallowFace<Dim>(b, a).separation);
+}
+
+/// Normal, from a to b, of the face of either that is left by the shortest way. Of equals the one
+/// of the shape with the lower number, so that (b, a) has the opposite normal.
+/// @param in_order  whether a has the lower number
+template <int Dim>
+[[nodiscard]] Vec<Dim> shallowest_normal(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b,
+                                         bool in_order) {
+  const PlacedShape<Dim>&first = in_order ? a : b, &second = in_order ? b : a;
+  const ShallowFace<Dim> of_first(first, second), of_second(second, first);
+  const bool use_first = of_first.separation >= of_second.separation;
+  const Vec<Dim> n = use_first ? of_first.normal : of_second.normal;
+  return use_first == in_order ? n : Vec<Dim>(-n);
+}
+
 /// A separating axis in terms of planes of the shapes, so that it moves with them.
 ///
 /// Where the linear program finds two shapes apart, a convex combination of its active normals is
@@ -72,6 +93,11 @@ class PlaneAxis {
 
   [[nodiscard]] bool separates(const PlacedShape<Dim>& a, const PlacedShape<Dim>& b) const {
     return choice_ != none && along(a, b, choice_) > 0;
+  }
+  /// How far apart the plane in use as an axis keeps the shapes [m]; -infinity if it is none.
+  [[nodiscard]] double separation_by_face(const PlacedShape<Dim>& a,
+                                          const PlacedShape<Dim>& b) const {
+    return choice_ <= Dim ? along(a, b, choice_) : never;
   }
   [[nodiscard]] const ActivePlanes<Dim>& active() const { return active_; }
 
