@@ -40,6 +40,13 @@ Section all_decided() {
 }  // namespace
 
 TEST_SUITE("program/paper") {
+  TEST_CASE("the build makes a program of every analysis and of nothing else") {
+    std::string names;
+    for (const NamedAnalysis& analysis : analyses())
+      names += (names.empty() ? "" : " ") + std::string(analysis.name);
+    CHECK(names == VOUSSOIR_TEST_ANALYSES);
+  }
+
   TEST_CASE("104 claims in order, every one in a chapter") {
     REQUIRE(claims().size() == 104);
     for (std::size_t k = 0; k < claims().size(); ++k) {
