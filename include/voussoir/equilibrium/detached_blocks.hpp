@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/small_algebra.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
@@ -46,6 +47,8 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   const auto enter = [&](int b) {
     if (!system.body(b).is_block) return;
     report.fallen.push_back(b);
+    VOUSSOIR_ASSERT(context.measures == nullptr || is_index(b, context.measures->size()),
+                    "every block has its area or volume");
     if (context.measures != nullptr)
       report.fallen_measure += (*context.measures)[static_cast<std::size_t>(b)];
   };
@@ -127,6 +130,7 @@ template <class System, class Solve>
 /// True, with the verdict, if more is detached than a tunnel can lose.
 template <int Dim>
 [[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context) {
+  VOUSSOIR_ASSERT(context.open_length > 0, "rock is lost over a length");
   const double limit = context.acceptance.collapse_measure * context.open_length;
   if (!(report.fallen_measure > limit)) return false;
   const char* unit = Dim == 2 ? "m2" : "m3";

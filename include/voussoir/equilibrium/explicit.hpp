@@ -114,6 +114,8 @@ void Explicit::step_on(System& system, const SearchContext& context,
     const bool ramping = report.steps < params_.ramp_steps;
     const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
     stop();
+    VOUSSOIR_ASSERT(done > 0 && done <= 1, "a ramp goes from its beginning to its end");
+    VOUSSOIR_ASSERT(step > 0, "time goes on");
     system.wall_fraction = from + (to - from) * done;
     system.template forces<Committing>(u, f);
     ++report.steps;

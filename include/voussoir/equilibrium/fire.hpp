@@ -63,6 +63,8 @@ class Fire {
   /// Moves these bodies, `Dof` values each, one step under the forces `f` that act on them.
   template <int Dof>
   void advance(const std::vector<int>& bodies, const Eigen::VectorXd& f, Eigen::VectorXd& u) {
+    VOUSSOIR_ASSERT(f.size() == velocity_.size() && u.size() == velocity_.size(),
+                    "every unknown has a mass");
     double power = 0, speed = 0, force = 0;
     for (const int b : bodies)
       for (int k = Dof * b; k < Dof * (b + 1); ++k) {
@@ -82,6 +84,8 @@ class Fire {
       if (speed > 0) step_ *= params_.step_cut;
       mixing_ = params_.mixing;
     }
+    VOUSSOIR_ASSERT(step_ <= params_.largest_step && mixing_ <= params_.mixing,
+                    "steps stay stable");
     const double push = turn + step_;
     for (const int b : bodies)
       for (int k = Dof * b; k < Dof * (b + 1); ++k) {

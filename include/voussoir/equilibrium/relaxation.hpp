@@ -134,6 +134,8 @@ void Relaxation::step_on(System& system, const SearchContext& context,
     detail::ask_to_go_on(context);
     ActiveSet<System> active(system, f, zeros(f.size()),
                              params_.active_above * accept.unbalance_over_weight, params_.rings);
+    VOUSSOIR_ASSERT(mass.size() == u.size() && velocity.size() == u.size(),
+                    "every unknown has a mass and a velocity");
     for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
       stop();
       if (k > 0) active.template forces<Committing>(u, f);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/vtu.hpp>
@@ -155,6 +156,8 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
 template <class Geometry>
 [[nodiscard]] std::string vtu_of(const TunnelState<Geometry>& state,
                                  const RockMass<Geometry>& mass) {
+  VOUSSOIR_ASSERT(state.blocks.size() == mass.bodies.size(),
+                  "a state is of the rock that is drawn");
   VtuGrid grid;
   std::vector<double> moved, number;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {

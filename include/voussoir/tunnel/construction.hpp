@@ -195,6 +195,10 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
         end.wall_traction = std::max(end.wall_traction, left);
       end.convergence = convergence(solver);
     });
+    VOUSSOIR_ASSERT(result.bars.size() == result.crossings.size(), "every bolt has been installed");
+    VOUSSOIR_ASSERT(result.bars.size() + static_cast<std::size_t>(result.first_bolt) ==
+                        static_cast<std::size_t>(solver.bolt_count()),
+                    "bolts are those of the solver");
     if (result.verdict() != Verdict::stable) break;
   }
   return result;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
@@ -90,6 +91,7 @@ template <class Solver>
     condition.yielded += c.report.has_yielded() && !c.report.is_broken;
   }
   for (std::size_t k = 0; k < held.size(); ++k) {
+    VOUSSOIR_ASSERT(held[k] <= result.crossings[k], "a bolt holds where it crossed a joint");
     condition.idle += result.crossings[k] == 0;
     condition.lost += result.crossings[k] > 0 && held[k] == 0;
   }

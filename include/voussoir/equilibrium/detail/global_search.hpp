@@ -101,6 +101,8 @@ class GlobalSearch {
     inexact_ = elastic_.solve(
         d_, tolerance_of_correction(system_, context_.acceptance, effort_.correction),
         context_.progress, report_);
+    VOUSSOIR_ASSERT(d_.size() == system_.displacement.size(), "a correction is of all bodies");
+    VOUSSOIR_ASSERT(inexact_ >= 0, "errors are no less than 0");
   }
 
   /// Takes out what is beyond the displacement limit, and updates contacts where that is due.
@@ -126,6 +128,7 @@ class GlobalSearch {
   void judge(int burst) {
     const Eigen::VectorXd& u = system_.displacement;
     report_.largest_displacement = system_.largest_translation(u);
+    VOUSSOIR_ASSERT(f_.size() == u.size(), "a force for every displacement");
     report_.error_estimate = estimate_ = system_.relative_correction(d_, u, inexact_);
     report_.unbalance_over_weight = system_.unbalance_over_weight(f_);
     if (!voussoir::is_finite(d_))

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/active_set.hpp>
@@ -48,8 +49,10 @@ class LocalSearch {
         effort_(effort),
         tuning_(tuning),
         context_(context),
-        reach_(constants(system.body_count(),
-                         tuning.first_reach * longest_move(context.acceptance))) {}
+        reach_(
+            constants(system.body_count(), tuning.first_reach * longest_move(context.acceptance))) {
+    VOUSSOIR_ASSERT(is_positive(reach_), "a body can move");
+  }
 
   /// @param estimate  of the error so far [-]
   /// @param left      what elastic solves have left of the forces: for the next to take
@@ -104,6 +107,7 @@ class LocalSearch {
         hold_back(active.bodies(), f, worse);
         continue;
       }
+      VOUSSOIR_ASSERT(next <= tuning_.accepted_growth * now, "a step that is kept has succeeded");
       now = next;
       if (share == 1.0)
         for (const int b : active.bodies())
@@ -140,6 +144,7 @@ class LocalSearch {
                                 tuning_.spoilt_addition))
           continue;
         reach_[b] = std::max(tuning_.reach_shrinkage * reach_[b], tuning_.shortest_reach);
+        VOUSSOIR_ASSERT(reach_[b] > 0, "a body that is held back can still move");
         found = true;
       }
     }
