@@ -12,7 +12,7 @@ namespace voussoir_bench {
 
 using namespace voussoir;
 
-Cavern cavern(double spacing) {
+Cavern excavated_cavern(double spacing) {
   constexpr double degree = std::numbers::pi / 180;
   SpatialJointSet a{"J1", 75 * degree, 90 * degree}, b{"J2", 25 * degree, 90 * degree},
       c{"J3", 80 * degree, 5 * degree};
@@ -21,10 +21,17 @@ Cavern cavern(double spacing) {
     set->spacing = spacing;
   }
   const Domain<3> ground{{-16, 0, -14}, {16, 12, 20}};
-  Cavern made(slice<Spatial>(ground, joint_network({a, b, c}, ground, 1),
-                             {.min_inscribed_radius = 0.1 * spacing}),
-              CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700, .surcharge = 1.3e5},
-              PrismaticOpening(circular_opening(10, 36)), 0.05);
+  return {slice<Spatial>(ground, joint_network({a, b, c}, ground, 1),
+                         {.min_inscribed_radius = 0.1 * spacing}),
+          CoulombJoint({5e9, 5e8, 35 * degree}),
+          {.density = 2700, .surcharge = 1.3e5},
+          PrismaticOpening(circular_opening(10, 36)),
+          0.05};
+}
+
+Cavern cavern(double spacing) {
+  constexpr double degree = std::numbers::pi / 180;
+  Cavern made = excavated_cavern(spacing);
   for (const auto& bar : bolt_bars({.length = 4, .angular_spacing = 18 * degree},
                                    made.mass().openings.back(), 1.5, 0, 12))
     made.install_bolt(bar, AxialBolt({.axial_stiffness = 2e8, .yield_force = 5e5}));

@@ -133,9 +133,9 @@ inline void say_collapsed(Plot& plot, Study& study,
   Measured m;
   for (std::size_t k = 0; k < a.size(); ++k) {
     if (a[k].stable())
-      m.add(b[k], b[k].stable() ? compare(a[k], b[k]) : 0.0);
+      m.add(b[k].report, b[k].stable() ? compare(a[k], b[k]) : 0.0);
     else
-      m.add(a[k], 0.0);
+      m.add(a[k].report, 0.0);
   }
   return m;
 }

@@ -49,26 +49,43 @@ ChosenMethod method_of(Way way) {
   return ChosenMethod(TwoLevel{});
 }
 
-void support(Tunnel& tunnel, const Variant& variant) {
-  if (variant.bolts) {
-    const Bolts& b = *variant.bolts;
-    const AxialShearBolt law({.axial = {.axial_stiffness = b.stiffness,
-                                        .pretension = b.pretension,
-                                        .rupture_force = bolt_strength},
-                              .shear_stiffness = b.shear_stiffness});
-    for (const Segment& bar :
-         bolt_bars({.length = b.length, .angular_spacing = b.spacing, .from = b.from, .to = b.to},
-                   opening()))
-      tunnel.install_bolt(bar, law, 1.0, anchors_at(b.anchors));
-  }
-  if (variant.lining) {
-    LiningSection section = LiningSection::rectangular(variant.lining->thickness, lining_modulus);
-    section.bending_stiffness *= variant.lining->bending_factor;
-    section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
-    tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = variant.lining->nodes}), section,
-                          CoulombJoint({variant.lining->interface_stiffness,
-                                        variant.lining->interface_stiffness, interface_friction}));
-  }
+BoltInstallation<Tunnel> bolts_of(const Bolts& b) {
+  return {bolt_bars({.length = b.length, .angular_spacing = b.spacing, .from = b.from, .to = b.to},
+                    opening()),
+          AxialShearBolt({.axial = {.axial_stiffness = b.stiffness,
+                                    .pretension = b.pretension,
+                                    .rupture_force = bolt_strength},
+                          .shear_stiffness = b.shear_stiffness}),
+          1.0, anchors_at(b.anchors)};
+}
+
+LiningInstallation<Tunnel> lining_of(const Lining& lining) {
+  LiningSection section = LiningSection::rectangular(lining.thickness, lining_modulus);
+  section.bending_stiffness *= lining.bending_factor;
+  section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
+  return {
+      {.nodes = lining.nodes},
+      {section},
+      CoulombJoint({lining.interface_stiffness, lining.interface_stiffness, interface_friction})};
+}
+
+Construction<Tunnel> construction_of(const Variant& variant) {
+  Construction<Tunnel> construction;
+  construction.method = method_of(variant.way);
+  Acceptance& acceptance = construction.acceptance;
+  acceptance.error_estimate = variant.tolerance;
+  acceptance.unbalance_over_weight = 10 * variant.tolerance;
+  acceptance.collapse_measure = collapse_measure_of(opening());
+  acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
+  // The overshoot of an explicit run is no fall.
+  if (variant.way == Way::as_the_paper)
+    acceptance.displacement_limit = acceptance.refind_limit = 0.05;
+  if (variant.held_at_support < 1)
+    construction.add_stage("before support", variant.held_at_support);
+  auto& supported = construction.add_stage("supported", variant.held);
+  if (variant.bolts) supported.install_bolts(bolts_of(*variant.bolts));
+  if (variant.lining) supported.install_lining(lining_of(*variant.lining));
+  return construction;
 }
 
 /// Mean of a quantity over the entries within half a window of an angle.
@@ -189,27 +206,10 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
   Tunnel tunnel = parts_->tunnel;
   Outcome outcome;
   outcome.seed = parts_->seed;
-  const ChosenMethod method = method_of(variant.way);
-  Acceptance acceptance{.error_estimate = variant.tolerance,
-                        .unbalance_over_weight = 10 * variant.tolerance};
-  acceptance.collapse_measure = 0.25 * opening().area();
-  acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
-  // The overshoot of an explicit run is no fall.
-  if (variant.way == Way::as_the_paper)
-    acceptance.displacement_limit = acceptance.refind_limit = 0.05;
-  double fallen = 0;
-  bool go_on = true;
-  if (variant.held_at_support < 1) {
-    outcome.report = tunnel.equilibrium(variant.held_at_support, method, acceptance);
-    fallen = outcome.report.fallen_measure;
-    go_on = outcome.report.verdict == Verdict::stable;
-  }
-  if (go_on) {
-    support(tunnel, variant);
-    outcome.report = tunnel.equilibrium(variant.held, method, acceptance);
-    outcome.report.fallen_measure += fallen;
-  }
-  outcome.convergence = convergence(tunnel);
+  const auto built = construct(tunnel, construction_of(variant));
+  outcome.report = built.last();
+  outcome.report.fallen_measure = built.fallen_measure();
+  outcome.convergence = built.stages.back().convergence;
   outcome.wall = wall_motion(tunnel);
   double length = 0;
   for (const WallMotion& piece : outcome.wall)
@@ -226,19 +226,15 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
         before += point.initial.normal;
       });
   outcome.boundary_change = change / before;
-  if (variant.bolts && go_on) {
-    const Bolts& b = *variant.bolts;
-    for (const Segment& bar :
-         bolt_bars({.length = b.length, .angular_spacing = b.spacing, .from = b.from, .to = b.to},
-                   opening()))
-      outcome.bolts.push_back({std::atan2(bar.start.y(), bar.start.x()), 0, {}});
-    for (BoltOutcome& bolt : outcome.bolts)
-      if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;
-    for (const CrossingForce& c : bolt_forces(tunnel)) {
-      BoltOutcome& bolt = outcome.bolts[static_cast<std::size_t>(c.bolt)];
-      bolt.largest = std::max(bolt.largest, c.report.axial);
-      bolt.crossings.push_back({radius + c.position, c.report.axial});
-    }
+  for (const Segment& bar : built.bars) {
+    BoltOutcome& bolt =
+        outcome.bolts.emplace_back(BoltOutcome{std::atan2(bar.start.y(), bar.start.x()), 0, {}});
+    if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;
+  }
+  for (const CrossingForce& c : bolt_forces(tunnel)) {
+    BoltOutcome& bolt = outcome.bolts[static_cast<std::size_t>(c.bolt)];
+    bolt.largest = std::max(bolt.largest, c.report.axial);
+    bolt.crossings.push_back({radius + c.position, c.report.axial});
   }
   for (const LiningForce& at : lining_forces(tunnel))
     outcome.lining.push_back({std::atan2(at.position.y(), at.position.x()), at.thrust, at.moment});

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <voussoir/contact/coulomb_joint.hpp>
-#include <voussoir/core/parallel.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/theory/initial_friction.hpp>
 #include <voussoir/tunnel/opening.hpp>
@@ -23,7 +22,6 @@ Section rock_mass(Study& study) {
                   {"Mass A: one joint centre per square metre and set, joints of 1 m, inscribed "
                    "radius 0.25 m or more, elongation 5 or less, joints of all sets in one random "
                    "order. The stress is prescribed at the contacts, not simulated."}};
-  const auto samples = static_cast<std::size_t>(study.samples());
   struct Sampled {
     BlockSizes sizes;
     std::size_t not_whole = 0;
@@ -32,11 +30,9 @@ Section rock_mass(Study& study) {
     InSituState hydrostatic{}, deep{}, half_enough{}, half_short{};
     Eigen::AlignedBox2d corners;  // of all blocks
   };
-  std::vector<Sampled> sampled(samples);
   const double needed = largest_initial_friction(0.5);
-  parallel_for(samples, study.threads(), [&](std::size_t k) {
-    const std::uint64_t seed = k + 1;
-    Sampled& s = sampled[k];
+  const auto sampled = realise(study.realisations(), [&](std::uint64_t seed) {
+    Sampled s;
     const auto mass = sliced_rock(mass_a, seed);
     s.sizes = block_sizes(mass);
     for (const auto& body : mass.bodies) s.not_whole += body.parts.size() != 1;
@@ -59,6 +55,7 @@ Section rock_mass(Study& study) {
         for (const Vec2& corner : part.vertices()) s.corners.extend(corner);
     s.half_enough = in_situ_state(seed, 0.5, needed * 1.001);
     s.half_short = in_situ_state(seed, 0.5, needed * 0.8);
+    return s;
   });
   const auto over = [&](const auto& value) {
     Measured m{.samples = study.samples()};

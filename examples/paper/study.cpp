@@ -7,38 +7,8 @@
 #include <utility>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/parallel.hpp>
-#include <voussoir/drawing/number_text.hpp>
-#include <voussoir/statistics/sample.hpp>
 
 namespace voussoir::paper {
-
-void Measured::add(const Outcome& outcome, double value) {
-  ++samples;
-  if (!outcome.stable()) {
-    ++collapsed;
-  } else if (!std::isfinite(value)) {
-    ++gone;
-  } else {
-    shedding += outcome.sheds();
-    values.push_back(value);
-  }
-}
-double Measured::mean() const {
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Sample(values).mean();
-}
-double Measured::deviation() const { return values.size() < 2 ? 0.0 : Sample(values).deviation(); }
-std::string Measured::text(double scale, const std::string& unit, int digits) const {
-  const std::string end = unit.empty() ? "" : " " + unit;
-  std::string notes = std::to_string(samples) + (samples == 1 ? " realisation" : " realisations");
-  if (collapsed > 0) notes += "; " + std::to_string(collapsed) + " collapsed";
-  if (gone > 0) notes += "; " + std::to_string(gone) + " have lost that rock";
-  if (shedding > 0) notes += "; " + std::to_string(shedding) + " shed rock";
-  if (values.empty()) return "no value (" + notes + ")";
-  std::string text = printed_text(scale * mean(), digits);
-  if (values.size() > 1)
-    text += " ± " + printed_text(scale * deviation(), std::clamp(digits - 1, 1, 2));
-  return text + end + " (" + notes + ")";
-}
 
 Study::Study(int samples, unsigned threads, Progress progress)
     : samples_(samples), threads_(threads), progress_(std::move(progress)) {
@@ -107,7 +77,7 @@ const std::vector<Outcome>& Study::of(const Variant& variant) {
 Measured Study::measure(const Variant& variant,
                         const std::function<double(const Outcome&)>& quantity) {
   Measured measured;
-  for (const Outcome& outcome : of(variant)) measured.add(outcome, quantity(outcome));
+  for (const Outcome& outcome : of(variant)) measured.add(outcome.report, quantity(outcome));
   return measured;
 }
 

@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
 #include <vector>
+#include <voussoir/design/realisations.hpp>
 
 #include "design_case.hpp"
 
 namespace voussoir::paper {
 
-/// A quantity over the realisations of the rock. Realisations whose tunnel did not stand have none:
-/// they are counted, never left out silently.
-struct Measured {
-  std::vector<double> values =
-      {};             ///< of the realisations that have one, in the order of their seeds
-  int samples = 0;    ///< all
-  int collapsed = 0;  ///< did not stand
-  int gone = 0;       ///< stand, but the rock that the quantity is of is detached
-  int shedding = 0;   ///< have a value, but pieces of rock came off first
-
-  /// Counts an outcome, and its value if it has one.
-  void add(const Outcome& outcome, double value);
-  [[nodiscard]] bool complete() const { return static_cast<int>(values.size()) == samples; }
-  [[nodiscard]] double mean() const;       ///< NaN if none stands
-  [[nodiscard]] double deviation() const;  ///< from n - 1; 0 for one value
-  /// "3.17 ± 0.25 mm (5 realisations; 1 collapsed, 2 shed rock)"
-  [[nodiscard]] std::string text(double scale, const std::string& unit, int digits = 3) const;
-};
+using Measured = RealisedQuantity;
 
 /// The same tunnels in the same realisations of the rock, whoever asks: every variant is computed
 /// once, all its realisations side by side on all threads.
@@ -44,6 +26,10 @@ class Study {
 
   [[nodiscard]] int samples() const { return samples_; }
   [[nodiscard]] unsigned threads() const { return threads_; }
+  /// For what an analysis computes of each realisation itself.
+  [[nodiscard]] RealisationSettings realisations() const {
+    return {.count = samples_, .threads = threads_};
+  }
   [[nodiscard]] bool progress(const std::string& what, double fraction) const {
     return !progress_ || progress_(what, fraction);
   }

@@ -15,6 +15,7 @@
 #include <voussoir/core/memory.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
 
 namespace voussoir::program {
 
@@ -35,8 +36,7 @@ Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
   acceptance.error_estimate = input.run.tolerance;
   acceptance.displacement_limit = input.run.displacement_limit;
   acceptance.refind_limit = input.run.refind_limit;
-  // A quarter of the opening's own area: more than any spalling, less than any cave.
-  acceptance.collapse_measure = 0.25 * opening.area();
+  acceptance.collapse_measure = collapse_measure_of(opening);
   return acceptance;
 }
 
@@ -115,60 +115,39 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
   }
 }
 
-/// The bolts of a tunnel and the joints that each crossed when it was installed.
-struct InstalledBolts {
-  std::vector<Segment> bars;
-  std::vector<int> crossings;
-};
-
-/// @throws Stopped
-InstalledBolts install_bolts(Tunnel& tunnel, const Input& input, const BoltSpacing& spacing,
-                             const SimplePolygon& opening, const Progress& progress) {
-  const BoltsInput& bolts = *input.bolts;
-  InstalledBolts installed{bars_of(bolts, spacing, opening), {}};
-  const AxialShearBolt law = bolt_of(bolts);
-  const ChosenAnchors anchors = anchors_of(bolts);
-  StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
-  for (const Segment& bar : installed.bars) {
-    stop();
-    installed.crossings.push_back(tunnel.install_bolt(bar, law, bolts.out_of_plane, anchors));
-  }
-  return installed;
+BoltInstallation<Tunnel> bolts_of(const BoltsInput& bolts, const BoltSpacing& spacing,
+                                  const SimplePolygon& opening) {
+  return {bars_of(bolts, spacing, opening), bolt_of(bolts), bolts.out_of_plane, anchors_of(bolts)};
 }
 
-void install_lining(Tunnel& tunnel, const Input& input, double thickness) {
-  const LiningInput& lining = *input.lining;
+LiningInstallation<Tunnel> lining_of(const LiningInput& lining, double thickness) {
   LiningRing ring{.nodes = lining.nodes};
   if (lining.arc) {
     ring.from = lining.arc->from;
     ring.to = lining.arc->to;
   }
-  tunnel.install_lining(lining_frame(tunnel.mass(), ring), section_of(lining, thickness),
-                        CoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
-                                      .joint_shear_stiffness = lining.interface_shear_stiffness,
-                                      .friction_angle = lining.interface_friction_angle}));
+  return {ring,
+          {section_of(lining, thickness)},
+          CoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
+                        .joint_shear_stiffness = lining.interface_shear_stiffness,
+                        .friction_angle = lining.interface_friction_angle})};
 }
 
-/// Builds in stages. `spacing` none: no bolts; `thickness` 0: no lining.
-std::vector<StageResult> build(Tunnel& tunnel, const Input& input, const SimplePolygon& opening,
-                               const std::optional<BoltSpacing>& spacing, double thickness,
-                               const LinearSettings& linear, const Report& report,
-                               InstalledBolts& bolts) {
-  std::vector<StageResult> results;
+/// The stages of the input. `spacing` none: no bolts; `thickness` 0: no lining.
+Construction<Tunnel> construction_of(const Input& input, const SimplePolygon& opening,
+                                     const std::optional<BoltSpacing>& spacing, double thickness,
+                                     const LinearSettings& linear) {
+  Construction<Tunnel> construction;
+  construction.method = method_of(input, linear);
+  construction.acceptance = acceptance_of(input, opening);
   for (const StageInput& stage : input.stages) {
-    const Progress progress = [&](double fraction) { return report(stage.name, fraction); };
+    auto& made = construction.add_stage(stage.name, stage.wall_traction);
     if (stage.install_bolts && spacing)
-      bolts = install_bolts(tunnel, input, *spacing, opening, progress);
-    if (stage.install_lining && thickness > 0) install_lining(tunnel, input, thickness);
-    StageResult result{stage.name, stage.wall_traction, stage.wall_traction, {}, {}};
-    result.report = tunnel.equilibrium(stage.wall_traction, method_of(input, linear),
-                                       acceptance_of(input, opening), progress);
-    result.wall_traction = tunnel.system().wall_fraction;
-    result.convergence = convergence(tunnel);
-    results.push_back(result);
-    if (result.report.verdict != Verdict::stable) break;
+      made.install_bolts(bolts_of(*input.bolts, *spacing, opening));
+    if (stage.install_lining && thickness > 0)
+      made.install_lining(lining_of(*input.lining, thickness));
   }
-  return results;
+  return construction;
 }
 
 /// Mapped joints as the input's file has them.
@@ -269,31 +248,8 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(needed * 180 / std::numbers::pi) +
          " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
-  std::vector<int> holds(run.bars.size(), 0);
-  for (const CrossingForce& c : bolt_forces(run.tunnel)) ++holds[static_cast<std::size_t>(c.bolt)];
-  int idle = 0, lost = 0, broken = 0, yielded = 0;
-  for (std::size_t k = 0; k < holds.size(); ++k) {
-    idle += run.crossings[k] == 0;
-    lost += run.crossings[k] > 0 && holds[k] == 0;
-  }
-  for (const CrossingForce& c : bolt_forces(run.tunnel)) {
-    broken += c.report.is_broken;
-    yielded += c.report.has_yielded() && !c.report.is_broken;
-  }
-  const std::string of_all = " of " + std::to_string(holds.size()) + " bolts ";
-  const int node = run.tunnel.first_lining_node();
-  if (node >= 0 && !run.tunnel.system().body(node).movable)
-    warn("the lining was lost with the rock that held it: nothing touches it any more");
-  const auto* lining = run.tunnel.lining();
-  if (lining != nullptr && !lining->members().empty() &&
-      lining->members().size() + 1 == static_cast<std::size_t>(lining->node_count()))
-    warn(
-        "the lining is open and its feet stand on nothing: it carries what friction on the rock "
-        "gives it, next to no thrust");
-  if (idle > 0) warn(std::to_string(idle) + of_all + "cross no joint and hold nothing");
-  if (lost > 0) warn(std::to_string(lost) + of_all + "were lost with the rock they held");
-  if (broken > 0) warn("bolts ruptured at " + std::to_string(broken) + " joints");
-  if (yielded > 0) warn("bolts yielded at " + std::to_string(yielded) + " joints");
+  for (std::string& text : remarks_on(support_condition(run.tunnel, run.built)))
+    warn(std::move(text));
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
     const double node_spacing = run.opening.perimeter() / input.lining->nodes;
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
@@ -306,12 +262,6 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
 }
 
 }  // namespace
-
-double RunResult::fallen_measure() const {
-  double sum = 0;
-  for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
-  return sum;
-}
 
 SimplePolygon opening_of(const Input& input) {
   const TunnelInput& t = input.tunnel;
@@ -378,21 +328,20 @@ RunResult computed_run(const Input& input, const Report& report) {
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
   Excavated excavated = excavate(input, report);
-  RunResult run{std::move(excavated.tunnel), excavated.opening, {}, {}, {}, 0, {}, 0, 0};
+  RunResult run{std::move(excavated.tunnel), excavated.opening};
   run.warnings = std::move(excavated.warnings);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
   const std::optional<BoltSpacing> spacing =
       input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
-  InstalledBolts bolts;
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  run.stages = build(run.tunnel, input, run.opening, spacing,
-                     input.lining ? input.lining->thickness : 0.0, linear, report, bolts);
-  if (run.stages.back().report.stopped) throw Stopped();  // nobody reads what could be told
-  run.bars = std::move(bolts.bars);
-  run.crossings = std::move(bolts.crossings);
+  run.built = construct(run.tunnel,
+                        construction_of(input, run.opening, spacing,
+                                        input.lining ? input.lining->thickness : 0.0, linear),
+                        report);
+  if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
   run.warnings = warnings_of(input, run);
   return run;
@@ -416,26 +365,13 @@ DiagramResult computed_diagram(const Input& input, unsigned threads, const Repor
   // Each tunnel may take its share of the memory, whatever the others have taken already.
   const LinearSettings linear{.memory_limit = available_memory() / std::max(threads, 1U)};
   const auto tunnel_at = [&](std::size_t i, std::size_t j) {
-    DiagramPoint point{};
-    if (!go_on) return point;
+    if (!go_on) return DiagramPoint{};
     Tunnel tunnel = excavated.tunnel;
-    InstalledBolts bolts;
-    const auto stages = build(tunnel, input, excavated.opening, axes.spacing[i], axes.thickness[j],
-                              linear, quiet, bolts);
-    point.report = stages.back().report;
-    for (std::size_t k = 0; k + 1 < stages.size(); ++k)
-      point.report.fallen_measure += stages[k].report.fallen_measure;
-    point.crown_convergence = stages.back().convergence.crown;
-    const std::vector<double> forces = largest_bolt_forces(tunnel);
-    for (const double force : forces) {
-      point.largest_bolt_force = std::max(point.largest_bolt_force, force);
-      point.mean_bolt_force += force / static_cast<double>(forces.size());
-    }
-    for (const LiningForce& at : lining_forces(tunnel)) {
-      point.largest_thrust = std::max(point.largest_thrust, at.thrust);
-      point.largest_moment = std::max(point.largest_moment, std::abs(at.moment));
-    }
-    return point;
+    const auto built = construct(
+        tunnel,
+        construction_of(input, excavated.opening, axes.spacing[i], axes.thickness[j], linear),
+        quiet);
+    return diagram_point_of(tunnel, built);
   };
   DiagramResult result;
   result.warnings = excavated.warnings;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
+#include <voussoir/tunnel/construction.hpp>
 
 #include "input.hpp"
 #include "models.hpp"
@@ -12,36 +11,21 @@
 /// From a checked input to results: the analyses behind the verbs of the program.
 namespace voussoir::program {
 
-/// A stage and what came of it.
-struct StageResult {
-  std::string name;
-  double wall_traction;        ///< residual, when it ended [-]
-  double wall_traction_asked;  ///< at its end; reached unless the stage ended before [-]
-  EquilibriumReport report;
-  Convergence convergence;  ///< at its end [m]
-
-  /// False where blocks detached or the search ended while the wall was still being unloaded.
-  [[nodiscard]] bool fully_unloaded() const {
-    return std::abs(wall_traction - wall_traction_asked) < 1e-9;
-  }
-};
-
 /// A finished run.
 struct RunResult {
   Tunnel tunnel;
   SimplePolygon opening;
-  std::vector<Segment> bars;   ///< of the bolts
-  std::vector<int> crossings;  ///< joints that each crossed when it was installed
-  std::vector<StageResult> stages;
+  ConstructionResult<Planar> built = {};
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = {};
   double generation_seconds = 0, equilibrium_seconds = 0;
 
-  [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
-  /// That of the last stage; a stage that does not end stable ends the run. In words:
-  /// `to_string(verdict(), fallen_measure())`.
-  [[nodiscard]] Verdict verdict() const { return last().verdict; }
-  [[nodiscard]] double fallen_measure() const;  ///< over all stages [m^2]
+  [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
+  /// In words: `to_string(verdict(), fallen_measure())`.
+  [[nodiscard]] Verdict verdict() const { return built.verdict(); }
+  [[nodiscard]] double fallen_measure() const { return built.fallen_measure(); }
+  /// At the end [m].
+  [[nodiscard]] const Convergence& convergence() const { return built.stages.back().convergence; }
 };
 
 /// A finished interaction diagram.
@@ -52,9 +36,8 @@ struct DiagramResult {
   double seconds = 0;
 };
 
-/// What is being done and how far it is, 0 to 1, or a negative number where that is unknown.
-/// Returns false to stop.
-using Report = std::function<bool(const std::string& what, double fraction)>;
+/// What is being done and how far it is, see `StageProgress`; rock and diagrams too.
+using Report = StageProgress;
 
 [[nodiscard]] SimplePolygon opening_of(const Input& input);
 

@@ -10,10 +10,9 @@
 #include <optional>
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
-#include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/interaction_picture.hpp>
-#include <voussoir/io/tunnel_picture.hpp>
+#include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
 namespace voussoir::program {
@@ -32,11 +31,6 @@ std::string computed(const char* format, double value) {
   return std::isfinite(value) ? text(format, value) : "not computed";
 }
 
-/// "3.29" for 3.29e-3 m; "-" where the wall is detached.
-std::string millimetres(double metres) {
-  return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
-}
-
 double opening_diameter(const RunResult& run) {
   double low = 0, high = 0;
   for (const Vec2& v : run.opening.vertices()) {
@@ -44,27 +38,6 @@ double opening_diameter(const RunResult& run) {
     high = std::max(high, v.x());
   }
   return high - low;
-}
-
-struct Extremes {
-  double largest_bolt_force = 0, mean_bolt_force = 0;
-  double largest_thrust = 0, largest_moment = 0, mean_thrust = 0;
-};
-
-Extremes extremes_of(const RunResult& run) {
-  Extremes e;
-  const std::vector<double> bolts = largest_bolt_forces(run.tunnel);
-  for (const double f : bolts) {
-    e.largest_bolt_force = std::max(e.largest_bolt_force, f);
-    e.mean_bolt_force += f / static_cast<double>(bolts.size());
-  }
-  const auto lining = lining_forces(run.tunnel);
-  for (const LiningForce& at : lining) {
-    e.largest_thrust = std::max(e.largest_thrust, at.thrust);
-    e.largest_moment = std::max(e.largest_moment, std::abs(at.moment));
-    e.mean_thrust += at.thrust / static_cast<double>(lining.size());
-  }
-  return e;
 }
 
 nlohmann::json report_json(const EquilibriumReport& report) {
@@ -94,55 +67,16 @@ nlohmann::json convergence_json(const Convergence& c) {
           {"invert_mm", 1e3 * c.invert}};
 }
 
-std::string verdict_sentence(const RunResult& run) {
-  const EquilibriumReport& last = run.last();
-  std::string sentence = std::string("Verdict: ") + to_string(last.verdict, run.fallen_measure());
-  if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
-    sentence += " of " + text("%.2f", run.fallen_measure()) + " m²";
-  if (last.verdict == Verdict::stable) {
-    sentence += std::isfinite(last.error_estimate)
-                    ? ". Estimated error of the displacements " +
-                          text("%.2g", 100 * last.error_estimate) + " %"
-                    : ". Error of the displacements not estimated by this method";
-    sentence += "; the worst block is out of balance by " +
-                text("%.2g", 100 * last.unbalance_over_weight) + " % of its weight.";
-  } else {
-    sentence += ": " + last.reason + ".";
-  }
-  return sentence;
-}
-
-/// What must not be overlooked in the picture of a run; none: the tunnel stands, all of it.
-std::optional<PictureBanner> banner_of(const RunResult& run) {
-  const EquilibriumReport& last = run.last();
-  const double fallen = run.fallen_measure();
-  std::string word = to_string(last.verdict, fallen);
-  for (char& c : word)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  switch (last.verdict) {
-    case Verdict::stable:
-      if (!(fallen > 0)) return std::nullopt;
-      return PictureBanner{
-          word, text("%.2f", fallen) + " m² of rock detached before the rest came to rest",
-          "#b45309"};
-    case Verdict::collapsing:
-      return PictureBanner{word, text("%.2f", fallen) + " m² of rock detached: no equilibrium"};
-    case Verdict::undecided:
-      break;
-  }
-  return PictureBanner{word, "no equilibrium was found: what is drawn here is no result"};
-}
-
 }  // namespace
 
 std::string run_json(const Input& input, const RunResult& run) {
-  const Extremes e = extremes_of(run);
+  const SupportDemand e = support_demand(run.tunnel);
   const RockMass<Planar>& mass = run.tunnel.mass();
   const BlockSizes sizes = block_sizes(mass);
   const double diameter = opening_diameter(run);
   const double centre_stress = run.tunnel.in_situ().vertical(mass.domain.depth(Vec2::Zero()));
   nlohmann::json stages = nlohmann::json::array();
-  for (const StageResult& stage : run.stages)
+  for (const StageResult& stage : run.built.stages)
     stages.push_back({{"name", stage.name},
                       {"residual_wall_traction", stage.wall_traction},
                       {"residual_wall_traction_asked", stage.wall_traction_asked},
@@ -157,7 +91,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"verdict", to_string(run.verdict(), run.fallen_measure())},
       {"error_estimate", run.last().error_estimate},
       {"detached_area_m2", run.fallen_measure()},
-      {"convergence", convergence_json(run.stages.back().convergence)},
+      {"convergence", convergence_json(run.convergence())},
       {"stages", stages},
       {"rock",
        {{"joints", mass.slicing.joints},
@@ -195,38 +129,16 @@ std::string run_json(const Input& input, const RunResult& run) {
 }
 
 std::string bolts_csv(const RunResult& run) {
-  return bolt_table(bolt_forces(run.tunnel), run.bars);
+  return bolt_table(bolt_forces(run.tunnel), run.built.bars);
 }
 
 std::string lining_csv(const RunResult& run) { return lining_table(lining_forces(run.tunnel)); }
 
 std::string blocks_svg(const Input& input, const RunResult& run) {
-  const Tunnel& tunnel = run.tunnel;
-  BlocksPicture picture = picture_of(state_of(tunnel), tunnel.mass(), run.bars,
-                                     input.lining ? input.lining->thickness : 0);
-  const Convergence c = run.stages.back().convergence;
-  const Extremes e = extremes_of(run);
-  picture.header.title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
-  picture.header.lines = {verdict_sentence(run)};
-  picture.banner = banner_of(run);
-  picture.header.key_numbers = {{"crown convergence", millimetres(c.crown) + " mm"},
-                                {"blocks", std::to_string(tunnel.mass().bodies.size())}};
-  if (tunnel.bolt_count() > 0)
-    picture.header.key_numbers.push_back(
-        {"largest bolt force", text("%.0f kN", 1e-3 * e.largest_bolt_force)});
-  if (tunnel.first_lining_node() >= 0) {
-    picture.header.key_numbers.push_back(
-        {"largest thrust", text("%.0f kN/m", 1e-3 * e.largest_thrust)});
-    picture.header.key_numbers.push_back(
-        {"largest moment", text("%.1f kN m/m", 1e-3 * e.largest_moment)});
-  }
-  picture.outline = run.opening.vertices();
-  if (picture.lining) {
-    const double middle = 0.5 * (input.tunnel.crown() + input.tunnel.invert());
-    const double depth = tunnel.mass().domain.surface() - middle;
-    picture.lining->reference_thrust = tunnel.in_situ().vertical(depth) * input.tunnel.half_width();
-  }
-  return draw_blocks_picture(picture);
+  TunnelPictureText text;
+  if (!input.title.empty()) text.title = input.title;
+  if (input.lining) text.lining_thickness = input.lining->thickness;
+  return draw_tunnel(run.tunnel, run.built, text);
 }
 
 namespace {
@@ -320,19 +232,19 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
 }
 
 std::string run_summary(const Input& input, const RunResult& run) {
-  const Extremes e = extremes_of(run);
-  const Convergence c = run.stages.back().convergence;
+  const SupportDemand e = support_demand(run.tunnel);
+  const Convergence c = run.convergence();
   const EquilibriumReport& last = run.last();
   std::string out = "models   " + composition_of(input) + "\n";
   out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
-  for (const StageResult& stage : run.stages) {
+  for (const StageResult& stage : run.built.stages) {
     out += "stage    " + stage.name + ": " + to_string(stage.report) +
            text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
     if (!stage.fully_unloaded())
       out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
-    out += "; crown " + millimetres(stage.convergence.crown) + " mm\n";
+    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm\n";
   }
   out += std::string("verdict  ") + to_string(last.verdict, run.fallen_measure());
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
@@ -350,9 +262,9 @@ std::string run_summary(const Input& input, const RunResult& run) {
   }
   if (run.fallen_measure() > 0)
     out += "detached " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
-  out += "wall     crown " + millimetres(c.crown) + " mm, springings " +
-         millimetres(c.right_springing) + " and " + millimetres(c.left_springing) + " mm, invert " +
-         millimetres(c.invert) + " mm";
+  out += "wall     crown " + millimetres_text(c.crown) + " mm, springings " +
+         millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
+         " mm, invert " + millimetres_text(c.invert) + " mm";
   const bool fallen = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
   out += fallen ? " (-: the wall there is detached)\n" : "\n";
   if (run.tunnel.bolt_count() > 0)
@@ -388,7 +300,7 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
                          : p.report.verdict == Verdict::undecided ? " ?"
                          : p.failed()                             ? " R"
                                                                   : "  ";
-      const std::string crown = millimetres(p.crown_convergence);
+      const std::string crown = millimetres_text(p.crown_convergence);
       out += std::string(10 - std::min<std::size_t>(crown.size(), 10), ' ') + crown + mark;
     }
     out += "\n";

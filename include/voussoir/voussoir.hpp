@@ -52,9 +52,11 @@
 #include <voussoir/theory/smeared_bolts.hpp>
 #include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>

@@ -40,6 +40,13 @@ Section all_decided() {
 }  // namespace
 
 TEST_SUITE("program/paper") {
+  TEST_CASE("the build makes a program of every analysis and of nothing else") {
+    std::string names;
+    for (const NamedAnalysis& analysis : analyses())
+      names += (names.empty() ? "" : " ") + std::string(analysis.name);
+    CHECK(names == VOUSSOIR_TEST_ANALYSES);
+  }
+
   TEST_CASE("104 claims in order, every one in a chapter") {
     REQUIRE(claims().size() == 104);
     for (std::size_t k = 0; k < claims().size(); ++k) {
@@ -105,12 +112,12 @@ TEST_SUITE("program/paper") {
     Measured m;
     Outcome stands, collapses;
     stands.report.verdict = voussoir::Verdict::stable;
-    m.add(stands, 1);
-    m.add(stands, 3);
-    m.add(stands, std::numeric_limits<double>::quiet_NaN());
-    m.add(collapses, 100);
+    m.add(stands.report, 1);
+    m.add(stands.report, 3);
+    m.add(stands.report, std::numeric_limits<double>::quiet_NaN());
+    m.add(collapses.report, 100);
     stands.report.fallen_measure = 0.5;
-    m.add(stands, 5);
+    m.add(stands.report, 5);
     CHECK(m.samples == 5);
     CHECK(m.mean() == 3);
     CHECK(m.deviation() == 2);
@@ -118,7 +125,7 @@ TEST_SUITE("program/paper") {
     CHECK(m.text(10, "mm", 3) ==
           "30.0 ± 20 mm (5 realisations; 1 collapsed; 1 have lost that rock; 1 shed rock)");
     Measured none;
-    none.add(collapses, 1);
+    none.add(collapses.report, 1);
     CHECK(std::isnan(none.mean()));
     CHECK(none.text(1, "mm") == "no value (1 realisation; 1 collapsed)");
   }

@@ -24,6 +24,7 @@ set(layer_laboratory 7)
 set(layer_solver 7)
 set(layer_tunnel 8)
 set(layer_io 9)
+set(layer_design 9)
 set(core_only theory statistics linear drawing)  # beside the tower: they stand on core alone
 
 # One complaint about `header` including `included` (both relative to the root, or an outside name), or "".

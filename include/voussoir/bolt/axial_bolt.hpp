@@ -6,6 +6,7 @@
 #include <limits>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 
 namespace voussoir {
 
@@ -74,6 +75,8 @@ class AxialBolt {
   bool commit(const BoltSpan<Dim>& span, State& state) const {
     if (state.ruptured) return false;
     const Return now = returned(stretch(span).extension, state);
+    VOUSSOIR_ASSERT(!(now.plastic_extension < state.plastic_extension),
+                    "what has yielded is not taken back");
     state.plastic_extension = now.plastic_extension;
     state.ruptured = now.force >= params_.rupture_force;
     return state.ruptured;
@@ -110,6 +113,7 @@ class AxialBolt {
 
   template <int Dim>
   [[nodiscard]] Stretch<Dim> stretch(const BoltSpan<Dim>& span) const {
+    VOUSSOIR_ASSERT(detail::is_unit(span.axis), "the axis of a bolt is a direction");
     const double initial = span.initial.norm();
     if (!(initial > 0)) return stretch_from_joint(span);
     const Vec<Dim> now = span.initial + span.motion;
@@ -143,6 +147,7 @@ class AxialBolt {
     const double yield = params_.yield_force + hardening * state.plastic_extension;
     if (trial <= yield) return {trial, state.plastic_extension};
     const double growth = (trial - yield) / (stiffness + hardening);
+    VOUSSOIR_ASSERT(growth >= 0, "yield makes a bolt longer");
     return {trial - stiffness * growth, state.plastic_extension + growth};
   }
 

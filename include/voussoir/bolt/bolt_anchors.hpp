@@ -61,6 +61,7 @@ struct LorigAnchors {
   /// @throws InvalidInput  distance not > 0
   [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
     require(distance > 0 && std::isfinite(distance), "anchor distance", distance, "> 0 m");
+    VOUSSOIR_ASSERT(crossing.before >= 0 && crossing.after >= 0, "a bolt runs through its blocks");
     return {std::min(distance, 0.5 * crossing.before), std::min(distance, 0.5 * crossing.after)};
   }
 };

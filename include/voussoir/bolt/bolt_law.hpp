@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -132,6 +133,7 @@ template <int Dim, class Law>
   BoltSpan<Dim> further = span;
   further.motion += step * along;
   const double stiffness = span.axis.dot(law.stiffness(span) * span.axis);
+  VOUSSOIR_ASSERT(stiffness >= 0, "a bolt that is pulled pulls back");
   report.is_yielding = law.force(further, state).axial - force.axial < 0.5 * stiffness * step;
   return report;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 
 namespace voussoir {
 
@@ -37,6 +38,8 @@ VOUSSOIR_INLINE std::vector<int> order_of_pairs(const std::vector<std::pair<int,
   for (const bool by_first : {false, true}) {
     const auto number = [&](int k) {
       const auto& pair = pairs[static_cast<std::size_t>(k)];
+      VOUSSOIR_ASSERT(detail::is_index(pair.first, limit) && detail::is_index(pair.second, limit),
+                      "numbers to be put in order are below their limit");
       return static_cast<std::size_t>(by_first ? pair.first : pair.second);
     };
     start.assign(static_cast<std::size_t>(limit) + 1, 0);
@@ -45,6 +48,7 @@ VOUSSOIR_INLINE std::vector<int> order_of_pairs(const std::vector<std::pair<int,
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
     for (const int k : before) order[static_cast<std::size_t>(start[number(k)]++)] = k;
   }
+  VOUSSOIR_ASSERT(detail::is_permutation(order), "an order has every place once");
   return order;
 }
 

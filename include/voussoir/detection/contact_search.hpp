@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
@@ -32,6 +33,8 @@ class ContactList {
   [[nodiscard]] std::size_t size() const { return items_.size(); }
   [[nodiscard]] const Item& operator[](std::size_t k) const { return items_[k]; }
   [[nodiscard]] std::span<const Vec<Dim>> polygon(std::size_t k) const {
+    VOUSSOIR_ASSERT(items_[k].first_point + items_[k].point_count <= points_.size(),
+                    "a contact has its points");
     return {points_.data() + items_[k].first_point, items_[k].point_count};
   }
   void clear() {
@@ -39,6 +42,8 @@ class ContactList {
     points_.clear();
   }
   void add(std::uint32_t a, std::uint32_t b, const Contact<Dim>& contact) {
+    VOUSSOIR_ASSERT(a != b && contact.touch != Touch::none,
+                    "a contact is of two shapes that touch");
     items_.push_back({a, b, contact.touch, contact.normal, contact.separation, contact.measure,
                       points_.size(), contact.polygon.size()});
     points_.insert(points_.end(), contact.polygon.begin(), contact.polygon.end());
@@ -77,6 +82,7 @@ class ContactSearch {
   const ContactList<Dim>& run(const PlacedShapes<Dim>& shapes, unsigned threads = 1) {
     if (neighbours_.update(shapes)) carry_over();
     const auto& pairs = neighbours_.pairs();
+    VOUSSOIR_ASSERT(memories_.size() == pairs.size(), "every pair of neighbours has its memory");
     const std::size_t chunks = std::max<std::size_t>(
         1, std::min<std::size_t>(threads <= 1 ? 1 : std::size_t{8} * threads, pairs.size() / 64));
     found_.resize(chunks);

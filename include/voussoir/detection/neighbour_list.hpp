@@ -134,6 +134,7 @@ void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
     extent += box.high - box.low;
     box.low = shifted_by(box.low, -0.5 * margin_);
     box.high = shifted_by(box.high, 0.5 * margin_);
+    VOUSSOIR_ASSERT(!any_less(box.high, box.low), "a box is from low to high");
     boxes_.push_back(box);
   }
   pairs_.clear();
@@ -172,11 +173,13 @@ void NeighbourList<Dim>::make(const PlacedShapes<Dim>& shapes) {
   pairs_.reserve(found.size());
   for (const int k : order_of_pairs(shapes_of, static_cast<int>(boxes_.size())))
     pairs_.push_back(found[static_cast<std::size_t>(k)]);
+  VOUSSOIR_ASSERT(pairs_.size() == found.size(), "putting pairs in order loses none");
 }
 
 template <int Dim>
 void NeighbourList<Dim>::add(const PlacedShapes<Dim>& shapes, std::uint32_t i, std::uint32_t j,
                              const Cell& cell) {
+  VOUSSOIR_ASSERT(i != j && i < boxes_.size() && j < boxes_.size(), "a pair is of two shapes");
   const Box<Dim>&a = boxes_[i], &b = boxes_[j];
   if (!a.meets(b, reach_)) return;
   if (cell_of(shifted_by(larger_of(a.low, b.low), -0.5 * reach_)) != cell) return;

@@ -125,6 +125,7 @@ class PlacedShapes {
 
   /// The shape, counted from its own grid point.
   [[nodiscard]] PlacedShape<Dim> operator[](std::size_t shape) const {
+    VOUSSOIR_ASSERT(shape < records_.size(), "a shape is one of those placed");
     const Record& r = records_[shape];
     return {placed_.data() + r.begin, r.vertex_count, r.face_count};
   }
@@ -143,6 +144,8 @@ class PlacedShapes {
   [[nodiscard]] const Vec<Dim>& home(std::size_t shape) const { return homes_[shape]; }
 
   [[nodiscard]] Topology topology(std::size_t shape) const requires(Dim == 3) {
+    VOUSSOIR_ASSERT(shape < links_.size() && links_.size() == records_.size(),
+                    "a shape in 3-D has its edges");
     const Links& l = links_[shape];
     const Record& r = records_[shape];
     return {{edges_.data() + l.first_edge, l.edge_count},
@@ -247,6 +250,8 @@ void PlacedShapes<Dim>::place(std::size_t shape, const Pose<Dim>& pose) {
     throw InvalidInput(
         message({"placed shapes: pose of shape ", shape, " at ", text_of<Dim>(pose.position),
                  ": position and rotation must be finite"}));
+  VOUSSOIR_ASSERT(shape < records_.size() && own_.size() == placed_.size(),
+                  "a shape is one of those added");
   Record& r = records_[shape];
   Vec<Dim> position = pose.position - grid_points_[r.cell];
   double farthest = 0;

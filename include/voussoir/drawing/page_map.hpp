@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -46,7 +47,9 @@ class PageMap {
   PageMap(const ViewRect& world, const ViewRect& page)
       : world_(world),
         page_(page),
-        scale_(page.width() / world.width(), page.height() / world.height()) {}
+        scale_(page.width() / world.width(), page.height() / world.height()) {
+    VOUSSOIR_ASSERT(scale_.x() > 0 && scale_.y() > 0, "a map has a size on both sides");
+  }
 
   /// The same scale in x and y, `world` whole and centred in `page`.
   [[nodiscard]] static PageMap equal_scales(const ViewRect& world, const ViewRect& page) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/linear/tangent_solver.hpp>
 #include <voussoir/model/system.hpp>
@@ -33,6 +34,9 @@ class ActiveSet {
       : system_(&system),
         active_(static_cast<std::size_t>(system.body_count()), 0),
         number_(active_.size(), -1) {
+    VOUSSOIR_ASSERT(f.size() == dof * static_cast<Eigen::Index>(system.body_count()),
+                    "forces are those of all bodies");
+    VOUSSOIR_ASSERT(threshold >= 0 && rings >= 0, "who is out of balance can be told");
     lightest_ = system.lightest_weight();
     Eigen::VectorXd own;
     set_to_sum(own, f, -1, elsewhere);
@@ -47,6 +51,7 @@ class ActiveSet {
     collect(system.joints.contacts(), joints_);
     collect(system.boundary.contacts(), boundary_);
     collect(system.interface.contacts(), interface_);
+    VOUSSOIR_ASSERT(detail::never_descends(bodies_), "active bodies are in their order");
   }
 
   [[nodiscard]] const std::vector<int>& bodies() const { return bodies_; }
@@ -55,6 +60,7 @@ class ActiveSet {
   /// are left without meaning.
   template <class History = Frozen>
   void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
+    VOUSSOIR_ASSERT(u.size() == f.size(), "a force for every displacement");
     for (const int b : bodies_) set_part<dof>(f, dof * b, system_->load_on(b));
     system_->joints.template add_forces<History>(joints_, u.data(), f.data());
     system_->boundary.template add_forces<History>(boundary_, u.data(), f.data());
@@ -102,6 +108,7 @@ class ActiveSet {
     for (const int b : bodies_) {
       const auto& body = system_->body(b);
       const double spring = (body.weight > 0 ? body.weight : lightest_) / reach[b];
+      VOUSSOIR_ASSERT(spring > 0 && std::isfinite(spring), "an anchor holds a body");
       Block anchor = diagonal_of<dof>(spring);
       for (int k = dim; k < dof; ++k) anchor(k, k) *= body.gyration * body.gyration;
       matrix.diagonal.push_back(anchor);
@@ -118,6 +125,7 @@ class ActiveSet {
       if (i >= 0) matrix.diagonal[static_cast<std::size_t>(i)] += aa;
       if (j >= 0) matrix.diagonal[static_cast<std::size_t>(j)] += bb;
       if (i < 0 || j < 0) return;
+      VOUSSOIR_ASSERT(i != j, "a coupling is of two bodies");
       places.emplace_back(std::minmax(i, j));
       forward.push_back(i > j ? ab : ba);
       backward.push_back(i > j ? ba : ab);
@@ -138,6 +146,7 @@ class ActiveSet {
         matrix.backward.back() += backward[k];
       }
     }
+    VOUSSOIR_ASSERT(matrix.diagonal.size() == bodies_.size(), "an active body has its block");
     Eigen::VectorXd step(dof * static_cast<Eigen::Index>(bodies_.size()));
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       set_part<dof>(step, dof * static_cast<Eigen::Index>(k), part<dof>(f, dof * bodies_[k]));

@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/small_algebra.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/linear/conjugate_gradients.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
@@ -45,6 +47,8 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   const auto enter = [&](int b) {
     if (!system.body(b).is_block) return;
     report.fallen.push_back(b);
+    VOUSSOIR_ASSERT(context.measures == nullptr || is_index(b, context.measures->size()),
+                    "every block has its area or volume");
     if (context.measures != nullptr)
       report.fallen_measure += (*context.measures)[static_cast<std::size_t>(b)];
   };
@@ -52,14 +56,13 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   for (const int b : remove_with_loose(system, bodies)) enter(b);
 }
 
-/// How exact the correction of an error estimate must be: to a tenth of itself, since the next one
-/// corrects that too, but no better than a twentieth of the error that is accepted.
+/// How exact the correction of an error estimate must be.
 template <class System>
-[[nodiscard]] SolveTolerance tolerance_of_correction(const System& system,
-                                                     const Acceptance& accept) {
-  return {
-      .relative = 0.1,
-      .absolute = 0.05 * accept.error_estimate * system.largest_translation(system.displacement)};
+[[nodiscard]] SolveTolerance tolerance_of_correction(const System& system, const Acceptance& accept,
+                                                     const CorrectionTuning& tuning = {}) {
+  return {.relative = tuning.exactness,
+          .absolute = tuning.share_of_error * accept.error_estimate *
+                      system.largest_translation(system.displacement)};
 }
 
 /// u = K^-1 f, in place, once.
@@ -85,7 +88,7 @@ double solve_elastically(const System& system, const LinearSettings& settings,
 ///               their error [m]
 template <class System, class Solve>
 [[nodiscard]] bool moves_too_far(System& system, const SearchContext& context, Solve&& solve,
-                                 EquilibriumReport& report) {
+                                 EquilibriumReport& report, const DetachmentTuning& tuning = {}) {
   const double now = system.wall_fraction, limit = context.acceptance.displacement_limit;
   Eigen::VectorXd forces, u;
   system.wall_fraction = context.wall_fraction;
@@ -93,7 +96,7 @@ template <class System, class Solve>
   system.wall_fraction = now;
   double far = 0;  // how far the block has moved that one in a hundred is beyond
   // Once more where the error of the first solve leaves it open.
-  for (const double tolerance : {0.05, 1e-6}) {
+  for (const double tolerance : {tuning.first_look, tuning.second_look}) {
     u = forces;
     const double error = solve(u, SolveTolerance{.relative = tolerance});
     if (!voussoir::is_finite(u))
@@ -105,12 +108,13 @@ template <class System, class Solve>
         moved.push_back(part<System::dim>(u, System::dof * b).norm());
     if (moved.empty()) return false;
     const auto place =
-        moved.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(moved.size() - 1));
+        moved.begin() + static_cast<std::ptrdiff_t>((1 - tuning.far_blocks) *
+                                                    static_cast<double>(moved.size() - 1));
     std::nth_element(moved.begin(), place, moved.end());
     far = *place;
-    if (std::abs(far - 0.5 * limit) > error) break;
+    if (std::abs(far - tuning.far_limit * limit) > error) break;
   }
-  if (!(far > 0.5 * limit)) return false;
+  if (!(far > tuning.far_limit * limit)) return false;
   char text[240];
   std::snprintf(
       text, sizeof text,
@@ -126,6 +130,7 @@ template <class System, class Solve>
 /// True, with the verdict, if more is detached than a tunnel can lose.
 template <int Dim>
 [[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context) {
+  VOUSSOIR_ASSERT(context.open_length > 0, "rock is lost over a length");
   const double limit = context.acceptance.collapse_measure * context.open_length;
   if (!(report.fallen_measure > limit)) return false;
   const char* unit = Dim == 2 ? "m2" : "m3";

@@ -8,6 +8,7 @@
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/update_when_due.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/model/contact_group.hpp>
@@ -69,10 +70,9 @@ class Explicit {
     return params_.safety * critical_step(system, mass) / std::sqrt(1 + params_.damping);
   }
 
-  /// Of a quarter of the row sums: the critical step is then 1 for every unknown.
   template <class System>
   [[nodiscard]] static Eigen::VectorXd masses(const System& system) {
-    return 0.25 * system.elastic_stiffness().absolute_row_sums();
+    return critical_mass_share * system.elastic_stiffness().absolute_row_sums();
   }
 
   template <class System>
@@ -114,6 +114,8 @@ void Explicit::step_on(System& system, const SearchContext& context,
     const bool ramping = report.steps < params_.ramp_steps;
     const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
     stop();
+    VOUSSOIR_ASSERT(done > 0 && done <= 1, "a ramp goes from its beginning to its end");
+    VOUSSOIR_ASSERT(step > 0, "time goes on");
     system.wall_fraction = from + (to - from) * done;
     system.template forces<Committing>(u, f);
     ++report.steps;

@@ -9,6 +9,8 @@
 #include <voussoir/equilibrium/active_set.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/fire.hpp>
+#include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/equilibrium/update_when_due.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/model/contact_group.hpp>
@@ -34,6 +36,10 @@ class Relaxation {
     double safety = 0.9;      ///< of the stable step [-]
     int rings = 3;            ///< generations of neighbours that move with a body out of balance
     LinearSettings linear{};  ///< of the elastic solve that says whether blocks can be told apart
+    /// Bodies out of balance by more than this part of the accepted out-of-balance force ratio move
+    /// [-], > 0 and <= 1.
+    double active_above = 0.3;
+    DetachmentTuning detachment{};
   };
   Relaxation() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -43,6 +49,9 @@ class Relaxation {
     require(params.damping >= 0 && params.damping < 1, "damping", params.damping, ">= 0 and < 1");
     require(params.safety > 0 && params.safety <= 1, "safety", params.safety, "> 0 and <= 1");
     require(params.rings >= 0, "rings", params.rings, ">= 0");
+    require(params.active_above > 0 && params.active_above <= 1, "active_above",
+            params.active_above, "> 0 and <= 1");
+    params.detachment.check();
   }
 
   /// Accepts when the out-of-balance test has passed and no block is beyond the displacement limit;
@@ -72,7 +81,7 @@ EquilibriumReport Relaxation::find(System& system, const SearchContext& context)
   };
   detail::until_stopped(report, [&] {
     if (!detail::has_collapsed<System::dim>(report, context) &&
-        !detail::moves_too_far(system, context, solve, report))
+        !detail::moves_too_far(system, context, solve, report, params_.detachment))
       follow(system, context, report);
   });
   return report;
@@ -96,8 +105,11 @@ void Relaxation::step_on(System& system, const SearchContext& context,
   system.wall_fraction = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
   Eigen::VectorXd velocity = zeros(u.size()), f;
-  // Masses of a quarter of the row sums make the critical step 1 for every unknown.
-  Eigen::VectorXd mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
+  const auto masses = [&] {
+    return Eigen::VectorXd(critical_mass_share *
+                           system.elastic_stiffness(context.progress).absolute_row_sums());
+  };
+  Eigen::VectorXd mass = masses();
   const double step = params_.safety / std::sqrt(1 + params_.damping);
   StopCheck stop(context.progress, 1);
   while (report.steps < params_.max_steps) {
@@ -109,7 +121,7 @@ void Relaxation::step_on(System& system, const SearchContext& context,
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       if (detail::has_collapsed<System::dim>(report, context)) break;
-      mass = 0.25 * system.elastic_stiffness(context.progress).absolute_row_sums();
+      mass = masses();
       continue;
     }
     report.unbalance_over_weight = system.unbalance_over_weight(f);
@@ -120,8 +132,10 @@ void Relaxation::step_on(System& system, const SearchContext& context,
       break;
     }
     detail::ask_to_go_on(context);
-    ActiveSet<System> active(system, f, zeros(f.size()), 0.3 * accept.unbalance_over_weight,
-                             params_.rings);
+    ActiveSet<System> active(system, f, zeros(f.size()),
+                             params_.active_above * accept.unbalance_over_weight, params_.rings);
+    VOUSSOIR_ASSERT(mass.size() == u.size() && velocity.size() == u.size(),
+                    "every unknown has a mass and a velocity");
     for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
       stop();
       if (k > 0) active.template forces<Committing>(u, f);

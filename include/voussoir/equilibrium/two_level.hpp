@@ -10,13 +10,13 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
-#include <voussoir/equilibrium/active_set.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/detail/elastic_corrections.hpp>
+#include <voussoir/equilibrium/detail/global_search.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
-#include <voussoir/equilibrium/update_when_due.hpp>
+#include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
 namespace voussoir {
@@ -58,6 +58,10 @@ class TwoLevel {
     LinearSettings linear{};     ///< of the elastic solves
     Fire::Params fire{};
     Relaxation::Params fallback{};
+    LocalSearchTuning local{};
+    CorrectionTuning correction{};
+    DetachmentTuning detachment{};
+    RestartTuning restart{};
   };
   TwoLevel() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -69,14 +73,17 @@ class TwoLevel {
     require(params.max_bursts > 0, "max_bursts", params.max_bursts, "> 0");
     require(params.increments > 0, "increments", params.increments, "> 0");
     require(params.max_restarts >= 0, "max_restarts", params.max_restarts, ">= 0");
+    params.fire.check();
+    params.local.check();
+    params.correction.check();
+    params.detachment.check();
+    params.restart.check();
   }
 
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
  private:
-  enum class Outcome { decided, open };
-
   template <class System>
   void find_by_stages(System& system, const SearchContext& context,
                       detail::ElasticCorrections<System>& elastic, EquilibriumReport& whole) const;
@@ -100,25 +107,12 @@ class TwoLevel {
     // Where a search without the detached blocks begins. One that gives up has no use for it.
     std::optional<System> start;
     if (!give_up_at_a_fall) start.emplace(system);
-    // The fallback mostly has to tell what detaches: blocks at a tenth of their weight do not. One
-    // that creeps to its rest is followed more closely.
-    double follow_to = std::max(0.1, accept.unbalance_over_weight);
+    double follow_to = std::max(params_.restart.follow_to, accept.unbalance_over_weight);
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
-      if (search(system, context, give_up_at_a_fall, elastic, report) != Outcome::open) break;
+      detail::GlobalSearch<System> search(system, effort(), context, elastic, report);
+      if (search.run(give_up_at_a_fall) != detail::SearchEnd::open) break;
       if (give_up_at_a_fall) return;  // without a reason: not decided
-      SearchContext follow = context;
-      follow.acceptance.unbalance_over_weight = follow_to;
-      follow.acceptance.collapse_measure =
-          accept.collapse_measure - report.fallen_measure / context.open_length;
-      EquilibriumReport fall;
-      fallback_.follow(system, follow, fall);
-      report.steps += fall.steps;
-      report.fallen.insert(report.fallen.end(), fall.fallen.begin(), fall.fallen.end());
-      report.fallen_measure += fall.fallen_measure;
-      report.largest_displacement = fall.largest_displacement;
-      report.unbalance_over_weight = fall.unbalance_over_weight;
-      report.stopped = fall.stopped;
-      report.error_estimate = std::numeric_limits<double>::quiet_NaN();
+      const EquilibriumReport fall = follow(system, context, follow_to, report);
       if (detail::has_collapsed<System::dim>(report, context)) break;
       if (fall.verdict == Verdict::undecided) {
         report.reason = fall.stopped ? fall.reason
@@ -136,11 +130,33 @@ class TwoLevel {
         report.reason = "neither an equilibrium nor detached blocks were found";
         break;
       }
-      follow_to = std::max(0.3 * follow_to, accept.unbalance_over_weight);
+      // One that creeps to its rest is followed more closely.
+      follow_to = std::max(params_.restart.follow_closer * follow_to, accept.unbalance_over_weight);
     }
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason = message({"no equilibrium in ", params_.max_restarts + 1,
                                " searches, detached blocks taken out in between"});
+  }
+
+  /// Lets the fallback follow what falls, and enters it in the report.
+  /// @param follow_to  out-of-balance force ratio of the others at which it ends [-]
+  template <class System>
+  EquilibriumReport follow(System& system, const SearchContext& context, double follow_to,
+                           EquilibriumReport& report) const {
+    SearchContext follow = context;
+    follow.acceptance.unbalance_over_weight = follow_to;
+    follow.acceptance.collapse_measure =
+        context.acceptance.collapse_measure - report.fallen_measure / context.open_length;
+    EquilibriumReport fall;
+    fallback_.follow(system, follow, fall);
+    report.steps += fall.steps;
+    report.fallen.insert(report.fallen.end(), fall.fallen.begin(), fall.fallen.end());
+    report.fallen_measure += fall.fallen_measure;
+    report.largest_displacement = fall.largest_displacement;
+    report.unbalance_over_weight = fall.unbalance_over_weight;
+    report.stopped = fall.stopped;
+    report.error_estimate = std::numeric_limits<double>::quiet_NaN();
+    return fall;
   }
 
   /// Adds what an increment did; its state replaces that of the one before.
@@ -155,196 +171,14 @@ class TwoLevel {
     whole = sum;
   }
 
-  /// One search with the present bodies; `decided` with a verdict or a reason to stop.
-  template <class System>
-  Outcome search(System& system, const SearchContext& context, bool give_up_at_a_fall,
-                 detail::ElasticCorrections<System>& elastic, EquilibriumReport& report) const {
-    const Acceptance& accept = context.acceptance;
-    system.wall_fraction = context.wall_fraction;
-    elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
-    Eigen::VectorXd& u = system.displacement;
-    Eigen::VectorXd f, d, trial;
-    double inexact = 0;  // of the last correction
-    const auto correction = [&] {
-      system.forces(u, f);
-      ++report.steps;
-      d = f;
-      inexact = elastic.solve(d, detail::tolerance_of_correction(system, accept), context.progress,
-                              report);
-    };
-    correction();
-    u += d;
-    Eigen::VectorXd left = elastic.residual();  // of elastic solves: for the next to take
-    double estimate = 1;
-    Eigen::VectorXd reach = constants(system.body_count(), 0.2 * longest_move(accept));
-    // More often than a block can need on its way to the displacement limit is no progress.
-    int may_find = 4 + static_cast<int>(8 * accept.displacement_limit / accept.refind_limit);
-    for (int burst = 1; burst <= params_.max_bursts; ++burst) {
-      settle_locally(system, elastic.fire(), context, estimate, left, reach, f, report);
-      // A maximum would not tell: it passes over what is not a number.
-      if (!is_finite(u))
-        throw NumericalFault(
-            message({"two-level search: displacements are not finite in search ", burst}));
-      const bool falls = system.largest_translation(u) > accept.displacement_limit;
-      if (falls && give_up_at_a_fall) return Outcome::open;
-      if (falls)
-        detail::drop(system, detail::fallen_bodies(system, accept.displacement_limit), context,
-                     report);
-      const bool found = detail::find_when_due(system, context, report);
-      if (found) detail::drop(system, {}, context, report);
-      if (found && --may_find < 0) return Outcome::open;
-      if (falls || found) {
-        if (detail::has_collapsed<System::dim>(report, context)) {
-          report.largest_displacement = system.largest_translation(u);
-          report.error_estimate = report.unbalance_over_weight =
-              std::numeric_limits<double>::quiet_NaN();  // it is on its way down
-          return Outcome::decided;
-        }
-        elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
-        burst = std::min(burst, params_.max_bursts / 2);  // falling is progress
-      }
-      correction();
-      report.largest_displacement = system.largest_translation(u);
-      report.error_estimate = estimate = system.relative_correction(d, u, inexact);
-      report.unbalance_over_weight = system.unbalance_over_weight(f);
-      if (!is_finite(d))
-        throw NumericalFault(
-            message({"two-level search: the elastic correction is not finite in search ", burst}));
-      if (report.error_estimate < accept.error_estimate &&
-          report.unbalance_over_weight < accept.unbalance_over_weight) {
-        // A bolt broke, a joint failed, or contacts are elsewhere: look again.
-        if (system.commit() > 0 || detail::find_when_due(system, context, report, true)) {
-          elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
-          continue;
-        }
-        report.verdict = Verdict::stable;
-        report.reason =
-            "error estimate, out-of-balance force ratio and displacements are within their limits";
-        return Outcome::decided;
-      }
-      detail::ask_to_go_on(context, progress_of(report, accept, burst));
-      correct(system, u, d, elastic.residual(), f, trial, left, report);
-    }
-    return Outcome::open;
-  }
-
-  /// Nobody goes further than half of this at a time.
-  [[nodiscard]] static double longest_move(const Acceptance& accept) {
-    return std::min(accept.displacement_limit, accept.refind_limit);
-  }
-
-  /// Settles the bodies that are out of balance, all others fixed.
-  ///
-  /// Newton steps are damped as Levenberg and Marquardt do, but body by body: `reach` is how far
-  /// one that nothing holds may move in a step. It grows while steps succeed; when one fails it
-  /// shrinks for the bodies that ran into something, and the others fall on.
-  template <class System>
-  void settle_locally(System& system, Fire& fire, const SearchContext& context, double estimate,
-                      const Eigen::VectorXd& left, Eigen::VectorXd& reach, Eigen::VectorXd& f,
-                      EquilibriumReport& report) const {
-    constexpr int dim = System::dim, dof = System::dof;
-    const Acceptance& accept = context.acceptance;
-    StopCheck stop(context.progress, 1);
-    Eigen::VectorXd& u = system.displacement;
-    system.forces(u, f);
-    ++report.steps;
-    ActiveSet<System> active(system, f, left, 0.1 * accept.unbalance_over_weight, params_.rings);
-    const std::vector<int>& bodies = active.bodies();
-    fire.rest();
-    for (int step = 0; step < params_.burst_steps; ++step) {
-      stop();
-      fire.template advance<dof>(bodies, f, u);
-      active.forces(u, f);
-      ++report.steps;
-    }
-    if (!(estimate < params_.newton_below)) return;
-    double now = active.squared_unbalance(f);
-    Eigen::VectorXd before, worse;
-    for (int k = 0; k < params_.newton_steps; ++k) {
-      if (active.worst_unbalance(f) < 0.1 * accept.unbalance_over_weight) break;
-      const Eigen::VectorXd step = active.newton_step(u, f, reach, context.progress);
-      before = u;
-      double share = is_finite(step) ? 1.0 : 0.0, next = now;
-      for (; share > 0.2; share *= 0.5) {
-        stop();
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-          Fixed<dof, 1> move = share * part<dof>(step, dof * static_cast<Eigen::Index>(b));
-          const double length = part<dim>(move, 0).norm();
-          if (length > 0.5 * longest_move(accept))
-            move = move * (0.5 * longest_move(accept) / length);
-          set_part<dof>(u, dof * bodies[b], part<dof>(before, dof * bodies[b]) + move);
-        }
-        active.forces(u, f);
-        ++report.steps;
-        next = active.squared_unbalance(f);
-        if (next <= 1.02 * now) break;
-      }
-      if (share < 0.2) {
-        worse = f;
-        u = before;
-        active.forces(u, f);
-        hold_back(system, bodies, f, worse, reach);
-        continue;
-      }
-      now = next;
-      if (share == 1.0)
-        for (const int b : bodies) reach[b] = std::min(4 * reach[b], longest_move(accept));
-      if (active.largest_translation(u) > accept.displacement_limit ||
-          detail::is_due(system, accept))
-        break;
-    }
-  }
-
-  /// After a step that failed: shortens the reach of the bodies whose balance it has spoilt, or of
-  /// all if none stands out. `f` forces before the step, `worse` after it.
-  template <class System>
-  static void hold_back(const System& system, const std::vector<int>& bodies,
-                        const Eigen::VectorXd& f, const Eigen::VectorXd& worse,
-                        Eigen::VectorXd& reach) {
-    constexpr double shortest = 1e-6;
-    const double lightest = system.lightest_weight();
-    bool found = false;
-    for (const bool everybody : {false, true}) {
-      if (found) return;
-      for (const int b : bodies) {
-        if (!everybody && !(system.unbalance_of(worse, b, lightest) >
-                            2 * system.unbalance_of(f, b, lightest) + 0.3))
-          continue;
-        reach[b] = std::max(0.1 * reach[b], shortest);
-        found = true;
-      }
-    }
-  }
-
-  /// Adds the elastic correction, halved while it would make the residual four times larger.
-  /// @param residual  what the solve for it has left
-  /// @param left      what of it is for the next solve; what a shortened correction has not taken
-  ///                  is not, for that may be slip
-  template <class System>
-  static void correct(System& system, Eigen::VectorXd& u, const Eigen::VectorXd& d,
-                      const Eigen::VectorXd& residual, Eigen::VectorXd& f, Eigen::VectorXd& trial,
-                      Eigen::VectorXd& left, EquilibriumReport& report) {
-    const double before = f.squaredNorm();
-    left = zeros(f.size());
-    for (double part = 1; part > 0.2; part *= 0.5) {
-      set_to_sum(trial, u, part, d);
-      system.forces(trial, f);
-      ++report.steps;
-      if (f.squaredNorm() <= 16 * before) {
-        u = trial;
-        set_to_sum(left, left, part, residual);
-        return;
-      }
-    }
-  }
-
-  /// How far the estimate has come down, on a logarithmic scale; never quite there.
-  [[nodiscard]] double progress_of(const EquilibriumReport& report, const Acceptance& accept,
-                                   int burst) const {
-    const double left = std::log(std::max(report.error_estimate / accept.error_estimate, 1.0)) /
-                        std::log(1.0 / accept.error_estimate);
-    const double spent = static_cast<double>(burst) / params_.max_bursts;
-    return std::clamp(std::max(1 - left, spent), 0.0, 0.99);
+  [[nodiscard]] detail::SearchEffort effort() const {
+    return {{params_.burst_steps, params_.newton_steps, params_.newton_below, params_.rings},
+            params_.max_bursts,
+            params_.linear,
+            params_.fire,
+            params_.local,
+            params_.correction,
+            params_.restart};
   }
 
   Params params_;
@@ -370,7 +204,7 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
     return elastic.solve(f, tolerance, context.progress, whole);
   };
   if (detail::has_collapsed<System::dim>(whole, context)) return;
-  if (detail::moves_too_far(system, context, solve, whole)) return;
+  if (detail::moves_too_far(system, context, solve, whole, params_.detachment)) return;
   const auto part_of_stage = [&](double wall_fraction) {
     SearchContext part = context;
     part.wall_fraction = wall_fraction;
@@ -389,7 +223,8 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
     system = std::move(*start);
     for (int k = 1; k <= params_.increments; ++k) {
       const bool last = k == params_.increments;
-      const double left = last ? to : to + (from - to) * std::pow(0.4, k);
+      const double left =
+          last ? to : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
       add(whole, find_in_one_step(system, part_of_stage(left), false, elastic));
       if (whole.verdict != Verdict::stable) break;
     }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/detail/inertia_axes.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -106,8 +107,10 @@ class ContactArea<3> {
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE std::array<FacetPoint<2>, 2> ContactArea<2>::gauss_points() const {
+  VOUSSOIR_ASSERT(!facets_.empty(), "a contact area has a facet");
   const Vec2 vector = area_vector(), middle = centre();
   const double whole = length_of(vector);
+  VOUSSOIR_ASSERT(whole > 0, "a contact area has a length");
   const Vec2 along = perpendicular(vector) / whole;
   double squared = 0;
   for (const Segment& f : facets_) {
@@ -143,6 +146,7 @@ VOUSSOIR_INLINE std::array<FacetPoint<2>, 3> ContactArea<2>::corner_points() con
   // The inner point is where the polynomial of degree 1 is zero that is orthogonal to 1 under the
   // weight 1 - x^2.
   const double inner_weight = moment[0] - moment[2];
+  VOUSSOIR_ASSERT(inner_weight > 0, "a contact area is not all at its ends");
   const double x = (moment[1] - moment[3]) / inner_weight;
   const double inner = inner_weight / (1 - x * x);
   const double sum = moment[0] - inner, difference = moment[1] - inner * x;
@@ -152,8 +156,10 @@ VOUSSOIR_INLINE std::array<FacetPoint<2>, 3> ContactArea<2>::corner_points() con
 }
 
 VOUSSOIR_INLINE std::array<FacetPoint<3>, 4> ContactArea<3>::gauss_points() const {
+  VOUSSOIR_ASSERT(!facets_.empty(), "a contact area has a facet");
   const Vec3 vector = area_vector(), middle = centre();
   const double area = length_of(vector);
+  VOUSSOIR_ASSERT(area > 0, "a contact area has an area");
   const Vec3 normal = vector / area;
   // Along the spread of a thin area, known from a first look, the small moment keeps its digits.
   Vec3 first = zeros<Vec3>();

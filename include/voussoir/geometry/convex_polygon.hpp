@@ -10,6 +10,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -47,6 +48,7 @@ class ConvexPolygon {
   [[nodiscard]] const Vec2& vertex(std::size_t k) const { return vertices_[k]; }
   [[nodiscard]] int cut(std::size_t face) const { return cuts_[face]; }
   [[nodiscard]] Segment face(std::size_t k) const {
+    VOUSSOIR_ASSERT(k < size(), "a face is one of the polygon");
     return {vertices_[k], vertices_[k + 1 == size() ? 0 : k + 1]};
   }
   /// The half space that face k bounds, the polygon inside.
@@ -80,6 +82,7 @@ class ConvexPolygon {
         vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(k));
         cuts_.erase(cuts_.begin() + static_cast<std::ptrdiff_t>(k));
       }
+    VOUSSOIR_ASSERT(size() >= 3 && cuts_.size() == size(), "a face has a vertex and a label");
     return before - size();
   }
 
@@ -119,6 +122,7 @@ class ConvexPolygon {
 
 VOUSSOIR_INLINE auto ConvexPolygon::split(const HalfSpace<2>& line, int cut, double tolerance) const
     -> std::optional<std::pair<ConvexPolygon, ConvexPolygon>> {
+  VOUSSOIR_ASSERT(tolerance >= 0 && detail::is_unit(line.normal), "distances are in metres");
   std::vector<double> distances(size());
   std::size_t below = 0, above = 0;
   for (std::size_t k = 0; k < size(); ++k) {
@@ -145,6 +149,9 @@ VOUSSOIR_INLINE auto ConvexPolygon::split(const HalfSpace<2>& line, int cut, dou
       parts.second.append(crossing, here > 0 ? cut : cuts_[k]);
     }
   }
+  VOUSSOIR_ASSERT(parts.first.size() >= 3 && parts.second.size() >= 3, "a part has an area");
+  VOUSSOIR_ASSERT(parts.first.size() + parts.second.size() <= size() + 4,
+                  "a line meets a convex outline twice");
   return parts;
 }
 

@@ -64,6 +64,7 @@ class ConvexPolyhedron {
     return surface_.loop(surface_.faces[face]);
   }
   [[nodiscard]] SpatialFacet face(std::size_t k) const {
+    VOUSSOIR_ASSERT(k < size(), "a face is one of the polyhedron");
     SpatialFacet facet;
     facet.vertices.reserve(loop(k).size());
     for (const int v : loop(k)) facet.vertices.push_back(vertex(static_cast<std::size_t>(v)));
@@ -116,6 +117,10 @@ class ConvexPolyhedron {
     std::pair<ConvexPolyhedron, ConvexPolyhedron> parts;
     parts.first.surface_ = splitter.below;
     parts.second.surface_ = splitter.above;
+    VOUSSOIR_ASSERT(parts.first.size() >= 4 && parts.second.size() >= 4, "a part has a volume");
+    VOUSSOIR_ASSERT(
+        parts.first.surface_.loops.size() % 2 == 0 && parts.second.surface_.loops.size() % 2 == 0,
+        "an edge has two sides");
     return parts;
   }
 
@@ -181,6 +186,7 @@ VOUSSOIR_INLINE auto ConvexPolyhedron::edges() const -> std::vector<Edge> {
   for (std::size_t h = 0; h < surface_.loops.size(); ++h)
     if (const std::size_t twin = at(surface_.twins[h]); h < twin)
       all.push_back({surface_.loops[h], surface_.loops[twin], face_of[h], face_of[twin]});
+  VOUSSOIR_ASSERT(all.size() == edge_count(), "an edge has two sides");
   return all;
 }
 

@@ -214,6 +214,8 @@ VOUSSOIR_INLINE JointPlaneSplit split(JointPlane&& joint, const HalfSpace<3>& si
       from = &to;
       here = there;
     }
+    VOUSSOIR_ASSERT(below.corners.size() >= 3 && above.corners.size() >= 3,
+                    "both parts of a joint have an area");
     parts.below = std::move(below);
     parts.above = std::move(above);
   } else if (reaches_below) {

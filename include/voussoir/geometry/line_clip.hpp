@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
 
@@ -42,6 +43,7 @@ template <class Line, class Shape>
                         double& to) {
   constexpr int dim = Shape::dim;
   const double length = line.length();
+  VOUSSOIR_ASSERT(length > 0 && tolerance >= 0, "a line that is clipped has a length");
   const Vec<dim> direction = (line.end - line.start) / length;
   const TangentBasis<dim> sideways = tangent_basis(direction);
   from = 0;

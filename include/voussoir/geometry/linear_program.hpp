@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/small_algebra.hpp>
 
 namespace voussoir {
@@ -30,6 +31,7 @@ template <int N>
     const Fixed<N, 1>& objective, const std::vector<LinearConstraint<N>>& constraints,
     double bound) {
   using Point = Fixed<N, 1>;
+  VOUSSOIR_ASSERT(bound > 0, "the box that is searched has a size");
   if constexpr (N == 1) {
     double low = -bound, high = bound;
     for (const auto& [normal, offset] : constraints) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
@@ -61,6 +62,7 @@ template <int Dim>
 template <class Shape>
 [[nodiscard]] MassProperties<Shape::dim> mass_properties(const std::vector<Shape>& parts) {
   constexpr int dim = Shape::dim;
+  VOUSSOIR_ASSERT(!parts.empty(), "a body has a part");
   if (parts.size() == 1) return mass_properties(parts.front());
   std::vector<MassProperties<dim>> each;
   MassProperties<dim> whole;
@@ -86,6 +88,7 @@ template <class Shape>
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE MassProperties<2> mass_properties(std::span<const Vec2> vertices) {
+  VOUSSOIR_ASSERT(vertices.size() >= 3, "an area has three corners at least");
   double area = 0, polar = 0;
   Vec2 first_moment = zeros<Vec2>();
   const Vec2& origin = vertices.front();

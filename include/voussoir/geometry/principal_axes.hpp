@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -66,6 +67,8 @@ VOUSSOIR_INLINE PrincipalAxes principal_axes(const Fixed<3, 3>& tensor) {
   const Vec3 first = column(axes.directions, 0);
   if (dot_product(first, cross(column(axes.directions, 1), column(axes.directions, 2))) < 0)
     set_column(axes.directions, 0, Vec3(-first));
+  VOUSSOIR_ASSERT(!(axes.moments[0] > axes.moments[1]) && !(axes.moments[1] > axes.moments[2]),
+                  "principal values rise");
   return axes;
 }
 

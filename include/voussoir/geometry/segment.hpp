@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 
@@ -57,6 +58,7 @@ struct SegmentSplit {
 
 VOUSSOIR_INLINE SegmentSplit split(const Segment& segment, const HalfSpace<2>& side,
                                    double tolerance) {
+  VOUSSOIR_ASSERT(tolerance >= 0, "a tolerance is no less than 0");
   const double from = side.distance(segment.start), to = side.distance(segment.end);
   const bool below = from < -tolerance || to < -tolerance;
   const bool above = from > tolerance || to > tolerance;

@@ -78,6 +78,7 @@ VOUSSOIR_INLINE SimplePolygon::SimplePolygon(std::vector<Vec2> vertices)
       if (edges_meet(i, j))
         throw InvalidInput(message({"outline: edges ", i, " and ", j, " cross or touch"}));
   if (area() < 0) std::reverse(vertices_.begin(), vertices_.end());
+  VOUSSOIR_ASSERT(area() >= 0, "an outline is anticlockwise");
 }
 
 VOUSSOIR_INLINE auto SimplePolygon::last_crossing(const Segment& ray) const

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/io/blocks_picture.hpp>
@@ -49,6 +50,8 @@ namespace detail {
                                               const RockMass<Planar>& mass,
                                               const std::vector<Segment>& bars = {},
                                               double lining_thickness = 0) {
+  VOUSSOIR_ASSERT(state.blocks.size() == mass.bodies.size(),
+                  "a state is of the rock that is drawn");
   BlocksPicture picture;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     const BlockState<2>& block = state.blocks[b];
@@ -72,6 +75,8 @@ namespace detail {
   for (const CrossingForce& at : state.bolts) {
     PictureBolt& bolt = picture.bolts.at(static_cast<std::size_t>(at.bolt));
     const Segment bar{bolt.head, bolt.tip};
+    VOUSSOIR_ASSERT(at.position >= 0 && at.position <= bar.length() * (1 + 1e-9),
+                    "a bolt crosses joints along its bar");
     bolt.crossings.push_back(
         {bar.at(at.position / bar.length()), at.report.axial, detail::picture_state(at.report)});
   }

@@ -115,10 +115,10 @@ template <class Bar>
 template <int Dim>
 [[nodiscard]] std::string joint_table(const std::vector<JointState<Dim>>& joints) {
   std::vector<std::string> columns{"block_a", "block_b", "x_m", "y_m"};
-  if (Dim == 3) columns.push_back("z_m");
+  if (Dim == 3) columns.emplace_back("z_m");
   for (const char* name : {Dim == 2 ? "length_m" : "area_m2", "normal_force_kN", "shear_force_kN",
                            "opening_mm", "plastic_slip_mm", "damage", "open", "slipping"})
-    columns.push_back(name);
+    columns.emplace_back(name);
   CsvTable table(columns, 8);
   for (const JointState<Dim>& j : joints) {
     const ContactReport& r = j.report;

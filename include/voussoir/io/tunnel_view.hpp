@@ -36,6 +36,7 @@ struct TunnelView {
   double section_x = 0;                      ///< the rock at higher x is left out [m]
   double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
   double elevation = 0.12 * std::numbers::pi;
+  std::optional<PictureBanner> banner = {};  ///< above the rock; none: a tunnel that stands
 };
 
 namespace detail {
@@ -148,13 +149,20 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
     ordered.push_back(std::move(face));
   }
   const ViewRect world = bounding_rect(seen).value_or(ViewRect{{0, 0}, {1, 1}});
-  const double top = scene.header.height(), width = picture_width - 2 * picture_margin;
+  const double banner_room = scene.banner ? PictureBanner::height + 10 : 0;
+  const double top = scene.header.height() + banner_room;
+  const double width = picture_width - 2 * picture_margin;
   const double height = std::clamp(width * world.height() / world.width(), 200.0, 900.0);
   const ViewRect frame{{picture_margin, top}, {picture_margin + width, top + height}};
   const PageMap map = PageMap::equal_scales(world, frame.grown(-8));
   const double foot = frame.high.y() + 10;
   SvgCanvas canvas(picture_width, foot + 100, picture_printed_width, scene.header.title);
   scene.header.draw(canvas);
+  if (scene.banner) {
+    const double y = scene.header.height();
+    scene.banner->draw(
+        canvas, {{picture_margin, y}, {picture_margin + width, y + PictureBanner::height}}, y);
+  }
   canvas.begin_layer("rock");
   draw_faces(canvas, ordered, map, 0.5);
   canvas.end_layer();

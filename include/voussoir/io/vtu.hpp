@@ -95,10 +95,12 @@ class VtuGrid {
     return points_.size() - 1;
   }
   void add_cell(int type, const std::vector<std::size_t>& points, std::vector<std::size_t> faces) {
+    VOUSSOIR_ASSERT(!points.empty() && points.back() < points_.size(), "a cell has points");
     types_.push_back(type);
     connectivity_.insert(connectivity_.end(), points.begin(), points.end());
     offsets_.push_back(connectivity_.size());
     faces_.insert(faces_.end(), faces.begin(), faces.end());
+    VOUSSOIR_ASSERT(offsets_.size() == types_.size(), "a cell has a kind and an end");
     face_offsets_.push_back(faces.empty() ? -1 : static_cast<long>(faces_.size()));
   }
   template <class Number>

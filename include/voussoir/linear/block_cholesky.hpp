@@ -90,6 +90,7 @@ BlockCholesky<Dof>::BlockCholesky(const BlockMatrix<Dof>& matrix,
     : pattern_(std::move(pattern)), schedule_(*pattern_, threads), threads_(threads) {
   if (pattern_->dof() != Dof || !pattern_->is_for(matrix.size(), matrix.pairs()))
     throw InvalidInput("Cholesky factor: the pattern was made for other pairs of bodies");
+  VOUSSOIR_ASSERT(threads >= 1, "somebody factors");
   const auto& fronts = pattern_->fronts();
   const std::size_t count = fronts.size();
   numbers_.reset(new double[static_cast<std::size_t>(pattern_->stored_numbers())]);
@@ -202,6 +203,7 @@ void BlockCholesky<Dof>::add_updates(std::size_t index, const Work& work, bool t
     const auto& from = pattern_->fronts()[child];
     const int* const place = pattern_->in_parent() + from.begin;
     const std::size_t rows = from.end - from.begin;
+    VOUSSOIR_ASSERT(work.updates[child] != nullptr, "what a child leaves is there");
     for (std::size_t j = 0; j < rows; ++j) {
       const auto column = static_cast<std::size_t>(place[j]);
       if ((column < columns) != to_panel) {
@@ -227,6 +229,8 @@ void BlockCholesky<Dof>::add_updates(std::size_t index, const Work& work, bool t
 template <int Dof>
 void BlockCholesky<Dof>::solve_in_place(Eigen::VectorXd& x) const {
   // Each front has its unknowns and, for the rows below, the sums that it leaves to its parent.
+  VOUSSOIR_ASSERT(x.size() == Dof * static_cast<Eigen::Index>(pattern_->size()),
+                  "a vector has the unknowns of the factor");
   const auto& fronts = pattern_->fronts();
   std::vector<double> left(Dof * pattern_->row_count());
   Eigen::VectorXd y(x.size());

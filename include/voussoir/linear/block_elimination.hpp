@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/minimum_degree.hpp>
 
@@ -34,6 +35,7 @@ class BlockElimination {
                    const Progress& progress = {})
       : from_new_(minimum_degree_order(size, pairs, progress)) {
     StopCheck stop(progress);
+    VOUSSOIR_ASSERT(detail::is_permutation(from_new_), "every body is eliminated once");
     gather_rows(pairs);
     find_columns(stop);
   }
@@ -65,6 +67,7 @@ class BlockElimination {
           path_.push_back(j);
           mark_[static_cast<std::size_t>(j)] = i;
         }
+        VOUSSOIR_ASSERT(path_.size() <= top, "a row has a column once");
         for (std::size_t k = path_.size(); k-- > 0;) stack_[--top] = path_[k];
       }
       for (std::size_t k = top; k < stack_.size(); ++k) visit(static_cast<std::size_t>(stack_[k]));
@@ -92,6 +95,7 @@ class BlockElimination {
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       const int i = to_new[static_cast<std::size_t>(pairs[p].first)],
                 j = to_new[static_cast<std::size_t>(pairs[p].second)];
+      VOUSSOIR_ASSERT(i != j, "a body is not coupled to itself");
       places_[next[static_cast<std::size_t>(std::max(i, j))]++] = {std::min(i, j),
                                                                    static_cast<int>(p), i < j};
     }

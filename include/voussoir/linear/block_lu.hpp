@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/block_elimination.hpp>
 #include <voussoir/linear/small_inverse.hpp>
@@ -38,6 +39,9 @@ class BlockLU {
 template <int Dof>
 BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix, const Progress& progress)
     : pattern_(static_cast<int>(matrix.diagonal.size()), matrix.pairs, progress) {
+  VOUSSOIR_ASSERT(
+      matrix.forward.size() == matrix.pairs.size() && matrix.backward.size() == matrix.pairs.size(),
+      "a coupling has two blocks");
   StopCheck stop(progress);
   const std::size_t n = pattern_.size();
   rows_.resize(pattern_.block_count());
@@ -68,6 +72,7 @@ BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix, const Progress& progress
             subtract_product(left[k], lij, upper_[p]);
             subtract_product(top[k], lower_[p], uji);
           }
+          VOUSSOIR_ASSERT(end[j] < pattern_.begin(j + 1), "the factor has room for its blocks");
           subtract_product(pivot, lij, uji);
           rows_[end[j]] = static_cast<int>(i);
           lower_[end[j]] = lij;
@@ -80,6 +85,7 @@ BlockLU<Dof>::BlockLU(const TangentMatrix<Dof>& matrix, const Progress& progress
 template <int Dof>
 void BlockLU<Dof>::solve_in_place(Eigen::VectorXd& x) const {
   const std::size_t n = inverse_.size();
+  VOUSSOIR_ASSERT(x.size() == at(n), "a vector has the unknowns of the factor");
   Eigen::VectorXd y(x.size());
   for (std::size_t k = 0; k < n; ++k)
     set_part<Dof>(y, at(k), part<Dof>(x, Dof * pattern_.original(k)));

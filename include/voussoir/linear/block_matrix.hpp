@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/small_algebra.hpp>
@@ -45,12 +46,18 @@ class BlockMatrix {
 
   [[nodiscard]] int size() const { return static_cast<int>(diagonal_.size()); }
   [[nodiscard]] const Block& diagonal(int i) const {
+    VOUSSOIR_ASSERT(detail::is_index(i, size()), "a block on the diagonal is of a body");
     return diagonal_[static_cast<std::size_t>(i)];
   }
 
-  void add(int i, const Block& block) { diagonal_[static_cast<std::size_t>(i)] += block; }
+  void add(int i, const Block& block) {
+    VOUSSOIR_ASSERT(detail::is_index(i, size()), "a stiffness is added to a body");
+    diagonal_[static_cast<std::size_t>(i)] += block;
+  }
   /// Adds the block of row i and column j, i != j (and its transpose above).
   void add(int i, int j, const Block& block) {
+    VOUSSOIR_ASSERT(detail::is_index(i, size()) && detail::is_index(j, size()) && i != j,
+                    "a coupling is of two bodies");
     if (i > j) {
       added_.push_back({i, j, block});
     } else {
@@ -120,11 +127,18 @@ void BlockMatrix<Dof>::compress() {
     }
   }
   for (std::size_t i = 1; i < row_begin_.size(); ++i) row_begin_[i] += row_begin_[i - 1];
+  VOUSSOIR_ASSERT(columns_.size() == distinct && blocks_.size() == distinct,
+                  "couplings of the same two bodies are one block");
+  VOUSSOIR_ASSERT(static_cast<std::size_t>(row_begin_.back()) == distinct,
+                  "rows have all blocks among them");
   std::vector<Entry>().swap(added_);  // what is assigned to it would keep its memory
 }
 
 template <int Dof>
 void BlockMatrix<Dof>::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  VOUSSOIR_ASSERT(x.size() == Dof * static_cast<Eigen::Index>(size()),
+                  "a vector has the unknowns of the matrix");
+  VOUSSOIR_ASSERT(row_begin_.size() == diagonal_.size() + 1, "a matrix is compressed before use");
   y.resize(x.size());
   for (int i = 0; i < size(); ++i) {
     // One pass over the lower triangle: block (i, j) acts on x_j, its transpose on x_i.
@@ -140,12 +154,14 @@ void BlockMatrix<Dof>::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) co
 
 template <int Dof>
 Eigen::VectorXd BlockMatrix<Dof>::absolute_row_sums() const {
+  VOUSSOIR_ASSERT(row_begin_.size() == diagonal_.size() + 1, "a matrix is compressed before use");
   Eigen::VectorXd sums = zeros(Dof * size());
   const auto add_rows = [&sums](int row, const Block& block) {
     for (int c = 0; c < Dof; ++c)
       for (int r = 0; r < Dof; ++r) sums[Dof * row + r] += std::abs(block(r, c));
   };
   for (int i = 0; i < size(); ++i) {
+    VOUSSOIR_ASSERT(detail::is_symmetric(diagonal(i)), "a stiffness is symmetric");
     add_rows(i, diagonal(i));
     for (int k = row_begin(i); k < row_begin(i + 1); ++k) {
       add_rows(i, below(k));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/detail/by_index.hpp>
 #if VOUSSOIR_BODIES
@@ -139,6 +140,8 @@ VOUSSOIR_INLINE CholeskyPattern::CholeskyPattern(int dof, std::vector<int> order
     front = {
         groups.first[f], groups.first[f + 1], groups.parent[f], -1, -1, f, rows, rows + below, 0, 0,
         blocks};
+    VOUSSOIR_ASSERT(front.first < front.last && front.last <= size(), "a front has columns");
+    VOUSSOIR_ASSERT(front.parent < 0 || front.parent > f, "a front comes before its parent");
     rows += below;
     most_rows_ = std::max(most_rows_, static_cast<std::size_t>(front.rows()));
     blocks += static_cast<std::size_t>(front.columns()) * static_cast<std::size_t>(front.rows());
@@ -191,11 +194,13 @@ VOUSSOIR_INLINE void CholeskyPattern::find_rows(const detail::BodyGraph& graph, 
     front.places_end = sum + front.places;
     front.places = std::exchange(sum, front.places_end);
   }
+  VOUSSOIR_ASSERT(sum == places_.size(), "every block of the matrix has its place in a front");
   std::vector<std::size_t> next(fronts_.size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) next[f] = fronts_[f].places;
   detail::ByIndex<int> at(size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     const Front& front = fronts_[f];
+    VOUSSOIR_ASSERT(end[f] == front.end, "a front has as many rows as its columns count");
     for (std::size_t k = front.begin; k < front.end; ++k)
       at[rows_[k]] = front.columns() + static_cast<int>(k - front.begin);
     for (int j = front.first; j < front.last; ++j) at[j] = j - front.first;
@@ -220,6 +225,7 @@ VOUSSOIR_INLINE void CholeskyPattern::find_rows(const detail::BodyGraph& graph, 
         continue;
       }
       while (rows_[q] < rows_[k]) ++q;
+      VOUSSOIR_ASSERT(q < parent.end && rows_[q] == rows_[k], "a parent has the rows of its child");
       in_parent_[k] = parent.columns() + static_cast<int>(q - parent.begin);
     }
   }

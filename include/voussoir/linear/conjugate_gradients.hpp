@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/block_matrix.hpp>
@@ -126,6 +127,10 @@ template <int Dof, class Precondition>
                                                   const SolveTolerance& tolerance, int most,
                                                   const Progress& progress = {}) {
   constexpr int delay = detail::ErrorEstimate::delay;
+  VOUSSOIR_ASSERT(f.size() == Dof * static_cast<Eigen::Index>(k.size()) && x.size() == f.size(),
+                  "vectors have the unknowns of the matrix");
+  VOUSSOIR_ASSERT(tolerance.relative >= 0 && tolerance.absolute >= 0,
+                  "tolerances are no less than 0");
   StopCheck stop(progress, 1);
   IterationReport report;
   Eigen::VectorXd former, z, direction = zeros(x.size()), force;
@@ -156,6 +161,7 @@ template <int Dof, class Precondition>
     const double work = dot_product(direction, force);
     if (!(work > 0)) break;
     const double length = dot_product(residual, direction) / work;
+    VOUSSOIR_ASSERT(z.size() == x.size(), "a preconditioner keeps the unknowns");
     former = residual;
     set_to_sum(residual, residual, -length, force);
     set_to_sum(x, x, length, direction);

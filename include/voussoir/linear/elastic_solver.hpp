@@ -46,6 +46,8 @@ class ElasticSolver {
       : settings_(settings),
         matrix_(std::make_unique<const Matrix>(std::move(matrix))),
         patterns_(std::move(patterns)) {
+    VOUSSOIR_ASSERT(centres.size() == static_cast<std::size_t>(matrix_->size()),
+                    "every body has a centre");
     report_.bodies = matrix_->size();
     choose(progress);
     if (report_.method == LinearMethod::direct) {
@@ -169,6 +171,9 @@ void ElasticSolver<Dof>::choose(const Progress& progress) {
 template <int Dof>
 double ElasticSolver<Dof>::solve_in_place(Eigen::VectorXd& f, const SolveTolerance& tolerance,
                                           const Progress& progress) {
+  VOUSSOIR_ASSERT(f.size() == Dof * static_cast<Eigen::Index>(report_.bodies),
+                  "forces are those of the bodies");
+  VOUSSOIR_ASSERT(factor_.has_value() != multigrid_.has_value(), "there is one method at a time");
   if (!is_finite(f)) {
     residual_ = zeros(f.size());
     f = Eigen::VectorXd::Constant(f.size(), std::numeric_limits<double>::quiet_NaN());
@@ -182,6 +187,7 @@ double ElasticSolver<Dof>::solve_in_place(Eigen::VectorXd& f, const SolveToleran
         f, u, residual_, error > 0 ? rest : tolerance, settings_.max_iterations, progress);
     report_.iterations += done.iterations;
     if (done.converged) {
+      VOUSSOIR_ASSERT(done.error >= 0 && error >= 0, "errors are no less than 0");
       f = u;
       last_ = std::move(u);
       return last_error_ = done.error + error;

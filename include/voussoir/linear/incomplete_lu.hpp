@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/linear/small_inverse.hpp>
 #include <voussoir/linear/tangent_matrix.hpp>
 
@@ -39,6 +40,9 @@ class IncompleteLU {
 template <int Dof>
 IncompleteLU<Dof>::IncompleteLU(const TangentMatrix<Dof>& matrix) {
   const std::size_t n = matrix.diagonal.size();
+  VOUSSOIR_ASSERT(
+      matrix.forward.size() == matrix.pairs.size() && matrix.backward.size() == matrix.pairs.size(),
+      "a coupling has two blocks");
   begin_.assign(n + 1, 0);
   for (const auto& [i, j] : matrix.pairs) ++begin_[at(i) + 1], ++begin_[at(j) + 1];
   for (std::size_t i = 0; i < n; ++i) begin_[i + 1] += begin_[i];
@@ -58,6 +62,7 @@ IncompleteLU<Dof>::IncompleteLU(const TangentMatrix<Dof>& matrix) {
     std::size_t middle = begin_[i];
     for (std::size_t p = begin_[i]; p < begin_[i + 1]; ++p) {
       place[at(entries_[p].column)] = static_cast<std::ptrdiff_t>(p);
+      VOUSSOIR_ASSERT(entries_[p].column != static_cast<int>(i), "no body is coupled to itself");
       middle += entries_[p].column < static_cast<int>(i);
     }
     middle_.push_back(middle);
@@ -84,6 +89,8 @@ IncompleteLU<Dof>::IncompleteLU(const TangentMatrix<Dof>& matrix) {
 template <int Dof>
 void IncompleteLU<Dof>::solve_in_place(Eigen::VectorXd& x) const {
   const std::size_t n = inverse_.size();
+  VOUSSOIR_ASSERT(x.size() == Dof * static_cast<Eigen::Index>(n),
+                  "a vector has the unknowns of the factor");
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t p = begin_[i]; p < middle_[i]; ++p)
       add_at<Dof>(x.data() + Dof * i,

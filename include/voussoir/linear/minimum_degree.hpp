@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/progress.hpp>
 #if VOUSSOIR_BODIES
 #include <limits>
@@ -55,6 +56,8 @@ VOUSSOIR_INLINE std::vector<int> minimum_degree_order(int size,
       best.swap(order);
     }
   }
+  VOUSSOIR_ASSERT(best.size() == static_cast<std::size_t>(size) && detail::is_permutation(best),
+                  "every body is eliminated once");
   return best;
 }
 #endif

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/block_cholesky.hpp>
@@ -95,6 +96,9 @@ template <int Dof>
 Multigrid<Dof>::Multigrid(const Matrix& matrix, const BodyCentres<Dof>& centres,
                           const Params& params, const Progress& progress)
     : finest_(&matrix) {
+  VOUSSOIR_ASSERT(centres.size() == static_cast<std::size_t>(matrix.size()),
+                  "every body has a centre");
+  VOUSSOIR_ASSERT(params.largest_aggregate >= 2, "aggregates make a level smaller");
   StopCheck stop(progress, 1);
   Level finest;
   for (int i = 0; i < matrix.size(); ++i) {
@@ -165,6 +169,9 @@ void Multigrid<Dof>::coarsen(const BodyCentres<Dof>& centres, int largest, StopC
     for (const int member : aggregates.first_body)
       next.body.push_back(l.body[static_cast<std::size_t>(member)]);
   }
+  VOUSSOIR_ASSERT(next.own->size() <= matrix(fine).size(), "a coarser level is no larger");
+  VOUSSOIR_ASSERT(next.body.size() == static_cast<std::size_t>(next.own->size()),
+                  "an aggregate has a first member");
   levels_.push_back(std::move(next));
   invert_diagonal(fine + 1, stop);
 }
@@ -181,6 +188,8 @@ void Multigrid<Dof>::factor_coarsest(const Progress& progress) {
 
 template <int Dof>
 void Multigrid<Dof>::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  VOUSSOIR_ASSERT(b.size() == Dof * static_cast<Eigen::Index>(matrix(level).size()),
+                  "a vector has the unknowns of its level");
   if (level + 1 == levels_.size()) {
     x = b;
     coarsest_->solve_in_place(x);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/progress.hpp>
 #if VOUSSOIR_BODIES
 #include <voussoir/linear/detail/dissection.hpp>
@@ -51,6 +52,7 @@ VOUSSOIR_INLINE std::vector<int> nested_dissection_order(
   if (whole.operations() * dof * dof * dof < much) return degree_order;
   const detail::BodyGraph graph(size, pairs);
   std::vector<int> dissected = detail::Dissection(graph).order(stop);
+  VOUSSOIR_ASSERT(detail::is_permutation(dissected), "every body is eliminated once");
   double operations = 0;
   const detail::EliminationTree tree(graph, dissected);
   for (const double count : tree.count.all()) operations += count * count;

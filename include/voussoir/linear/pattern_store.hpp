@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/cholesky_pattern.hpp>
 
@@ -41,6 +42,7 @@ VOUSSOIR_INLINE std::shared_ptr<const CholeskyPattern> PatternStore::pattern(
       if (known && known->dof() == dof && known->is_for(size, pairs)) return known;
   }
   auto made = std::make_shared<const CholeskyPattern>(dof, size, pairs, progress);
+  VOUSSOIR_ASSERT(made->size() == size && made->dof() == dof, "a pattern is of the matrix");
   const std::scoped_lock lock(guard_);
   patterns_[oldest_] = made;
   oldest_ = (oldest_ + 1) % kept;

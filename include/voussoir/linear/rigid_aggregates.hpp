@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/linear/block_matrix.hpp>
 
@@ -132,16 +133,19 @@ struct RigidAggregates {
   }
 
   void place(const BodyCentres<Dof>& bodies, int count) {
+    VOUSSOIR_ASSERT(of_body.size() == bodies.size(), "every body has an aggregate or none");
     centres.assign(static_cast<std::size_t>(count), zeros<Vec<dim>>());
     first_body.assign(static_cast<std::size_t>(count), -1);
     std::vector<int> members(static_cast<std::size_t>(count), 0);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (of_body[b] < 0) continue;
       const auto a = static_cast<std::size_t>(of_body[b]);
+      VOUSSOIR_ASSERT(a < members.size(), "an aggregate is one of those counted");
       if (members[a]++ == 0) first_body[a] = static_cast<int>(b);
       // Near the first member: site coordinates lose no digits.
       centres[a] += bodies[b] - bodies[static_cast<std::size_t>(first_body[a])];
     }
+    VOUSSOIR_ASSERT(detail::is_positive(members), "no aggregate is empty");
     for (std::size_t a = 0; a < centres.size(); ++a)
       centres[a] = bodies[static_cast<std::size_t>(first_body[a])] +
                    centres[a] / static_cast<double>(members[a]);

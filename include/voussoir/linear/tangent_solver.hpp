@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/block_lu.hpp>
@@ -38,6 +39,7 @@ template <int Dof>
       add_at<Dof>(f.data() + Dof * j, matrix.backward[p] * part<Dof>(u, Dof * i));
     }
   };
+  VOUSSOIR_ASSERT(tolerance > 0 && tolerance < 1, "a residual is brought down");
   const double length = std::sqrt(dot_product(x, x));
   if (!(length > 0)) return length == 0;
   std::vector<Eigen::VectorXd> basis;
@@ -108,6 +110,8 @@ void solve_tangent(const TangentMatrix<Dof>& matrix, Eigen::VectorXd& x,
                    const Progress& progress = {}) {
   constexpr std::size_t cheap = Dof == 3 ? 3000 : 300, dear = Dof == 3 ? 200000 : 10000;  // bodies
   const std::size_t bodies = matrix.diagonal.size();
+  VOUSSOIR_ASSERT(x.size() == Dof * static_cast<Eigen::Index>(bodies),
+                  "a vector has the unknowns of the matrix");
   if (bodies > cheap && minimal_residuals(matrix, x, 1e-3, 100, progress)) return;
   if (bodies > dear) {
     x = Eigen::VectorXd::Constant(x.size(), std::numeric_limits<double>::quiet_NaN());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_model.hpp>
 
 namespace voussoir {
@@ -133,6 +134,7 @@ namespace detail {
 
 VOUSSOIR_INLINE ElementMatrix<3> plane_frame(const LiningSection& section, double length,
                                              double phi) {
+  VOUSSOIR_ASSERT(length > 0 && phi >= 0, "a beam has a length, and shear makes it softer");
   const double axial = section.axial_stiffness / length;
   const double b = section.bending_stiffness / (length * length * length * (1 + phi));
   const double v = 12 * b, vt = 6 * length * b, near = (4 + phi) * length * length * b,

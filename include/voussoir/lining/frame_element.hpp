@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -56,7 +57,10 @@ struct FrameElement {
         length(rest_length),
         at_rest(axes),
         turn(in_element_axes<dim>(axes)),
-        local(stiffness) {}
+        local(stiffness) {
+    VOUSSOIR_ASSERT(i != j && length > 0, "a member joins two nodes");
+    VOUSSOIR_ASSERT(detail::is_symmetric(local), "a stiffness is symmetric");
+  }
 
   int i, j;               ///< nodes, as bodies of the system
   double length;          ///< at rest [m]

@@ -57,6 +57,7 @@ template <class Geometry>
   for (const auto& member : frame.members) {
     const auto i = static_cast<std::size_t>(member.first),
                j = static_cast<std::size_t>(member.second);
+    VOUSSOIR_ASSERT(i < shares.size() && j < shares.size(), "a member joins nodes of its frame");
     const double length = (frame.nodes[j] - frame.nodes[i]).norm();
     require(length > 0, "length of a lining member", length, "> 0 m");
     require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/line_clip.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -52,8 +53,9 @@ template <class Geometry>
           any_less(part_high, shifted_by(low, -tolerance)))
         continue;
       double from = 0, to = 0;
-      if (clip(line, part, tolerance, from, to))
-        intersections.push_back({static_cast<int>(b), from, to});
+      const bool meets = clip(line, part, tolerance, from, to);
+      VOUSSOIR_ASSERT(!meets || from < to, "a line runs forwards through a block");
+      if (meets) intersections.push_back({static_cast<int>(b), from, to});
     }
   }
   std::vector<double> starts;
@@ -66,6 +68,8 @@ template <class Geometry>
         next.from - joined.back().to < same_point * tolerance) {
       joined.back().to = next.to;
     } else {
+      VOUSSOIR_ASSERT(joined.empty() || joined.back().from <= next.from,
+                      "intersections are in the order of the line");
       joined.push_back(next);
     }
   }

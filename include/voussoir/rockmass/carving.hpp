@@ -214,8 +214,12 @@ template <class Geometry>
       ++report.removed_bodies;
       continue;
     }
+    VOUSSOIR_ASSERT(pieces.size() >= body.parts.size() || pieces.size() < before,
+                    "an outline cuts pieces, and takes out whole ones");
     ++report.cut_bodies;
     auto groups = detail::connected_groups(pieces, tolerance);
+    VOUSSOIR_ASSERT(!groups.empty() && groups.size() <= pieces.size(),
+                    "every piece is in one group");
     report.separated_bodies += groups.size() - 1;
     for (auto& group : groups) {
       Body<Geometry> rest;
@@ -235,6 +239,7 @@ template <class Geometry>
   for (const auto* bodies : {&beside, &cut})
     for (const std::size_t k : *bodies)
       for (Shape& part : kept[k].parts) part.move_vertices(welder);
+  VOUSSOIR_ASSERT(mass.origins.size() == kept.size(), "every body has one that it comes from");
   mass.bodies = std::move(kept);
   mass.openings.push_back(opening);
   return mass;
@@ -336,6 +341,8 @@ VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar
   std::vector<WallPiece<Planar>> along;
   along.reserve(pieces.size());
   for (const std::size_t k : order_of_values(starts)) along.push_back(pieces[k]);
+  VOUSSOIR_ASSERT(along.empty() || (along.front().from >= 0 && along.back().from <= start.back()),
+                  "pieces of wall lie on the outline");
   return along;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
@@ -39,7 +40,10 @@ struct CutContacts {
       const std::size_t before = contacts.size();
       if (mass.cuts[static_cast<std::size_t>(faces[i].cut)].kind != Cut::Kind::boundary)
         match(mass, faces, facets, i, end, contacts);
-      for (std::size_t k = before; k < contacts.size(); ++k) contacts[k].cut = faces[i].cut;
+      for (std::size_t k = before; k < contacts.size(); ++k) {
+        VOUSSOIR_ASSERT(contacts[k].a != contacts[k].b, "a contact is of two bodies");
+        contacts[k].cut = faces[i].cut;
+      }
       i = end;
     }
     return contacts;

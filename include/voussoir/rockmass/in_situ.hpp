@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/principal_axes.hpp>
 #include <voussoir/theory/initial_friction.hpp>
@@ -111,6 +112,7 @@ struct InSitu {
       s(0, 1) = s(1, 0) = k0_xy * vertical(depth);
       s += besides;
     }
+    VOUSSOIR_ASSERT(detail::is_symmetric(s), "a stress is symmetric");
     return s;
   }
 

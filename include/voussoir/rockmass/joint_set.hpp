@@ -105,6 +105,7 @@ VOUSSOIR_INLINE std::vector<Joint> generate(const JointSet& set, int index, cons
   StopCheck stop(progress);
   Random random(seed, static_cast<std::uint64_t>(index) + 1);
   const double half = 0.5 * std::fmin(set.extent, 2.1 * domain.diameter());
+  VOUSSOIR_ASSERT(half > 0 && std::isfinite(half), "a trace has a length");
   std::vector<Joint> joints;
   const auto add = [&](const Vec2& centre) {
     stop();

@@ -191,6 +191,10 @@ class Slicer {
         mass.bodies.push_back(std::move(body));
       }
     }
+    VOUSSOIR_ASSERT(mass.bodies.size() == report_.cuts + 1, "every block becomes a body");
+    VOUSSOIR_ASSERT(
+        report_.outside_joints <= report_.unused_joints && report_.unused_joints <= report_.joints,
+        "a joint outside the domain cuts nothing");
     mass.slicing.blocks_too_long = static_cast<std::size_t>(
         std::count_if(excess_.begin(), excess_.end(), [](double excess) { return excess > 0; }));
     mass.slicing.vanished_faces = weld(mass.bodies, tolerance_, stop_);
@@ -205,6 +209,7 @@ class Slicer {
   };
 
   bool cut_block(std::size_t at, const HalfSpace<Geometry::dim>& plane, int joint) {
+    VOUSSOIR_ASSERT(nodes_[at].block >= 0, "a leaf of the tree is a block");
     const auto block = static_cast<std::size_t>(nodes_[at].block);
     auto parts = blocks_[block].split(plane, static_cast<int>(cuts_.size()), tolerance_);
     if (!parts) {
@@ -238,6 +243,9 @@ class Slicer {
     excess_.push_back(excess[1]);
     blocks_[block] = std::move(parts->first);
     blocks_.push_back(std::move(parts->second));
+    VOUSSOIR_ASSERT(nodes_.size() == 2 * blocks_.size() - 1, "a cut makes two leaves of one");
+    VOUSSOIR_ASSERT(blocks_.size() == report_.cuts + 1 && excess_.size() == blocks_.size(),
+                    "a cut makes two blocks of one");
     return true;
   }
 

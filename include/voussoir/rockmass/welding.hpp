@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -20,7 +21,9 @@ namespace voussoir {
 template <int Dim>
 class VertexWelder {
  public:
-  explicit VertexWelder(double tolerance) : tolerance_(tolerance), cell_(8 * tolerance) {}
+  explicit VertexWelder(double tolerance) : tolerance_(tolerance), cell_(8 * tolerance) {
+    VOUSSOIR_ASSERT(tolerance > 0, "cells have a size");
+  }
 
   /// A vertex seen within the tolerance of `p`: `p` itself if there was none.
   Vec<Dim> operator()(const Vec<Dim>& p) {
@@ -48,6 +51,7 @@ class VertexWelder {
     }
     enter(slot_of(here));
     points_.push_back(p);
+    VOUSSOIR_ASSERT(2 * points_.size() <= slots_.size(), "half of the slots are free");
     return p;
   }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 
@@ -54,6 +55,7 @@ VOUSSOIR_INLINE std::vector<DiagramPoint> interaction_diagram(
   parallel_for(points.size(), threads, [&](std::size_t job) {
     // The least supported tunnels take longest: first, so that they do not keep others waiting.
     const std::size_t i = spacings - 1 - job / thicknesses, j = job % thicknesses;
+    VOUSSOIR_ASSERT(i < spacings && j < thicknesses, "a tunnel is a point of the diagram");
     DiagramPoint& point = points[i * thicknesses + j];
     point = run(i, j);
     point.spacing = i;

@@ -51,6 +51,7 @@ template <class Geometry, class IsCounted, class Displacement>
     }
     double angle = std::atan2(p.y(), p.x());
     if (angle < 0) angle += 2 * std::numbers::pi;
+    VOUSSOIR_ASSERT(angle >= 0 && angle <= 2 * std::numbers::pi, "a full circle has all angles");
     motion.push_back({angle, piece.facet.measure(), -u.dot(normalized(p))});
   }
   return motion;
@@ -136,6 +137,7 @@ VOUSSOIR_INLINE double convergence_at(const std::vector<WallMotion>& wall, doubl
     convergences.push_back(piece.convergence);
     total += piece.length;
   }
+  VOUSSOIR_ASSERT(total >= 0 && lengths.size() == convergences.size(), "wall has a length");
   double below = 0;
   for (const std::size_t k : order_of_values(convergences)) {
     below += lengths[k];

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/model/bolt_set.hpp>
@@ -57,6 +58,7 @@ template <class Run, int Dim, class Law>
     const std::vector<CrossingForce>& crossings, int bolt_count) {
   std::vector<double> largest(static_cast<std::size_t>(bolt_count), 0.0);
   for (const CrossingForce& c : crossings) {
+    VOUSSOIR_ASSERT(detail::is_index(c.bolt, bolt_count), "a crossing is of a bolt");
     double& most = largest[static_cast<std::size_t>(c.bolt)];
     most = std::max(most, c.report.axial);
   }
@@ -143,6 +145,7 @@ template <class Elements, class EndForces>
     // sagging (tension below) is tension at the outer fibre here.
     const auto f = end_forces(element);
     const auto add = [&](int node, double thrust, double shear, double moment) {
+      VOUSSOIR_ASSERT(is_index(node - first, count), "a member joins nodes of its lining");
       LiningForce& at = forces[static_cast<std::size_t>(node - first)];
       at.thrust += thrust;
       at.shear += shear;

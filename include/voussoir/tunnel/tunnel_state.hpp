@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
@@ -91,6 +92,8 @@ template <class Solver, int Dim = Solver::SystemType::dim>
   joints.visit(system.displacement.data(),
                [&](const auto& c, const auto& point, const auto& load, const auto&) {
                  const auto k = static_cast<std::size_t>(&c - first);
+                 VOUSSOIR_ASSERT(k < states.size() && point.weight >= 0,
+                                 "a contact point stands for a part of its contact");
                  states[k].measure += point.weight;
                  wholes[k].add(report_of(joints.law_of(c), load, point.state));
                });
@@ -112,6 +115,7 @@ template <int Dim, class JointLaw, class InterfaceLaw>
     detail::WholeContact whole;
     for (int k = c.first; k < c.last; ++k) {
       const auto& p = joints.points()[static_cast<std::size_t>(k)];
+      VOUSSOIR_ASSERT(p.weight >= 0, "a contact point stands for a part of its contact");
       whole.add(report_of(joints.law_of(c), p.load(at), p.state));
       state.centre += p.weight * b(p.place);
       state.measure += p.weight;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -29,6 +30,7 @@ class EdgeList {
   }
   /// Adds the edge if `wanted`, without a branch. @pre there is room
   void add_if(std::size_t edge, bool wanted) {
+    VOUSSOIR_ASSERT(count_ < edges_.size(), "a list of edges has room for all that are looked at");
     edges_[count_] = static_cast<std::uint16_t>(edge);
     count_ += static_cast<std::size_t>(wanted);
   }

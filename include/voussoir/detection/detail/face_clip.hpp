@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 #include <vector>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 
@@ -26,6 +27,8 @@ class FaceClip {
   /// @param top         what of it lies higher is cut off [m]
   void run(const PlacedShape<3>& p, std::span<const std::uint16_t> face, const Vec3& normal,
            const PlacedShape<3>& q, std::span<const std::uint16_t> other, double top) {
+    VOUSSOIR_ASSERT(face.size() >= 3 && other.size() >= 3, "faces have an area");
+    VOUSSOIR_ASSERT(is_unit(normal), "heights are in metres");
     normal_ = normal;
     origin_ = p.vertex(face[0]);
     along_ = p.vertex(face[1]) - origin_;
@@ -64,6 +67,7 @@ class FaceClip {
   /// Half way from the mean of the polygon's corners to the reference face: inside both shapes
   /// unless one of them tapers away from there. @pre the polygon is not empty
   [[nodiscard]] Vec3 middle() const {
+    VOUSSOIR_ASSERT(count_ > 0, "what has a middle is not empty");
     Point sum{0, 0, 0};
     for (std::size_t k = 0; k < count_; ++k)
       sum = {sum.u + points_[k].u, sum.v + points_[k].v, sum.h + points_[k].h};
@@ -168,6 +172,7 @@ class FaceClip {
   template <class Side>
   void keep(Side&& side) {
     const std::size_t count = count_;
+    VOUSSOIR_ASSERT(count < spare_.size(), "there is room for a corner more");
     const Point* const from = points_.data();
     double* const sides = sides_.data();
     double lowest = 0;
@@ -192,6 +197,7 @@ class FaceClip {
       there = here;
     }
     count_ = static_cast<std::size_t>(to - spare_.data());
+    VOUSSOIR_ASSERT(count_ <= count + 1, "a line cuts a convex polygon twice at most");
     points_.swap(spare_);
   }
 

@@ -78,7 +78,7 @@ class FacePair3 {
   }
 
   [[nodiscard]] Contact<3> contact(std::size_t a, std::size_t b, Memory& memory, double reach) {
-    const Contact<3> found = contact_near(a, b, memory, reach);
+    Contact<3> found = contact_near(a, b, memory, reach);
     if (found.touch == Touch::none) return found;
     const Vec3 grid_point = shapes_->grid_point(a);
     for (Vec3& point : polygon_) point += grid_point;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/detail/lanes.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -33,6 +34,7 @@ class PlanePair {
     point_ = point;
     count_a_ = a.face_count;
     count_ = count_a_ + b.face_count;
+    VOUSSOIR_ASSERT(a.face_count > Dim && b.face_count > Dim, "shapes are closed");
     append(a, 0);
     append(b, count_a_);
     for (std::size_t k = count_; k < padded_count(); ++k) {

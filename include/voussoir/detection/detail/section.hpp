@@ -65,7 +65,7 @@ class Section {
                                            const Vec3& normal) {
     const auto [on_a, on_b] =
         closest(a.shape, a.topology.edges[edge_a], b.shape, b.topology.edges[edge_b]);
-    const Vec3 middle = on_a + 0.5 * (on_b - on_a);
+    Vec3 middle = on_a + 0.5 * (on_b - on_a);
     const double half = 0.5 * dot_product(normal, on_a - on_b);
     // Where each edge is in the other shape, the overlap goes from one to the other.
     if (!(half > 0) || (contains(b.shape, on_a) && contains(a.shape, on_b))) return middle;

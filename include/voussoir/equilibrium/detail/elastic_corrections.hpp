@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/fire.hpp>
@@ -43,6 +44,7 @@ class ElasticCorrections {
   /// @return  estimate of its largest error [m]
   double solve(Eigen::VectorXd& d, const SolveTolerance& tolerance, const Progress& progress,
                EquilibriumReport& report) {
+    VOUSSOIR_ASSERT(solver_.has_value(), "a solver is prepared before it solves");
     const double error = solver_->solve_in_place(d, tolerance, progress);
     ++report.elastic_solves;
     return error;
@@ -54,7 +56,10 @@ class ElasticCorrections {
     if (solver_) add_report(all, solver_->report());
     return all;
   }
-  [[nodiscard]] Fire& fire() { return *fire_; }
+  [[nodiscard]] Fire& fire() {
+    VOUSSOIR_ASSERT(fire_.has_value(), "masses are made with the solver");
+    return *fire_;
+  }
 
  private:
   std::optional<ElasticSolver<System::dof>> solver_;

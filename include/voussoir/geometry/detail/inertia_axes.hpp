@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <span>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir::detail {
@@ -56,6 +57,7 @@ VOUSSOIR_INLINE std::array<Vec3, 2> arms_of_round(const PlaneMoments& moments,
 
 VOUSSOIR_INLINE void add_moments(std::span<const Vec3> polygon, const Vec3& normal,
                                  const Vec3& about, double whole_area, PlaneMoments& moments) {
+  VOUSSOIR_ASSERT(whole_area > 0, "moments are over an area");
   // Of the triangles of a fan: (the sum over corners, and of the square of their sum) / 12.
   const double ox = dot_product(about, moments.first), oy = dot_product(about, moments.second);
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/drawing/axonometric_view.hpp>
 #include <voussoir/drawing/colour_map.hpp>
 #include <voussoir/drawing/number_text.hpp>
@@ -88,6 +89,8 @@ VOUSSOIR_INLINE std::vector<VisibleFace> visible_faces(const RockMass<Spatial>& 
                                                        const MassScene& scene,
                                                        const AxonometricView& view) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  VOUSSOIR_ASSERT(scene.is_drawn.size() == mass.bodies.size(),
+                  "it is known which blocks are drawn");
   std::vector<bool> is_bare(mass.cuts.size(), scene.explosion > 0);
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
     for (const ConvexPolyhedron& part : mass.bodies[b].parts)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -89,6 +90,7 @@ VOUSSOIR_INLINE std::vector<int> painting_order(const RockMass<Spatial>& mass,
       }
     }
   }
+  VOUSSOIR_ASSERT(is_permutation(order), "every block is painted once");
   return order;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/invariants.hpp>
 
 namespace voussoir::detail {
 
@@ -13,8 +14,14 @@ class ByIndex {
  public:
   ByIndex() = default;
   explicit ByIndex(int size, T value = T()) : values_(static_cast<std::size_t>(size), value) {}
-  T& operator[](int i) { return values_[static_cast<std::size_t>(i)]; }
-  const T& operator[](int i) const { return values_[static_cast<std::size_t>(i)]; }
+  T& operator[](int i) {
+    VOUSSOIR_ASSERT(is_index(i, values_.size()), "an index is below the size");
+    return values_[static_cast<std::size_t>(i)];
+  }
+  const T& operator[](int i) const {
+    VOUSSOIR_ASSERT(is_index(i, values_.size()), "an index is below the size");
+    return values_[static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] int size() const { return static_cast<int>(values_.size()); }
   void push_back(T value) { values_.push_back(value); }
   std::vector<T>& all() { return values_; }
@@ -40,11 +47,13 @@ struct BodyGraph {
     ByIndex<int> end = begin;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto& [i, j] = pairs[k];
+      VOUSSOIR_ASSERT(i != j, "a body is not coupled to itself");
       pair[end[i]] = static_cast<int>(k);
       next[end[i]++] = j;
       pair[end[j]] = ~static_cast<int>(k);
       next[end[j]++] = i;
     }
+    VOUSSOIR_ASSERT(next.all().size() == 2 * pairs.size(), "a coupling is in two lists");
   }
   [[nodiscard]] int size() const { return begin.size() - 1; }
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/detail/graph_separator.hpp>
 #include <voussoir/linear/detail/quotient_graph.hpp>
@@ -56,6 +57,8 @@ VOUSSOIR_INLINE std::vector<int> Dissection::order(StopCheck& stop) {
     for (const auto& some : members) to = std::copy(some.begin(), some.end(), to);
     const int middle = first + static_cast<int>(members[0].size()),
               end = middle + static_cast<int>(members[1].size());
+    VOUSSOIR_ASSERT(first <= middle && middle <= end && end <= last,
+                    "the parts of a dissection are within what is dissected");
     if (middle > first && end > middle) {
       parts.emplace_back(first, middle);
       parts.emplace_back(middle, end);

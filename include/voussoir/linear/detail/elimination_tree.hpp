@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/linear/detail/by_index.hpp>
 
 namespace voussoir::detail {
@@ -51,6 +52,7 @@ VOUSSOIR_INLINE std::vector<int> postorder(const ByIndex<int>& parent) {
     end[k] = at - 1;
     at -= below[k];
   }
+  VOUSSOIR_ASSERT(is_permutation(order), "a postorder has every node once");
   return order;
 }
 
@@ -75,6 +77,8 @@ VOUSSOIR_INLINE ByIndex<int> parents(const BodyGraph& graph, const std::vector<i
 VOUSSOIR_INLINE EliminationTree::EliminationTree(const BodyGraph& graph, std::vector<int> given)
     : order(std::move(given)), parent(parents(graph, order)), count(graph.size()) {
   const int size = graph.size();
+  VOUSSOIR_ASSERT(order.size() == static_cast<std::size_t>(size) && is_permutation(order),
+                  "every body is eliminated once");
   {
     const std::vector<int> post = postorder(parent);
     const ByIndex<int> place = places_in(post);
@@ -115,8 +119,12 @@ VOUSSOIR_INLINE EliminationTree::EliminationTree(const BodyGraph& graph, std::ve
     }
     if (parent[j] >= 0) ancestor[j] = parent[j];
   }
-  for (int j = 0; j < size; ++j)
+  for (int j = 0; j < size; ++j) {
+    VOUSSOIR_ASSERT(parent[j] < 0 || parent[j] > j, "a parent is eliminated after its children");
     if (parent[j] >= 0) count[parent[j]] += count[j];
+    VOUSSOIR_ASSERT(count[j] >= 1 && count[j] <= size - j,
+                    "a column of the factor is from its diagonal to the end at most");
+  }
 }
 
 #endif

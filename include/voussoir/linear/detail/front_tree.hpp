@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/linear/detail/elimination_tree.hpp>
 
@@ -66,6 +67,7 @@ VOUSSOIR_INLINE FrontTree::FrontTree(const EliminationTree& tree, int dof) {
     const double apart =
         front_cost(columns[g], rows[g], dof) + front_cost(columns[p], rows[p], dof);
     if (front_cost(columns[g] + columns[p], rows[p], dof) > apart) continue;
+    VOUSSOIR_ASSERT(p > g, "a front is merged into a later one");
     is_merged[g] = 1;
     columns[p] += columns[g];
   }
@@ -126,6 +128,8 @@ VOUSSOIR_INLINE FrontTree::FrontTree(const EliminationTree& tree, int dof) {
   for (int j = 0; j < size; ++j)
     order[static_cast<std::size_t>(next[position[merged[group_of[j]]]]++)] =
         tree.order[static_cast<std::size_t>(j)];
+  VOUSSOIR_ASSERT(first[kept] == size, "fronts have all columns among them");
+  VOUSSOIR_ASSERT(is_permutation(order), "every body is eliminated once");
 }
 
 #endif

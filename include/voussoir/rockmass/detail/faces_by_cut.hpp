@@ -42,6 +42,7 @@ template <class Geometry>
       const auto& part = mass.bodies[b].parts[p];
       for (std::size_t k = 0; k < part.size(); ++k) {
         const std::size_t at = next[static_cast<std::size_t>(part.cut(k))]++;
+        VOUSSOIR_ASSERT(at < faces.size(), "faces of a cut are as many as were counted");
         faces[at] = {part.cut(k), static_cast<int>(b), static_cast<int>(p), static_cast<int>(k)};
         if (facets != nullptr) (*facets)[at] = part.face(k);
       }

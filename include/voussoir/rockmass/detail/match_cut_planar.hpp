@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/contact_facet.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/detail/faces_by_cut.hpp>
@@ -28,6 +29,7 @@ VOUSSOIR_INLINE void match_cut(std::span<const FaceRef> faces, std::span<const S
     Segment facet;  ///< in the direction of the cut
     int body;
   };
+  VOUSSOIR_ASSERT(!faces.empty() && faces.size() == facets.size(), "a cut has faces");
   // The longest face gives the best direction, and is not one that welding has shrunk to a point.
   Segment reference = facets[0];
   for (std::size_t k = 1; k < faces.size(); ++k)

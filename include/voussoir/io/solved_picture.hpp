@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/tunnel_picture.hpp>
+#include <voussoir/io/vtu.hpp>
+#include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
+
+namespace voussoir {
+
+// A constructed tunnel as a finished picture, in 2-D and 3-D: title, verdict in words, key numbers,
+// banner where something must not be overlooked, rock, supports.
+//
+//   const auto built = construct(tunnel, plan);
+//   write_atomically("tunnel.svg", draw_tunnel(tunnel, built, {.title = "Design case"}));
+
+/// What a picture cannot know from the tunnel.
+struct TunnelPictureText {
+  std::string title = "Tunnel in jointed rock";
+  double lining_thickness = 0;  ///< [m]; 0: drawn as a line. Without meaning in 3-D
+};
+
+/// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
+/// reason why it is another.
+/// @param fallen  over all stages [m^2], [m^3]
+/// @param unit    of it: "m²"
+[[nodiscard]] VOUSSOIR_INLINE std::string verdict_sentence(const EquilibriumReport& last,
+                                                           double fallen, const std::string& unit);
+
+/// What must not be overlooked in a picture; none: the tunnel stands, all of it.
+[[nodiscard]] VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double fallen,
+                                                                     const std::string& unit);
+
+/// "3.29" for 3.29e-3 m; "-" where the wall is detached.
+[[nodiscard]] inline std::string millimetres_text(double metres) {
+  return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
+}
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::string verdict_sentence(const EquilibriumReport& last, double fallen,
+                                             const std::string& unit) {
+  const bool stands = last.verdict == Verdict::stable;
+  std::string sentence = std::string("Verdict: ") + to_string(last.verdict, fallen);
+  if (stands && fallen > 0) sentence += " of " + fixed_text(fallen, 2) + " " + unit;
+  if (!stands) return sentence + ": " + last.reason + ".";
+  sentence += std::isfinite(last.error_estimate)
+                  ? ". Estimated error of the displacements " +
+                        significant_text(100 * last.error_estimate, 2) + " %"
+                  : ". Error of the displacements not estimated by this method";
+  return sentence + "; the worst block is out of balance by " +
+         significant_text(100 * last.unbalance_over_weight, 2) + " % of its weight.";
+}
+
+VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double fallen,
+                                                       const std::string& unit) {
+  if (verdict == Verdict::stable && !(fallen > 0)) return std::nullopt;
+  std::string word = to_string(verdict, fallen);
+  for (char& c : word)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  const std::string rock = fixed_text(fallen, 2) + " " + unit + " of rock detached";
+  if (verdict == Verdict::stable)
+    return PictureBanner{word, rock + " before the rest came to rest", "#b45309"};
+  if (verdict == Verdict::collapsing) return PictureBanner{word, rock + ": no equilibrium"};
+  return PictureBanner{word, "no equilibrium was found: what is drawn here is no result"};
+}
+
+#endif
+
+namespace detail {
+
+/// The bolts of a construction alone, numbered from its first: bars of others are not known.
+inline void keep_bolts_from(int first, std::vector<CrossingForce>& bolts) {
+  std::erase_if(bolts, [first](const CrossingForce& c) { return c.bolt < first; });
+  for (CrossingForce& c : bolts) c.bolt -= first;
+}
+
+/// Crown, blocks and what the supports carry.
+template <class Solver>
+[[nodiscard]] std::vector<KeyNumber> key_numbers_of(
+    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
+  const SupportDemand demand = support_demand(solver);
+  const std::string per_metre = Solver::dim == 2 ? "/m" : "";
+  std::vector<KeyNumber> numbers{
+      {"crown convergence", millimetres_text(result.stages.back().convergence.crown) + " mm"},
+      {"blocks", std::to_string(solver.mass().bodies.size())}};
+  if (solver.bolt_count() > 0)
+    numbers.push_back(
+        {"largest bolt force", fixed_text(1e-3 * demand.largest_bolt_force, 0) + " kN"});
+  if (solver.lining() != nullptr) {
+    numbers.push_back(
+        {"largest thrust", fixed_text(1e-3 * demand.largest_thrust, 0) + " kN" + per_metre});
+    numbers.push_back(
+        {"largest moment", fixed_text(1e-3 * demand.largest_moment, 1) + " kN m" + per_metre});
+  }
+  return numbers;
+}
+
+/// In-situ stress at the middle of the opening times half its width, see `PictureLining`.
+template <class Solver>
+[[nodiscard]] double reference_thrust_of(const Solver& solver, const ViewRect& opening) {
+  const double depth = solver.mass().domain.surface() - opening.centre().y();
+  return solver.in_situ().vertical(depth) * 0.5 * opening.width();
+}
+
+}  // namespace detail
+
+/// The picture of a constructed tunnel in 2-D: rock by displacement, opened and slipped joints,
+/// bolts, diagrams of the lining.
+/// @return  an SVG document
+template <class Solver>
+requires(Solver::dim == 2) [[nodiscard]] std::string
+    draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
+                const TunnelPictureText& text = {}) {
+  const double fallen = result.fallen_measure();
+  auto state = state_of(solver);
+  detail::keep_bolts_from(result.first_bolt, state.bolts);
+  BlocksPicture picture = picture_of(state, solver.mass(), result.bars, text.lining_thickness);
+  picture.header.title = text.title;
+  picture.header.lines = {verdict_sentence(result.last(), fallen, "m²")};
+  picture.header.key_numbers = detail::key_numbers_of(solver, result);
+  picture.banner = banner_of(result.verdict(), fallen, "m²");
+  if (const auto opening = bounding_rect(picture.outline); picture.lining && opening)
+    picture.lining->reference_thrust = detail::reference_thrust_of(solver, *opening);
+  return draw_blocks_picture(picture);
+}
+
+/// The same in 3-D, cut open along the tunnel: rock by displacement, bolts and lining by force.
+template <class Solver>
+requires(Solver::dim == 3) [[nodiscard]] std::string
+    draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
+                const TunnelPictureText& text = {}) {
+  const double fallen = result.fallen_measure();
+  auto state = state_of(solver);
+  detail::keep_bolts_from(result.first_bolt, state.bolts);
+  TunnelView view = picture_of(state, result.bars);
+  view.header.title = text.title;
+  view.header.lines = {verdict_sentence(result.last(), fallen, "m³")};
+  view.header.key_numbers = detail::key_numbers_of(solver, result);
+  view.banner = banner_of(result.verdict(), fallen, "m³");
+  return draw_tunnel_view(solver.mass(), view);
+}
+
+/// The rock as a file for ParaView: one cell for every convex part that is not detached, with the
+/// displacement and the number of its block.
+template <class Geometry>
+[[nodiscard]] std::string vtu_of(const TunnelState<Geometry>& state,
+                                 const RockMass<Geometry>& mass) {
+  VOUSSOIR_ASSERT(state.blocks.size() == mass.bodies.size(),
+                  "a state is of the rock that is drawn");
+  VtuGrid grid;
+  std::vector<double> moved, number;
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
+    const auto& block = state.blocks[b];
+    if (block.is_gone) continue;
+    const auto& u = block.displacement;
+    for (const auto& part : mass.bodies[b].parts) {
+      grid.add(part, block.motion);
+      // A section lies in the x-z plane there, as its cells do.
+      const double up = u[Geometry::dim - 1], across = Geometry::dim == 3 ? u[1] : 0;
+      moved.insert(moved.end(), {u[0], across, up});
+      number.push_back(static_cast<double>(b));
+    }
+  }
+  grid.add_values("displacement [m]", 3, moved);
+  grid.add_values("block", 1, number);
+  return grid.document();
+}
+
+}  // namespace voussoir

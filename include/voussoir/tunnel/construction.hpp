@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/progress.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/measurements.hpp>
+
+namespace voussoir {
+
+// How a tunnel is built, as plain data, and the function that carries it out on a solver: excavate,
+// support, let the rock come to rest, stage by stage.
+
+/// Rock that is taken out at once.
+template <class Geometry>
+struct Round {
+  typename Geometry::Opening opening;
+  double smallest_piece = of_the_rock;  ///< see `ComposedSolver::excavate`
+};
+
+/// Bolts of one law. `bolt_bars` makes the bars of a pattern.
+template <class Solver>
+struct BoltInstallation {
+  std::vector<typename Solver::Geometry::Line> bars;  ///< head first [m]
+  typename Solver::BoltLaw law;
+  double spacing = 1;  ///< between bolts along the tunnel (2-D) [m], > 0
+  typename Solver::Anchors anchors = {};
+};
+
+/// A lining on the wall of the last opening.
+template <class Solver>
+struct LiningInstallation {
+  /// Where nodes and members lie: `LiningRing` in 2-D, `LiningRibs` in 3-D.
+  using Layout = std::conditional_t<Solver::dim == 2, LiningRing, LiningRibs>;
+  Layout layout = {};
+  std::vector<LiningSection> sections;  ///< those that the members of the layout name
+  typename Solver::InterfaceLaw interface_law;
+};
+
+/// One stage, in this order: rock is taken out; bolts and linings are installed where the rock is
+/// then, free of force but for pretension; the walls lose traction until the stage's part of it is
+/// left, and the rock and its supports come to rest.
+template <class Solver>
+struct ConstructionStage {
+  using Opening = typename Solver::Geometry::Opening;
+  std::string name;
+  /// Part of the in-situ traction that is left on the walls at the end [-], 0 to 1.
+  double wall_traction = 0;
+  std::vector<Round<typename Solver::Geometry>> rounds;
+  std::vector<BoltInstallation<Solver>> bolts;
+  std::vector<LiningInstallation<Solver>> linings;
+
+  ConstructionStage& excavate(Opening opening, double smallest_piece = of_the_rock) {
+    rounds.push_back({std::move(opening), smallest_piece});
+    return *this;
+  }
+  ConstructionStage& install_bolts(BoltInstallation<Solver> pattern) {
+    bolts.push_back(std::move(pattern));
+    return *this;
+  }
+  ConstructionStage& install_lining(LiningInstallation<Solver> lining) {
+    linings.push_back(std::move(lining));
+    return *this;
+  }
+};
+
+/// All stages, and how equilibrium is found in each.
+///
+///   Construction<Tunnel> plan;
+///   plan.add_stage("excavation", 0.4).excavate(opening);
+///   plan.add_stage("support").install_bolts({bolt_bars(pattern, opening), bolt});
+///   const auto built = construct(tunnel, plan);
+template <class Solver>
+struct Construction {
+  std::vector<ConstructionStage<Solver>> stages;
+  typename Solver::Method method;
+  Acceptance acceptance;
+
+  /// @param wall_traction  part of the in-situ traction left at the end [-], 0 to 1
+  /// @return  the new stage, until the next is added
+  ConstructionStage<Solver>& add_stage(std::string name, double wall_traction = 0) {
+    ConstructionStage<Solver>& stage = stages.emplace_back();
+    stage.name = std::move(name);
+    stage.wall_traction = wall_traction;
+    return stage;
+  }
+};
+
+/// What counts as a collapse of an opening, for `Acceptance::collapse_measure` [m^2]: a quarter of
+/// its own area, more than any spalling and less than any cave.
+[[nodiscard]] inline double collapse_measure_of(const SimplePolygon& opening) {
+  return 0.25 * opening.area();
+}
+
+/// A stage and what came of it.
+struct StageResult {
+  std::string name;
+  double wall_traction = 0;        ///< residual, the largest of all rounds, when it ended [-]
+  double wall_traction_asked = 0;  ///< at its end; reached unless the stage ended before [-]
+  EquilibriumReport report = {};
+  Convergence convergence = {};  ///< at its end [m]; in 3-D of the whole length
+
+  /// False where blocks detached or the search ended while the wall was still being unloaded.
+  [[nodiscard]] bool fully_unloaded() const {
+    return std::abs(wall_traction - wall_traction_asked) < 1e-9;
+  }
+};
+
+/// What came of a construction.
+template <class Geometry>
+struct ConstructionResult {
+  std::vector<StageResult> stages;            ///< those that were begun
+  std::vector<typename Geometry::Line> bars;  ///< of the bolts, in the order of installation
+  std::vector<int> crossings;                 ///< joints that each crossed when it was installed
+  int first_bolt = 0;  ///< number of the first of them in the solver, which may have had others
+
+  /// Of the last stage that was begun. @pre there is one
+  [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
+  /// That of the last stage; a stage that does not end stable ends the construction. In words:
+  /// `to_string(verdict(), fallen_measure())`.
+  [[nodiscard]] Verdict verdict() const { return last().verdict; }
+  /// Over all stages [m^2], [m^3].
+  [[nodiscard]] double fallen_measure() const {
+    double sum = 0;
+    for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
+    return sum;
+  }
+};
+
+/// What is being done and how far it is, 0 to 1, or a negative number where that is unknown.
+/// Returns false to stop.
+using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
+
+namespace detail {
+
+/// @throws InvalidInput  see the calls; Stopped
+template <class Solver>
+void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress,
+               ConstructionResult<typename Solver::Geometry>& result) {
+  for (const auto& round : stage.rounds)
+    solver.excavate(round.opening, round.smallest_piece, progress);
+  StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
+  for (const auto& bolts : stage.bolts)
+    for (const auto& bar : bolts.bars) {
+      stop();
+      result.crossings.push_back(solver.install_bolt(bar, bolts.law, bolts.spacing, bolts.anchors));
+      result.bars.push_back(bar);
+    }
+  for (const auto& lining : stage.linings)
+    solver.install_lining(lining_frame(solver.mass(), lining.layout), lining.sections,
+                          lining.interface_law);
+}
+
+}  // namespace detail
+
+/// Carries out a construction on rock in its in-situ state, or goes on where the solver is. A stage
+/// that does not end stable is the last.
+///
+/// @param progress  asked now and then whether to go on. A search that it stops is undecided, with
+///                  `report.stopped`
+/// @throws InvalidInput    no stages, or one that cannot be carried out: the message names it;
+///                         those before it have been
+/// @throws NumericalFault  see the method
+/// @throws Stopped         while rock was taken out or bolts were installed
+template <class Solver>
+ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
+                                                        const Construction<Solver>& construction,
+                                                        const StageProgress& progress = {}) {
+  if (construction.stages.empty())
+    throw InvalidInput("construction: has no stages; accepted: at least one");
+  ConstructionResult<typename Solver::Geometry> result;
+  result.first_bolt = solver.bolt_count();
+  for (const ConstructionStage<Solver>& stage : construction.stages) {
+    Progress asked;
+    if (progress) asked = [&](double fraction) { return progress(stage.name, fraction); };
+    naming("stage \"" + stage.name + "\"", [&] {
+      detail::carry_out(solver, stage, asked, result);
+      StageResult& end = result.stages.emplace_back();
+      end.name = stage.name;
+      end.wall_traction_asked = stage.wall_traction;
+      end.report = solver.equilibrium(stage.wall_traction, construction.method,
+                                      construction.acceptance, asked);
+      for (const double left : solver.wall_fractions())
+        end.wall_traction = std::max(end.wall_traction, left);
+      end.convergence = convergence(solver);
+    });
+    VOUSSOIR_ASSERT(result.bars.size() == result.crossings.size(), "every bolt has been installed");
+    VOUSSOIR_ASSERT(result.bars.size() + static_cast<std::size_t>(result.first_bolt) ==
+                        static_cast<std::size_t>(solver.bolt_count()),
+                    "bolts are those of the solver");
+    if (result.verdict() != Verdict::stable) break;
+  }
+  return result;
+}
+
+}  // namespace voussoir

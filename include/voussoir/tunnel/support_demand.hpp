@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/interaction_diagram.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
+
+namespace voussoir {
+
+/// What the supports have to carry: the numbers that a design is chosen by. Zero where there is
+/// no such support.
+struct SupportDemand {
+  double largest_bolt_force = 0;  ///< [N]
+  double mean_bolt_force = 0;     ///< mean over bolts of each one's largest [N]
+  double largest_thrust = 0;      ///< of all linings, compression positive, 2-D [N/m], 3-D [N]
+  double mean_thrust = 0;         ///< over nodes (2-D), over members (3-D)
+  double largest_moment = 0;      ///< absolute value, 2-D [N m/m], 3-D [N m]
+};
+
+template <class Solver>
+[[nodiscard]] SupportDemand support_demand(const Solver& solver) {
+  SupportDemand demand;
+  const std::vector<double> bolts = largest_bolt_forces(solver);
+  for (const double force : bolts) {
+    demand.largest_bolt_force = std::max(demand.largest_bolt_force, force);
+    demand.mean_bolt_force += force / static_cast<double>(bolts.size());
+  }
+  const auto add = [&](const auto& forces, std::size_t count) {
+    for (const auto& at : forces) {
+      demand.largest_thrust = std::max(demand.largest_thrust, at.thrust);
+      demand.largest_moment = std::max(demand.largest_moment, std::abs(at.moment));
+      demand.mean_thrust += at.thrust / static_cast<double>(count);
+    }
+  };
+  if constexpr (Solver::dim == 2) {
+    std::size_t nodes = 0;
+    for (const auto* lining : solver.linings())
+      nodes += static_cast<std::size_t>(lining->node_count());
+    for (const auto* lining : solver.linings()) add(lining_forces(solver, *lining), nodes);
+  } else {
+    const auto members = lining_members(solver);
+    add(members, members.size());
+  }
+  return demand;
+}
+
+/// A constructed tunnel as a point of an interaction diagram; `interaction_diagram` adds where in
+/// it. Rock lost counts over all stages.
+template <class Solver>
+[[nodiscard]] DiagramPoint diagram_point_of(
+    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
+  DiagramPoint point{};
+  point.report = result.last();
+  point.report.fallen_measure = result.fallen_measure();
+  point.crown_convergence = result.stages.back().convergence.crown;
+  const SupportDemand demand = support_demand(solver);
+  point.largest_bolt_force = demand.largest_bolt_force;
+  point.mean_bolt_force = demand.mean_bolt_force;
+  point.largest_thrust = demand.largest_thrust;
+  point.largest_moment = demand.largest_moment;
+  return point;
+}
+
+/// What has become of the supports: nothing of this shows in the forces of those that are left.
+struct SupportCondition {
+  int bolts = 0;
+  int idle = 0;              ///< bolts that crossed no joint when they were installed
+  int lost = 0;              ///< bolts that went with the rock they held
+  int ruptured = 0;          ///< joints at which a bolt has broken
+  int yielded = 0;           ///< joints at which one has yielded and holds
+  bool lining_lost = false;  ///< the rock that held one is gone
+  bool lining_open = false;  ///< 2-D: an arc, of which the feet stand on nothing
+};
+
+template <class Solver>
+[[nodiscard]] SupportCondition support_condition(
+    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
+  SupportCondition condition;
+  condition.bolts = static_cast<int>(result.bars.size());
+  std::vector<int> held(result.bars.size(), 0);
+  for (const CrossingForce& c : bolt_forces(solver)) {
+    if (c.bolt < result.first_bolt) continue;
+    ++held.at(static_cast<std::size_t>(c.bolt - result.first_bolt));
+    condition.ruptured += c.report.is_broken;
+    condition.yielded += c.report.has_yielded() && !c.report.is_broken;
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    VOUSSOIR_ASSERT(held[k] <= result.crossings[k], "a bolt holds where it crossed a joint");
+    condition.idle += result.crossings[k] == 0;
+    condition.lost += result.crossings[k] > 0 && held[k] == 0;
+  }
+  for (const auto* lining : solver.linings()) {
+    const std::size_t members = lining->members().size();
+    condition.lining_lost |= !solver.system().body(lining->first_node()).movable;
+    condition.lining_open |= Solver::dim == 2 && members > 0 &&
+                             members + 1 == static_cast<std::size_t>(lining->node_count());
+  }
+  return condition;
+}
+
+/// The same in sentences, one for each thing that a reader should know; none if all is well.
+[[nodiscard]] inline std::vector<std::string> remarks_on(const SupportCondition& condition) {
+  std::vector<std::string> remarks;
+  if (condition.lining_lost)
+    remarks.emplace_back(
+        "the lining was lost with the rock that held it: nothing touches it any "
+        "more");
+  if (condition.lining_open)
+    remarks.emplace_back(
+        "the lining is open and its feet stand on nothing: it carries what friction on the rock "
+        "gives it, next to no thrust");
+  const std::string of_all = " of " + std::to_string(condition.bolts) + " bolts ";
+  if (condition.idle > 0)
+    remarks.push_back(std::to_string(condition.idle) + of_all + "cross no joint and hold nothing");
+  if (condition.lost > 0)
+    remarks.push_back(std::to_string(condition.lost) + of_all +
+                      "were lost with the rock they held");
+  if (condition.ruptured > 0)
+    remarks.push_back("bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
+  if (condition.yielded > 0)
+    remarks.push_back("bolts yielded at " + std::to_string(condition.yielded) + " joints");
+  return remarks;
+}
+
+}  // namespace voussoir

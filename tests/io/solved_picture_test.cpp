@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// From a constructed tunnel to a finished picture in one call.
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+#include <voussoir/io/solved_picture.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/opening.hpp>
+
+#include "io/xml_check.hpp"
+#include "support/jointed_mass.hpp"
+#include "support/jointed_rock.hpp"
+
+namespace solved_picture_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+
+namespace {
+
+const CoulombJoint joints({5e9, 5e8, 40 * degree});
+const AxialBolt bolt({.axial_stiffness = 2e8, .pretension = 1e4});
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE("io/solved_picture") {
+  TEST_CASE("2-D: title, verdict, numbers of what is installed; a banner where none was found") {
+    const SimplePolygon opening = circular_opening(5, 36);
+    Solver<> tunnel(voussoir_test::jointed_rock(domain_around(opening, 20, 7, 7), 4), joints,
+                    {.density = 2700});
+    Solver<> other = tunnel;
+    Construction<Solver<>> plan;
+    plan.add_stage("all")
+        .excavate(opening)
+        .install_bolts({bolt_bars({.length = 3, .angular_spacing = 30 * degree}, opening), bolt})
+        .install_lining({{}, {LiningSection::rectangular(0.1, 25e9)}, joints});
+    const auto built = construct(tunnel, plan);
+    REQUIRE(built.verdict() == Verdict::stable);
+    const std::string picture =
+        draw_tunnel(tunnel, built, {.title = "Station <12>", .lining_thickness = 0.1});
+    CHECK(xml_fault(picture) == "");
+    for (const std::string text :
+         {"Station &lt;12&gt;", "Verdict: stable. Estimated error", "crown convergence",
+          "largest bolt force", "largest thrust", "largest moment", "lining, 10 cm"}) {
+      CAPTURE(text);
+      CHECK(count_of(picture, text) >= 1);
+    }
+    CHECK(count_of(picture, "id=\"banner\"") == 0);
+
+    plan.acceptance.displacement_limit = 1e-6;  // the rock moves further: nothing can be told
+    const auto undecided = construct(other, plan);
+    const std::string marked = draw_tunnel(other, undecided);
+    CHECK(xml_fault(marked) == "");
+    CHECK(count_of(marked, ">UNDECIDED<") == 1);
+    CHECK(count_of(marked, "raise displacement_limit") == 1);
+  }
+
+  TEST_CASE("3-D: the same call, a banner that covers no rock, and a file for ParaView") {
+    const PrismaticOpening opening(circular_opening(4, 12));
+    const Domain<3> ground{{-6, 0, -6}, {6, 4, 7}};
+    Solver<Spatial> tunnel(voussoir_test::jointed_mass(ground, 2, 1.5), joints, {.density = 2700});
+    Solver<Spatial> other = tunnel;
+    Construction<Solver<Spatial>> plan;
+    plan.add_stage("all").excavate(opening).install_bolts(
+        {bolt_bars({.length = 2, .angular_spacing = 45 * degree}, opening, 2, 0, 4), bolt});
+    const auto built = construct(tunnel, plan);
+    REQUIRE(built.verdict() == Verdict::stable);
+    const std::string picture = draw_tunnel(tunnel, built, {.title = "Cavern"});
+    CHECK(xml_fault(picture) == "");
+    CHECK(count_of(picture, "largest bolt force") == 1);
+    CHECK(count_of(picture, "largest thrust") == 0);
+
+    plan.acceptance.displacement_limit = 1e-6;
+    const std::string marked = draw_tunnel(other, construct(other, plan));
+    CHECK(xml_fault(marked) == "");
+    CHECK(count_of(marked, ">UNDECIDED<") == 1);
+
+    const std::string grid = vtu_of(state_of(tunnel), tunnel.mass());
+    std::size_t parts = 0;
+    for (const auto& body : tunnel.mass().bodies) parts += body.parts.size();
+    CHECK(xml_fault(grid) == "");
+    CHECK(grid.find("NumberOfCells=\"" + std::to_string(parts) + "\"") != std::string::npos);
+  }
+
+  TEST_CASE("the words for every verdict") {
+    EquilibriumReport report;
+    report.verdict = Verdict::stable;
+    report.error_estimate = 1e-4;
+    report.unbalance_over_weight = 2e-3;
+    CHECK(verdict_sentence(report, 0, "m²") ==
+          "Verdict: stable. Estimated error of the displacements 0.01 %; the worst block is out of "
+          "balance by 0.2 % of its weight.");
+    CHECK_FALSE(banner_of(report.verdict, 0, "m²").has_value());
+    CHECK(banner_of(report.verdict, 1.234, "m²")->word == "STABLE AFTER ROCKFALL");
+    CHECK(banner_of(report.verdict, 1.234, "m³")->line ==
+          "1.23 m³ of rock detached before the rest came to rest");
+    report.error_estimate = std::numeric_limits<double>::quiet_NaN();
+    CHECK(verdict_sentence(report, 1.234, "m²")
+              .find("stable after rockfall of 1.23 m². Error of the displacements not estimated") !=
+          std::string::npos);
+    report.verdict = Verdict::collapsing;
+    report.reason = "too much of it";
+    CHECK(verdict_sentence(report, 20, "m²") == "Verdict: collapsing: too much of it.");
+    CHECK(banner_of(report.verdict, 20, "m²")->line == "20.00 m² of rock detached: no equilibrium");
+    CHECK(millimetres_text(3.2949e-3) == "3.29");
+    CHECK(millimetres_text(std::numeric_limits<double>::quiet_NaN()) == "-");
+  }
+}
+
+}  // namespace solved_picture_test

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# docs/architecture.md has a row for every room, with the floor that layers.cmake gives it, and names
+# headers that exist.
+#   cmake -DROOT=<project> -P architecture.cmake
+cmake_minimum_required(VERSION 3.25)
+file(STRINGS "${ROOT}/tests/rules/layers.cmake" floors REGEX "^set\\(layer_[a-z]+ [0-9]+\\)")
+file(READ "${ROOT}/docs/architecture.md" page)
+set(rooms 0)
+foreach(line IN LISTS floors)
+  string(REGEX MATCH "layer_([a-z]+) ([0-9]+)" unused "${line}")
+  math(EXPR rooms "${rooms} + 1")
+  string(FIND "${page}" "\n| `${CMAKE_MATCH_1}/` | ${CMAKE_MATCH_2} | " at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "docs/architecture.md: no row for room ${CMAKE_MATCH_1}/ on floor ${CMAKE_MATCH_2}")
+  endif()
+endforeach()
+string(REGEX MATCHALL "\n[|] `[a-z]+/` [|] [0-9]+ [|]" rows "${page}")
+list(LENGTH rows count)
+if(NOT count EQUAL rooms OR rooms EQUAL 0)
+  message(FATAL_ERROR "docs/architecture.md: rows for ${count} rooms, layers.cmake has ${rooms}")
+endif()
+string(REGEX MATCHALL "[a-z_]+/[a-z_]+\\.hpp" headers "${page}")
+foreach(header IN LISTS headers)
+  if(NOT EXISTS "${ROOT}/include/voussoir/${header}")
+    message(FATAL_ERROR "docs/architecture.md: there is no header ${header}")
+  endif()
+endforeach()

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// A construction given as data is what the same calls by hand are, bit for bit.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
+
+#include "support/jointed_mass.hpp"
+#include "support/jointed_rock.hpp"
+
+namespace tunnel_construction_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+using voussoir_test::jointed_mass;
+using voussoir_test::jointed_rock;
+
+namespace {
+
+using Tunnel = Solver<>;
+using Cavern = Solver<Spatial>;
+const CoulombJoint joints({5e9, 5e8, 40 * degree}), interface({1e9, 1e9, 30 * degree});
+const SimplePolygon circle = circular_opening(5, 36);
+const LiningSection shell = LiningSection::rectangular(0.1, 25e9);
+const AxialBolt bolt({.axial_stiffness = 2e8, .pretension = 1e4});
+const std::vector<Segment> bars = bolt_bars({.length = 3, .angular_spacing = 30 * degree}, circle);
+
+const Tunnel& rock() {
+  static const Tunnel in_situ(jointed_rock(domain_around(circle, 20, 7, 7), 4), joints,
+                              {.density = 2700});
+  return in_situ;
+}
+
+Construction<Tunnel> plan() {
+  Construction<Tunnel> made;
+  made.add_stage("heading", 0.5).excavate(circle);
+  made.add_stage("support").install_bolts({bars, bolt}).install_lining({{}, {shell}, interface});
+  return made;
+}
+
+/// Built once, for the tests that look at it.
+struct Built {
+  Tunnel tunnel = rock();
+  ConstructionResult<Planar> result = construct(tunnel, plan());
+};
+const Built& built() {
+  static const Built once;
+  return once;
+}
+
+template <class Call>
+std::string refusal(Call&& call) {
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_SUITE("tunnel/construction") {
+  TEST_CASE("2-D: two stages as data and by hand have the same bits") {
+    Tunnel by_hand = rock();
+    by_hand.excavate(circle);
+    const EquilibriumReport first = by_hand.equilibrium(0.5);
+    const double half_way = convergence(by_hand).crown;
+    std::vector<int> crossings;
+    for (const Segment& bar : bars) crossings.push_back(by_hand.install_bolt(bar, bolt));
+    by_hand.install_lining(lining_frame(by_hand.mass(), {}), shell, interface);
+    const EquilibriumReport second = by_hand.equilibrium();
+
+    const auto& [tunnel, result] = built();
+    CHECK(tunnel.system().displacement == by_hand.system().displacement);
+    REQUIRE(result.stages.size() == 2);
+    CHECK(result.crossings == crossings);
+    CHECK(result.bars.size() == bars.size());
+    CHECK(result.stages[0].name == "heading");
+    CHECK(result.stages[0].wall_traction == 0.5);
+    CHECK(result.stages[0].convergence.crown == half_way);
+    CHECK(result.stages[0].report.steps == first.steps);
+    CHECK(result.last().error_estimate == second.error_estimate);
+    CHECK(result.verdict() == Verdict::stable);
+    CHECK(result.stages[1].fully_unloaded());
+    CHECK(result.fallen_measure() == first.fallen_measure + second.fallen_measure);
+  }
+
+  TEST_CASE("3-D: bolts and ribs as data and by hand have the same bits") {
+    const PrismaticOpening opening(circular_opening(4, 12));
+    const Domain<3> ground{{-6, 0, -6}, {6, 4, 7}};
+    const Cavern in_situ(jointed_mass(ground, 2, 1.5), joints, {.density = 2700, .surcharge = 5e5});
+    const auto rows = bolt_bars({.length = 2, .angular_spacing = 45 * degree}, opening, 2, 0, 4);
+    const LiningRibs ribs{.ring = {.nodes = 24}, .spacing = 2};
+    const std::vector sections{LiningSection::strip(0.15, 2, 25e9),
+                               LiningSection::strip(0.15, 0.5, 25e9)};
+    Cavern by_hand = in_situ, by_plan = in_situ;
+    by_hand.excavate(opening);
+    for (const SpatialLine& bar : rows) (void)by_hand.install_bolt(bar, bolt);
+    by_hand.install_lining(lining_frame(by_hand.mass(), ribs), sections, interface);
+    const EquilibriumReport report = by_hand.equilibrium();
+
+    Construction<Cavern> made;
+    made.add_stage("all")
+        .excavate(opening)
+        .install_bolts({rows, bolt})
+        .install_lining({ribs, sections, interface});
+    const auto result = construct(by_plan, made);
+    CHECK(by_plan.system().displacement == by_hand.system().displacement);
+    CHECK(result.last().error_estimate == report.error_estimate);
+    REQUIRE(result.verdict() == Verdict::stable);
+    const SupportDemand demand = support_demand(by_plan);
+    const auto members = lining_members(by_plan);
+    const auto strongest = std::max_element(members.begin(), members.end(),
+                                            [](auto& m, auto& n) { return m.thrust < n.thrust; });
+    CHECK(demand.largest_thrust == strongest->thrust);
+    CHECK(demand.mean_thrust > 0);
+    CHECK(demand.mean_thrust < demand.largest_thrust);
+  }
+
+  TEST_CASE("a stage that does not end stable ends the construction") {
+    Tunnel tunnel = rock();
+    Construction<Tunnel> made = plan();
+    made.acceptance.displacement_limit = 1e-6;  // the rock moves further: nothing can be told
+    const auto result = construct(tunnel, made);
+    REQUIRE(result.stages.size() == 1);
+    CHECK(result.verdict() == Verdict::undecided);
+    CHECK(result.bars.empty());
+    CHECK(tunnel.bolt_count() == 0);
+    CHECK_FALSE(result.stages[0].fully_unloaded());
+  }
+
+  TEST_CASE("a construction can be stopped in every stage, and told which it is") {
+    for (const std::string at : {"heading", "support"}) {
+      Tunnel tunnel = rock();
+      const auto stop = [&](const std::string& stage, double) { return stage != at; };
+      try {
+        const auto result = construct(tunnel, plan(), stop);
+        CHECK(result.last().stopped);
+        CHECK(result.stages.back().name == at);
+      } catch (const Stopped&) {
+        CHECK(tunnel.linings().empty());
+      }
+    }
+  }
+
+  TEST_CASE("what cannot be carried out is refused by the name of its stage") {
+    Tunnel tunnel = rock();
+    CHECK(refusal([&] { (void)construct(tunnel, Construction<Tunnel>{}); }) ==
+          "construction: has no stages; accepted: at least one");
+    Construction<Tunnel> made;
+    made.add_stage("more than all", 1.5).excavate(circle);
+    CHECK(refusal([&] { (void)construct(tunnel, made); })
+              .find("stage \"more than all\": wall "
+                    "traction = 1.5") == 0);
+    Construction<Tunnel> lined;
+    lined.add_stage("lining").install_lining({{.nodes = 3}, {shell}, interface});
+    CHECK(refusal([&] { (void)construct(tunnel, lined); }).find("stage \"lining\": lining nodes") ==
+          0);
+  }
+}
+
+TEST_SUITE("tunnel/support_demand") {
+  TEST_CASE("the demand is the extreme of forces, the point of a diagram the same") {
+    const auto& [tunnel, result] = built();
+    const SupportDemand demand = support_demand(tunnel);
+    double pull = 0, thrust = 0, moment = 0;
+    for (const CrossingForce& c : bolt_forces(tunnel)) pull = std::max(pull, c.report.axial);
+    for (const LiningForce& at : lining_forces(tunnel)) {
+      thrust = std::max(thrust, at.thrust);
+      moment = std::max(moment, std::abs(at.moment));
+    }
+    CHECK(demand.largest_bolt_force == pull);
+    CHECK(demand.largest_thrust == thrust);
+    CHECK(demand.largest_moment == moment);
+    CHECK(demand.mean_bolt_force > 1e4);  // pretension
+    const DiagramPoint point = diagram_point_of(tunnel, result);
+    CHECK(point.largest_moment == moment);
+    CHECK(point.crown_convergence == result.stages[1].convergence.crown);
+    CHECK_FALSE(point.failed());
+  }
+
+  TEST_CASE("bolts that hold nothing, and joints at which they broke, are counted and said") {
+    CHECK(remarks_on(support_condition(built().tunnel, built().result)).empty());
+    // A bolt of 1 mm crosses no joint; one that breaks at half its pretension crosses some.
+    const Segment& whole = bars[2];
+    const Segment stub{whole.start, whole.at(1e-3 / whole.length())};
+    Construction<Tunnel> made;
+    made.add_stage("all")
+        .excavate(circle)
+        .install_bolts({{stub}, bolt})
+        .install_bolts(
+            {{whole},
+             AxialBolt({.axial_stiffness = 2e8, .pretension = 1e4, .rupture_force = 1.0001e4})});
+    Tunnel tunnel = rock();
+    const auto result = construct(tunnel, made);
+    REQUIRE(result.crossings[0] == 0);
+    REQUIRE(result.crossings[1] > 0);
+    const SupportCondition condition = support_condition(tunnel, result);
+    CHECK(condition.bolts == 2);
+    CHECK(condition.idle == 1);
+    CHECK(condition.ruptured > 0);
+    const std::vector<std::string> remarks = remarks_on(condition);
+    REQUIRE(remarks.size() == 2);
+    CHECK(remarks[0] == "1 of 2 bolts cross no joint and hold nothing");
+    CHECK(remarks[1] == "bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
+  }
+}
+
+}  // namespace tunnel_construction_test
