@@ -94,6 +94,7 @@ struct PinnedBeam : Beam {
 struct Detector {
   using role = roles::ContactDetector;
   static constexpr const char* name = "Detector";
+  using NarrowPhase = FaceContacts;
   template <class Geometry>
   static std::vector<ContactFacet<Geometry>> find(const RockMass<Geometry>&) {
     return {};

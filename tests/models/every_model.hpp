@@ -207,8 +207,8 @@ template <class Geometry, class... Policies>
   using Parts = Composition<Geometry, Policies...>;
   const auto mass = carve(rock<Geometry>(), opening<Geometry>(), smallest_piece);
   using InterfaceLaw = typename Parts::Models::InterfaceLaw;
-  auto run = moving_rock<InterfaceLaw>(mass, law<typename Parts::JointLaw>(), in_situ,
-                                       {.local_damping = 0.3});
+  auto run = moving_rock<InterfaceLaw, typename Parts::Detector>(
+      mass, law<typename Parts::JointLaw>(), in_situ, {.local_damping = 0.3});
   run.set_held(0.5);
   run.advance_steps(10);
   const auto bolts = bars(opening<Geometry>());

@@ -29,6 +29,18 @@ template <class Detector, class Mass, class Geometry>
 concept ContactDetector = Fills<Detector, roles::ContactDetector> && HasName<Detector> &&
     HasInitialContacts<Detector, Mass, Geometry>;
 
+/// The narrow phase by which a model updates its contacts: the detector itself, or the one that it
+/// names as `NarrowPhase` because it knows but how rock lies that has not moved.
+template <class Detector>
+struct NarrowPhaseOf {
+  using type = Detector;
+};
+template <class Detector>
+requires requires { typename Detector::NarrowPhase; }
+struct NarrowPhaseOf<Detector> {
+  using type = typename Detector::NarrowPhase;
+};
+
 template <class Detector, class Mass, class Geometry>
 consteval bool explain_contact_detector() {
   static_assert(Fills<Detector, roles::ContactDetector>,
@@ -95,7 +107,7 @@ consteval bool explain_pair_detector() {
       "contact search: the detector needs `template <int Dim> class Pair`, made from "
       "`const PlacedShapes<Dim>&`, with `struct Memory`, `bool overlap(a, b, Memory&)`, "
       "`double separation(a, b, Memory&)` and `Contact<Dim> contact(a, b, Memory&, double "
-      "reach)`");
+      "reach)`, or the name of one that has it, `using NarrowPhase = voussoir::FaceContacts`");
   if constexpr (HasPairQueries<Detector, Dim>)
     static_assert(HasFacingContact<Detector, Dim>,
                   "contact detector: its `Pair` needs `Contact<Dim> facing_contact(a, b, Memory&, "

@@ -36,7 +36,8 @@ namespace voussoir {
 ///
 /// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
 /// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
-template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint>
+/// @tparam Detector  the narrow phase by which contacts are updated
+template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
 class Dynamics : public MovingBodies<Dim> {
   static_assert(explain_contact_law<JointLaw, Dim>());
   static_assert(explain_contact_law<InterfaceLaw, Dim>());
@@ -45,7 +46,7 @@ class Dynamics : public MovingBodies<Dim> {
  public:
   using typename Base::Body;
   using typename Base::Shape;
-  using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw>;
+  using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>;
 
   /// @throws InvalidInput  a setting out of range
   explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
@@ -218,7 +219,7 @@ class Dynamics : public MovingBodies<Dim> {
   struct Sound {
     std::vector<Body> bodies;
     Network network;
-    ContactTracker<Dim> tracker;
+    ContactTracker<Dim, Detector> tracker;
     EnergyBalance audit;
     SupportSet<Dim> supports;
     double kinetic_given, time;
@@ -293,7 +294,7 @@ class Dynamics : public MovingBodies<Dim> {
   std::vector<Load<Dim>> held_;
   double held_fraction_ = 0;
   SupportSet<Dim> supports_;
-  std::optional<ContactTracker<Dim>> tracker_;
+  std::optional<ContactTracker<Dim, Detector>> tracker_;
   EnergyBalance audit_;
   double contacts_at_start_ = 0;
   detail::RunSizes sizes_{};
@@ -303,8 +304,8 @@ class Dynamics : public MovingBodies<Dim> {
   std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void Dynamics<Dim, JointLaw, InterfaceLaw>::hold() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
   begin();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto [force, moment] = network_.gather(b);
@@ -314,8 +315,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::hold() {
   set_held(1);
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-double Dynamics<Dim, JointLaw, InterfaceLaw>::unbalance_over_weight() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::unbalance_over_weight() {
   begin();
   const auto all = forces();
   double worst = 0;
@@ -329,8 +330,8 @@ double Dynamics<Dim, JointLaw, InterfaceLaw>::unbalance_over_weight() {
   return worst;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void Dynamics<Dim, JointLaw, InterfaceLaw>::advance(double time) {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
   require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
   const double end = time_ + time;
   while (end - time_ > 1e-12 * std::max(time, step_)) {
@@ -343,8 +344,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::advance(double time) {
   time_ = end;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void Dynamics<Dim, JointLaw, InterfaceLaw>::take_in() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
   if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
   const bool is_first = known_bodies_ == 0;
   if (is_first) {
@@ -366,8 +367,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::take_in() {
   if (is_first) start_audit();
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void Dynamics<Dim, JointLaw, InterfaceLaw>::find_contacts() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
   const auto cut_of = [this](std::size_t shape, const Vec<Dim>& outward) {
     const auto& [part, b] = shapes_[shape];
     const Rotation<Dim> turn =
@@ -379,8 +380,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::find_contacts() {
   fresh_ = false;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void Dynamics<Dim, JointLaw, InterfaceLaw>::check() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::check() {
   const std::string fault = detail::RunDiagnostics<Dim>(bodies_, roles_, origin_,
                                                         sizes_.speed_limit, settings_.overlap_limit)
                                 .fault(std::as_const(network_), step_);
@@ -407,8 +408,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw>::check() {
   throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-double Dynamics<Dim, JointLaw, InterfaceLaw>::choose_step() {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   take_in();
   if (!sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
@@ -435,8 +436,8 @@ double Dynamics<Dim, JointLaw, InterfaceLaw>::choose_step() {
   return step_;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-int Dynamics<Dim, JointLaw, InterfaceLaw>::run_batch(int count, double step) {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+int Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double step) {
   begin();
   step_ = step;
   constexpr double never = std::numeric_limits<double>::infinity();

@@ -27,27 +27,29 @@ namespace voussoir {
 /// ground around it the last.
 ///
 /// @tparam InterfaceLaw  of the linings that it may get
-template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> moving_rock(
-    const RockMass<Geometry>& mass, const LawsBySet<JointLaw>& laws, const InSitu& in_situ,
-    DynamicsSettings settings = {}) {
+/// @tparam Detector      of contacts, as in a solver
+template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class Geometry,
+          class JointLaw>
+[[nodiscard]] auto moving_rock(const RockMass<Geometry>& mass, const LawsBySet<JointLaw>& laws,
+                               const InSitu& in_situ, DynamicsSettings settings = {}) {
   in_situ.check();
   settings.gravity = in_situ.gravity;
-  System<Geometry, JointLaw, InterfaceLaw> system(laws, laws.stiffest());
+  System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
+      laws, laws.stiffest());
   std::vector<double> measures;
-  detail::InitialModel<CutContacts, decltype(system)> model(mass, in_situ, settings.points, system,
-                                                            {});
+  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, settings.points, system,
+                                                         {});
   model.run(std::make_shared<const RockMass<Geometry>>(mass), laws, measures);
   auto run = set_in_motion(system, settings);
   run.hold();
   return run;
 }
 
-template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> moving_rock(
-    const RockMass<Geometry>& mass, const JointLaw& law, const InSitu& in_situ,
-    DynamicsSettings settings = {}) {
-  return moving_rock<InterfaceLaw>(mass, LawsBySet<JointLaw>(law), in_situ, settings);
+template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class Geometry,
+          class JointLaw>
+[[nodiscard]] auto moving_rock(const RockMass<Geometry>& mass, const JointLaw& law,
+                               const InSitu& in_situ, DynamicsSettings settings = {}) {
+  return moving_rock<InterfaceLaw, Detector>(mass, LawsBySet<JointLaw>(law), in_situ, settings);
 }
 
 /// Installs bolts in the rock as it lies now, free of force but for their pretension.
@@ -56,9 +58,9 @@ template <class InterfaceLaw = CoulombJoint, class Geometry, class JointLaw>
 /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
 /// @return  the bolts, which the run holds too: forces are read there
 /// @throws InvalidInput  spacing out of range, or a bar without length
-template <class Geometry, class JointLaw, class InterfaceLaw, class BoltLaw, class Anchors>
+template <class Geometry, class BoltLaw, class Anchors, class... Parts>
 std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
-    Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass,
+    Dynamics<Geometry::dim, Parts...>& run, const RockMass<Geometry>& mass,
     const std::vector<typename Geometry::Line>& bars, const BoltLaw& law, double spacing,
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
@@ -94,11 +96,11 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 /// @return  the lining, which the run holds too: forces are read there
 /// @throws InvalidInput  a thickness or mass out of range; a member without
 ///                       length or section; no rock at the wall
-template <class Lining, class Geometry, class JointLaw, class InterfaceLaw>
+template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
-    Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const LiningFrame<Geometry>& frame,
-    const std::vector<LiningSection>& sections, const InterfaceLaw& interface_law,
-    double thickness) {
+    Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
+    const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
+    const InterfaceLaw& interface_law, double thickness) {
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");

@@ -18,9 +18,9 @@ namespace voussoir {
 /// The run that a model at rest belongs to.
 template <class System>
 struct MotionOf;
-template <class Geometry, class JointLaw, class InterfaceLaw>
-struct MotionOf<System<Geometry, JointLaw, InterfaceLaw>> {
-  using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw>;
+template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
+struct MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>> {
+  using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>;
 };
 
 namespace detail {
@@ -189,12 +189,13 @@ class Handover {
 /// at rest, to second order of the displacements since contacts were last found.
 /// @param settings  gravity as that of the weights
 /// @throws InvalidInput  a body without shape; a lining without mass or thickness
-template <class Geometry, class JointLaw, class InterfaceLaw>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw> set_in_motion(
-    const System<Geometry, JointLaw, InterfaceLaw>& system, const DynamicsSettings& settings) {
-  const detail::Handover<System<Geometry, JointLaw, InterfaceLaw>> handover(system);
+template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
+[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector> set_in_motion(
+    const System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
+    const DynamicsSettings& settings) {
+  const detail::Handover<System<Geometry, JointLaw, InterfaceLaw, Detector>> handover(system);
   const std::vector<JointLaw>& laws = system.joints.laws();
-  Dynamics<Geometry::dim, JointLaw, InterfaceLaw> run(
+  Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector> run(
       laws, system.boundary.laws().front().joint_normal_stiffness(), system.interface.laws(),
       laws.size() > 1 && system.law_of_cut != nullptr ? *system.law_of_cut : std::vector<int>{},
       settings);
@@ -219,13 +220,13 @@ requires requires(const Solver& solver) { solver.in_situ().gravity; }
 /// what moves is stopped, and displacements go on counting from the in-situ state.
 /// @param system  from which the run was made
 /// @param gone    bodies that are taken out of it now: those that have fallen
-template <class Geometry, class JointLaw, class InterfaceLaw>
-void bring_to_rest(Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
-                   System<Geometry, JointLaw, InterfaceLaw>& system,
+template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
+void bring_to_rest(Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
+                   System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
                    const std::vector<int>& gone = {}) {
   require(run.body_count() == system.body_count(), "bodies of the run", run.body_count(),
           "those of the model");
-  detail::Handover<System<Geometry, JointLaw, InterfaceLaw>>::store(run, system);
+  detail::Handover<System<Geometry, JointLaw, InterfaceLaw, Detector>>::store(run, system);
   if (!gone.empty()) system.remove(gone);
 }
 

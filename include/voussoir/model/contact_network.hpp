@@ -30,7 +30,8 @@ namespace voussoir {
 ///
 /// Contacts are numbered in one row, group after group. Every body has the list of its contacts, in
 /// which their forces are summed: always in the same order.
-template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint>
+/// @tparam Detector  the narrow phase
+template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
 class ContactNetwork {
  public:
   using Body = MovingBody<Dim>;
@@ -38,7 +39,7 @@ class ContactNetwork {
   using Joints = MovingContacts<Dim, JointLaw>;
   using Walls = MovingContacts<Dim, SmoothWall>;
   using Interface = MovingContacts<Dim, InterfaceLaw>;
-  using Tracker = ContactTracker<Dim>;
+  using Tracker = ContactTracker<Dim, Detector>;
   static constexpr int dof = Dim + spin_count<Dim>;
 
   template <class Law>
@@ -129,7 +130,7 @@ class ContactNetwork {
     stiffest_.resize(bodies.size(), 0);
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
                                        cut_of,  gained, first_end_.size() != bodies.size() + 1};
-    detail::ContactShares<Dim> shares(tracker);
+    detail::ContactShares<Dim, Tracker> shares(tracker);
     std::vector<Left> left;
     const auto leave = [&](Pair& pair) {
       if (pair.contact >= 0)
@@ -248,7 +249,7 @@ class ContactNetwork {
     /// -1 for the tiles of a lining, whose labels mean nothing.
     [[nodiscard]] int common_cut(const Pair& pair, const Contact<Dim>& found) const {
       if (kind_of(pair) == 2) return -1;
-      return detail::common_cut(
+      return detail::common_cut<Dim>(
           tracker, pair, found, [this](int b) { return roles[index(b)] == BodyRole::block; },
           cut_of);
     }
@@ -503,9 +504,11 @@ class ContactNetwork {
   std::vector<double> stiffest_;  ///< [1/s^2]
 };
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw>::react(std::size_t first, std::size_t last,
-                                                        const Bodies& bodies, Dissipation& lost) {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::react(std::size_t first,
+                                                                  std::size_t last,
+                                                                  const Bodies& bodies,
+                                                                  Dissipation& lost) {
   std::size_t before = 0;
   each_group([&](auto& group) {
     const std::size_t end = std::min(last, before + group.size());
@@ -515,8 +518,8 @@ void ContactNetwork<Dim, JointLaw, InterfaceLaw>::react(std::size_t first, std::
   });
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-auto ContactNetwork<Dim, JointLaw, InterfaceLaw>::gather(std::size_t b) const
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+auto ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::gather(std::size_t b) const
     -> std::pair<Vec<Dim>, Spin<Dim>> {
   Vec<Dim> force = zeros<Vec<Dim>>();
   Spin<Dim> moment = zeros<Spin<Dim>>();
@@ -529,8 +532,8 @@ auto ContactNetwork<Dim, JointLaw, InterfaceLaw>::gather(std::size_t b) const
   return {force, moment};
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw>::list(std::size_t body_count) {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::list(std::size_t body_count) {
   reactions_.resize(size());
   first_end_.assign(body_count + 1, 0);
   each([this](const auto&, const auto& c) {
@@ -550,9 +553,9 @@ void ContactNetwork<Dim, JointLaw, InterfaceLaw>::list(std::size_t body_count) {
   });
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw>
-double ContactNetwork<Dim, JointLaw, InterfaceLaw>::largest_row(std::size_t b,
-                                                                const Bodies& bodies) const {
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+double ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::largest_row(
+    std::size_t b, const Bodies& bodies) const {
   Stiffness sum = zeros<Stiffness>();
   for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
     std::size_t before = 0;

@@ -12,6 +12,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
+#include <voussoir/detection/contact_detector.hpp>
 #include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/detection/neighbour_list.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -25,15 +26,18 @@ namespace voussoir {
 /// How far a body has moved is a bound on the path of its fastest vertex, summed up. A pair that
 /// touches (or is within `reach`) is asked again when its two bodies have moved `refresh` together;
 /// one that is further apart when it could have come within reach.
-template <int Dim>
+/// @tparam Detector  the narrow phase, a PairDetector
+template <int Dim, class Detector = FaceContacts>
 class ContactTracker {
+  static_assert(explain_pair_detector<Detector, Dim>());
+
  public:
   using Shape = typename PlacedShapes<Dim>::Shape;
   struct Pair {
     std::uint32_t a, b;         ///< shapes
     std::int32_t contact = -1;  ///< what the caller knows it by; -1: they do not touch
     double moved = -1;          ///< of both bodies, when it was last asked; -1: never
-    typename FaceContacts::Pair<Dim>::Memory memory{};
+    typename Detector::template Pair<Dim>::Memory memory{};
   };
 
   /// @param reach    contacts may be so far open [m]
@@ -89,7 +93,7 @@ class ContactTracker {
       if (neighbours_.update(shapes_)) carry_over(bodies, parts);
       since_looked_ = 0;
     }
-    typename FaceContacts::Pair<Dim> detector(shapes_);
+    typename Detector::template Pair<Dim> detector(shapes_);
     const auto ask = [&](Pair& pair) {
       if (is_gone(bodies, pair)) {
         if (pair.contact >= 0) parts(pair);
@@ -98,13 +102,8 @@ class ContactTracker {
       pair.moved = way_of(pair);
       place(pair.a);
       place(pair.b);
-      // The whole of the faces that lie over one another, not what is within reach of touching: the
-      // springs then do not change with the depth of the overlap, which would make or eat energy.
-      const bool near =
-          pair.contact >= 0 || detector.separation(pair.a, pair.b, pair.memory, reach_) <= reach_;
-      Contact<Dim> contact;
-      if (near) contact = detector.contact_near(pair.a, pair.b, pair.memory, everything);
-      if (contact.touch != Touch::none && contact.separation <= reach_)
+      const Contact<Dim> contact = detector.facing_contact(pair.a, pair.b, pair.memory, reach_);
+      if (contact.touch != Touch::none)
         touches(pair, contact);
       else if (pair.contact >= 0)
         parts(pair);
@@ -195,8 +194,7 @@ class ContactTracker {
                      [this](std::size_t x, std::size_t y) { return bodies_of(x) < bodies_of(y); });
   }
 
-  static constexpr double unseen = 0.1;      ///< of the margin
-  static constexpr double everything = 1e6;  ///< further than any face reaches [m]
+  static constexpr double unseen = 0.1;  ///< of the margin
 
   double reach_, refresh_, margin_;
   double since_looked_ = 0;  ///< path of the fastest body since the list was looked at [m]

@@ -185,7 +185,7 @@ class FoundAgain {
   }
 
   System& system_;
-  ContactUpdate<dim> update_;
+  ContactUpdate<dim, typename System::Detector> update_;
 };
 
 }  // namespace detail

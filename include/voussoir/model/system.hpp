@@ -18,6 +18,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/linear/block_matrix.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
@@ -46,9 +47,12 @@ struct SystemBody {
 /// Rotations are small and the contact topology is that of the reference position.
 ///
 /// A copy is a full snapshot: about 2 kB per block.
-template <class Geometry, class JointLaw, class InterfaceLaw = CoulombJoint>
+/// @tparam DetectorModel  the narrow phase by which contacts are updated
+template <class Geometry, class JointLaw, class InterfaceLaw = CoulombJoint,
+          class DetectorModel = FaceContacts>
 class System {
  public:
+  using Detector = DetectorModel;
   using GeometryType = Geometry;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
@@ -271,8 +275,9 @@ class System {
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-int System<Geometry, JointLaw, InterfaceLaw>::add_bodies(std::span<const Body> bodies) {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+int System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::add_bodies(
+    std::span<const Body> bodies) {
   const int first = body_count();
   bodies_.insert(bodies_.end(), bodies.begin(), bodies.end());
   const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
@@ -287,8 +292,8 @@ int System<Geometry, JointLaw, InterfaceLaw>::add_bodies(std::span<const Body> b
   return first;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-auto System<Geometry, JointLaw, InterfaceLaw>::pose(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::pose(int b) const -> Pose<dim> {
   Pose<dim> at = pose_when_found(b);
   if (!body(b).movable) return at;
   at.position = body(b).centre + part<dim>(displacement, dof * b);
@@ -298,8 +303,9 @@ auto System<Geometry, JointLaw, InterfaceLaw>::pose(int b) const -> Pose<dim> {
   return at;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-auto System<Geometry, JointLaw, InterfaceLaw>::pose_when_found(int b) const -> Pose<dim> {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::pose_when_found(int b) const
+    -> Pose<dim> {
   Pose<dim> at;
   at.position = body(b).centre;
   if (static_cast<std::size_t>(b) < turned_.size()) {
@@ -309,8 +315,8 @@ auto System<Geometry, JointLaw, InterfaceLaw>::pose_when_found(int b) const -> P
   return at;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-double System<Geometry, JointLaw, InterfaceLaw>::moved_since_found() const {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+double System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::moved_since_found() const {
   double farthest = 0;
   for (int b = 0; b < body_count(); ++b) {
     if (!body(b).movable || !body(b).is_block) continue;
@@ -322,9 +328,9 @@ double System<Geometry, JointLaw, InterfaceLaw>::moved_since_found() const {
   return farthest;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-auto System<Geometry, JointLaw, InterfaceLaw>::elastic_stiffness(const Progress& progress) const
-    -> Matrix {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::elastic_stiffness(
+    const Progress& progress) const -> Matrix {
   StopCheck stop(progress);
   Matrix k(body_count());
   const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
@@ -346,8 +352,8 @@ auto System<Geometry, JointLaw, InterfaceLaw>::elastic_stiffness(const Progress&
   return k;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-void System<Geometry, JointLaw, InterfaceLaw>::remove(const std::vector<int>& gone) {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::remove(const std::vector<int>& gone) {
   BodyMarks is_gone(bodies_.size(), 0);
   for (const int b : gone) {
     is_gone[static_cast<std::size_t>(b)] = 1;
@@ -362,8 +368,8 @@ void System<Geometry, JointLaw, InterfaceLaw>::remove(const std::vector<int>& go
   for (const auto& support : supports) support->remove(is_gone);
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw>
-std::vector<int> System<Geometry, JointLaw, InterfaceLaw>::unsupported() const {
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+std::vector<int> System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::unsupported() const {
   // Groups as trees: every body points towards the root of its group, that of the ground is
   // `fixed`.
   const std::size_t fixed = bodies_.size();

@@ -9,6 +9,7 @@
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/detection/contact_detector.hpp>
+#include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/geometry_model.hpp>
@@ -128,6 +129,7 @@ struct Composition {
   static_assert(explain_geometry<Geometry>());
   static_assert((detail::explain_declared_role<Policies, Geometry>() && ...));
   static_assert(explain_contact_detector<Detector, RockMass<Geometry>, Geometry>());
+  static_assert(explain_pair_detector<typename NarrowPhaseOf<Detector>::type, Geometry::dim>());
   static_assert(explain_contact_law<JointLaw, Geometry::dim>());
   static_assert(explain_interface_law<Interface, Geometry::dim>());
   static_assert(explain_bolt_anchors<Anchors>());

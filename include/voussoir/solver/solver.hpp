@@ -49,7 +49,8 @@ class ComposedSolver {
   using BoltLaw = typename Models::BoltLaw;
   using Lining = typename Models::Lining;
   using Method = typename Models::Method;
-  using SystemType = System<Geometry, JointLaw, InterfaceLaw>;
+  using SystemType =
+      System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type>;
   using BoltsType = BoltSet<Geometry::dim, BoltLaw>;
   using LiningType = LiningMembers<Geometry>;
   static constexpr int dim = Geometry::dim;

@@ -83,9 +83,9 @@ requires(Solver::dim == 3)
 }
 /// Of rock that moves.
 /// @param mass  from which the run was made
-template <class JointLaw, class InterfaceLaw, class Geometry>
-[[nodiscard]] std::vector<WallMotion> wall_motion(
-    const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass) {
+template <class Geometry, class... Parts>
+[[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, Parts...>& run,
+                                                  const RockMass<Geometry>& mass) {
   return detail::wall_motion_of(
       mass, [&](int b, const auto&) { return !run.body(b).is_gone; },
       [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });
@@ -118,8 +118,8 @@ requires(Solver::dim == 3) [[nodiscard]] Convergence
   return convergence_of(wall_motion(solver, section, half_length));
 }
 /// Of rock that moves.
-template <class JointLaw, class InterfaceLaw, class Geometry>
-[[nodiscard]] Convergence convergence(const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run,
+template <class Geometry, class... Parts>
+[[nodiscard]] Convergence convergence(const Dynamics<Geometry::dim, Parts...>& run,
                                       const RockMass<Geometry>& mass) {
   return convergence_of(wall_motion(run, mass));
 }

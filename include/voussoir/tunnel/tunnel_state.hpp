@@ -102,9 +102,8 @@ template <class Solver, int Dim = Solver::SystemType::dim>
 }
 
 /// The same of rock that moves, where the contacts are now.
-template <int Dim, class JointLaw, class InterfaceLaw>
-[[nodiscard]] std::vector<JointState<Dim>> joint_states(
-    const Dynamics<Dim, JointLaw, InterfaceLaw>& run) {
+template <int Dim, class... Parts>
+[[nodiscard]] std::vector<JointState<Dim>> joint_states(const Dynamics<Dim, Parts...>& run) {
   std::vector<JointState<Dim>> states;
   const auto& joints = run.joints();
   states.reserve(joints.contacts().size());
@@ -163,10 +162,10 @@ void add_support(TunnelState<Geometry>& state, const Run& run,
 /// A tunnel whose blocks move.
 /// @param mass      from which the run was made: its body b is body b of the run
 /// @param supports  what `add_bolts` and `add_lining` gave, if anything
-template <class JointLaw, class InterfaceLaw, class Geometry, class... Supports>
-[[nodiscard]] TunnelState<Geometry> state_of(
-    const Dynamics<Geometry::dim, JointLaw, InterfaceLaw>& run, const RockMass<Geometry>& mass,
-    const Supports&... supports) {
+template <class Geometry, class... Parts, class... Supports>
+[[nodiscard]] TunnelState<Geometry> state_of(const Dynamics<Geometry::dim, Parts...>& run,
+                                             const RockMass<Geometry>& mass,
+                                             const Supports&... supports) {
   TunnelState<Geometry> state;
   for (std::size_t k = 0; k < mass.bodies.size(); ++k) {
     const int b = static_cast<int>(k);

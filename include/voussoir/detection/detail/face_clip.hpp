@@ -162,6 +162,9 @@ class FaceClip {
   void grow(std::size_t sides, std::size_t size) {
     side_count_ = sides;
     if (outline_.size() < sides) outline_.resize(sides);
+    make_room(size);
+  }
+  void make_room(std::size_t size) {
     if (points_.size() >= size) return;
     points_.resize(size);
     spare_.resize(size);
@@ -172,7 +175,9 @@ class FaceClip {
   template <class Side>
   void keep(Side&& side) {
     const std::size_t count = count_;
-    VOUSSOIR_ASSERT(count < spare_.size(), "there is room for a corner more");
+    // A line cuts a convex polygon twice, but roundings may have several corners on the line lie on
+    // either side by turns.
+    make_room(2 * count);
     const Point* const from = points_.data();
     double* const sides = sides_.data();
     double lowest = 0;
@@ -197,7 +202,7 @@ class FaceClip {
       there = here;
     }
     count_ = static_cast<std::size_t>(to - spare_.data());
-    VOUSSOIR_ASSERT(count_ <= count + 1, "a line cuts a convex polygon twice at most");
+    VOUSSOIR_ASSERT(count_ <= spare_.size(), "there is room for every corner");
     points_.swap(spare_);
   }
 

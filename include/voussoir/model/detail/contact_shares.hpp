@@ -32,10 +32,9 @@ namespace voussoir::detail {
 /// What pairs of shapes have of the contacts between bodies of several parts: two bodies make one
 /// contact on the faces of one cut, as in the rock that has not moved (`visit_joined`). An edge of
 /// a part that lies in the plane of such faces is no edge of the body, and makes none.
-template <int Dim>
+template <int Dim, class Tracker>
 class ContactShares {
  public:
-  using Tracker = ContactTracker<Dim>;
   using Pair = typename Tracker::Pair;
 
   /// @param tracker  that finds the pairs; it outlives this
@@ -161,9 +160,8 @@ class ContactShares {
 /// The label of the faces that touch if they are of one cut, else -1.
 /// @param is_block  is_block(body): else it is the edge of the domain
 /// @param cut_of    cut_of(shape, outward): label of the face that looks there
-template <int Dim, class IsBlock, class CutOf>
-[[nodiscard]] int common_cut(const ContactTracker<Dim>& tracker,
-                             const typename ContactTracker<Dim>::Pair& pair,
+template <int Dim, class Tracker, class IsBlock, class CutOf>
+[[nodiscard]] int common_cut(const Tracker& tracker, const typename Tracker::Pair& pair,
                              const Contact<Dim>& found, IsBlock&& is_block, CutOf&& cut_of) {
   // Both sides of a cut have its label; the edge of the domain has that of the block at it. What
   // else is within reach are faces that lie one behind the other.

@@ -44,11 +44,11 @@ struct LawlessContacts {
 /// reach: without a spring the elastic equations of the rock that is left have no solution.
 ///
 /// It is the same for all contact laws, and compiled once.
-template <int Dim>
+template <int Dim, class Detector>
 class ContactUpdate {
  public:
   using Contacts = LawlessContacts<Dim>;
-  using Tracker = ContactTracker<Dim>;
+  using Tracker = ContactTracker<Dim, Detector>;
   using Shape = typename Tracker::Shape;
 
   /// @param reach         contacts may be so far open [m]
@@ -118,7 +118,7 @@ class ContactUpdate {
     return cut_facing(*parts_[shape], Vec<Dim>(transposed(turn) * outward));
   }
   [[nodiscard]] int cut_of(const Pair& pair, const voussoir::Contact<Dim>& found) const {
-    return common_cut(
+    return common_cut<Dim>(
         tracker_, pair, found, [this](int b) { return bool(is_block_[index(b)]); },
         [this](std::size_t shape, const Vec<Dim>& outward) { return cut_of(shape, outward); });
   }
@@ -143,17 +143,17 @@ class ContactUpdate {
   std::vector<const Shape*> parts_;  ///< in the order of the tracker's shapes
 };
 
-template <int Dim>
-void ContactUpdate<Dim>::add_part(int body, const Shape& part, const Vec<Dim>& centre) {
+template <int Dim, class Detector>
+void ContactUpdate<Dim, Detector>::add_part(int body, const Shape& part, const Vec<Dim>& centre) {
   double& radius = bodies_[index(body)].radius;
   for (const Vec<Dim>& v : part.vertices()) radius = std::max(radius, (v - centre).norm());
   tracker_.add(part, centre, body, diagonal_of<Dim>(1), body);
   parts_.push_back(&part);
 }
 
-template <int Dim>
-void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& interface,
-                             const Progress& progress) {
+template <int Dim, class Detector>
+void ContactUpdate<Dim, Detector>::run(Contacts& joints, Contacts& boundary, Contacts& interface,
+                                       const Progress& progress) {
   struct Seen {
     Pair pair;
     voussoir::Contact<Dim> found;
@@ -178,7 +178,7 @@ void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& int
     group->points.clear();
     group->former.clear();
   }
-  ContactShares<Dim> shares_of_joints(tracker_), shares_of_boundary(tracker_);
+  ContactShares<Dim, Tracker> shares_of_joints(tracker_), shares_of_boundary(tracker_);
   tracker_.update(
       bodies_,
       [&](Pair& pair, const voussoir::Contact<Dim>& found) {
@@ -216,9 +216,9 @@ void ContactUpdate<Dim>::run(Contacts& joints, Contacts& boundary, Contacts& int
   for (const Contact& c : of_interface.contacts()) add(c, of_interface.points_of(c), interface);
 }
 
-template <int Dim>
-bool ContactUpdate<Dim>::find_loose(const Contacts& joints, const Contacts& boundary,
-                                    std::vector<char>& is_loose) const {
+template <int Dim, class Detector>
+bool ContactUpdate<Dim, Detector>::find_loose(const Contacts& joints, const Contacts& boundary,
+                                              std::vector<char>& is_loose) const {
   std::vector<int> group(bodies_.size());
   for (std::size_t b = 0; b < group.size(); ++b) group[b] = static_cast<int>(b);
   const auto root = [&](int b) {
@@ -239,10 +239,11 @@ bool ContactUpdate<Dim>::find_loose(const Contacts& joints, const Contacts& boun
   return any;
 }
 
-template <int Dim>
-void ContactUpdate<Dim>::renew(const Former& former, const Pair& pair,
-                               const voussoir::Contact<Dim>& found, const ContactArea<Dim>* joined,
-                               double reach, Contacts& to) const {
+template <int Dim, class Detector>
+void ContactUpdate<Dim, Detector>::renew(const Former& former, const Pair& pair,
+                                         const voussoir::Contact<Dim>& found,
+                                         const ContactArea<Dim>* joined, double reach,
+                                         Contacts& to) const {
   const Vec<Dim>& from = tracker_.shapes().grid_point(pair.a);
   const bool of_a = found.touch != Touch::face_b;
   const std::size_t owner = of_a ? pair.a : pair.b;
@@ -267,16 +268,16 @@ void ContactUpdate<Dim>::renew(const Former& former, const Pair& pair,
   if (!points.empty()) add(contact, points, to);
 }
 
-template <int Dim>
-int ContactUpdate<Dim>::law_of(std::size_t owner, const Vec<Dim>& normal) const {
+template <int Dim, class Detector>
+int ContactUpdate<Dim, Detector>::law_of(std::size_t owner, const Vec<Dim>& normal) const {
   if (law_of_cut_ == nullptr) return 0;
   const int cut = cut_of(owner, normal);
   return cut >= 0 && index(cut) < law_of_cut_->size() ? (*law_of_cut_)[index(cut)] : 0;
 }
 
 #ifdef VOUSSOIR_COMPILED
-VOUSSOIR_PLANAR_TEMPLATE class ContactUpdate<2>;
-VOUSSOIR_SPATIAL_TEMPLATE class ContactUpdate<3>;
+VOUSSOIR_PLANAR_TEMPLATE class ContactUpdate<2, FaceContacts>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactUpdate<3, FaceContacts>;
 #endif
 
 }  // namespace voussoir::detail

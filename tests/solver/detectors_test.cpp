@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// One tunnel by every contact detector: whichever updates the contacts, at rest and in motion, the
+// rock comes to the same place.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+#include <voussoir/detection/analytic_centre.hpp>
+#include <voussoir/detection/face_contacts.hpp>
+#include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/opening.hpp>
+
+#include "support/jointed_mass.hpp"
+#include "support/jointed_rock.hpp"
+
+namespace detectors_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+
+namespace {
+
+const InSitu in_situ{.density = 2700, .k0 = 0.8, .surcharge = 3e5};
+const CoulombJoint joint({2e9, 5e8, 55 * degree});
+/// Blocks move by a millimetre or more: contacts are updated four times at least.
+const Acceptance often{.error_estimate = 1e-5, .refind_limit = 1e-4};
+
+template <class Geometry>
+[[nodiscard]] RockMass<Geometry> rock() {
+  if constexpr (Geometry::dim == 2)
+    return voussoir_test::jointed_rock(domain_around(circular_opening(4, 24), 14, 5, 5), 3,
+                                       {0.25, 5});
+  else
+    return voussoir_test::jointed_mass({{-5, 0, -5}, {5, 3, 6}}, 1, 1.9,
+                                       {.min_inscribed_radius = 0.25});
+}
+template <class Geometry>
+[[nodiscard]] typename Geometry::Opening opening() {
+  if constexpr (Geometry::dim == 2)
+    return circular_opening(4, 24);
+  else
+    return PrismaticOpening(circular_opening(4, 24));
+}
+
+template <class Geometry, class Detector>
+[[nodiscard]] Eigen::VectorXd at_rest(int& updates) {
+  Solver<Geometry, Detector> tunnel(rock<Geometry>(), joint, in_situ);
+  tunnel.excavate(opening<Geometry>(), 0.02);
+  const EquilibriumReport report = tunnel.equilibrium(0, {}, often);
+  CAPTURE(report.reason);
+  CHECK(report.verdict == Verdict::stable);
+  updates = report.contact_updates.count;
+  return tunnel.system().displacement;
+}
+template <class Geometry, class Detector>
+[[nodiscard]] Eigen::VectorXd in_motion() {
+  Solver<Geometry, Detector> tunnel(rock<Geometry>(), joint, in_situ);
+  tunnel.excavate(opening<Geometry>(), 0.02);
+  auto run =
+      set_in_motion(tunnel, {.local_damping = 0.8, .points = ContactPoints::gauss, .reach = 1e-3});
+  for (int k = 1; k <= 4; ++k) {
+    run.set_held(1 - k / 4.0);
+    run.advance_steps(400);
+  }
+  tunnel.take_back(run);
+  return tunnel.system().displacement;
+}
+
+/// The largest difference of translations over the largest translation.
+template <class Geometry>
+[[nodiscard]] double apart(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  double most = 0, largest = 0;
+  for (Eigen::Index b = 0; b + Geometry::dof <= x.size(); b += Geometry::dof) {
+    most = std::max(most, (part<Geometry::dim>(x, b) - part<Geometry::dim>(y, b)).norm());
+    largest = std::max(largest, part<Geometry::dim>(x, b).norm());
+  }
+  REQUIRE(largest > 5e-4);
+  return most / largest;
+}
+
+}  // namespace
+
+TEST_SUITE("solver/detectors") {
+  TEST_CASE_TEMPLATE("AnalyticCentre carries a whole run, and goes where FaceContacts goes",
+                     Geometry, Planar, Spatial) {
+    int by_faces = 0, by_centres = 0;
+    const Eigen::VectorXd faces = at_rest<Geometry, FaceContacts>(by_faces),
+                          centres = at_rest<Geometry, AnalyticCentre>(by_centres);
+    CHECK(by_faces >= 3);
+    CHECK(by_centres >= 3);
+    // Both name the same faces of nearly all pairs; where corners meet they may not, and these
+    // carry next to nothing.
+    CHECK(apart<Geometry>(faces, centres) < 0.02);
+    CHECK(apart<Geometry>(in_motion<Geometry, FaceContacts>(),
+                          in_motion<Geometry, AnalyticCentre>()) < 0.02);
+  }
+
+  TEST_CASE("by default contacts come from the cuts, and FaceContacts updates them") {
+    int by_faces = 0, by_default = 0;
+    const Eigen::VectorXd faces = at_rest<Planar, FaceContacts>(by_faces),
+                          cuts = at_rest<Planar, CutContacts>(by_default);
+    CHECK(by_faces == by_default);
+    CHECK(apart<Planar>(faces, cuts) < 1e-4);  // ten times the error estimate
+  }
+}
+
+}  // namespace detectors_test
