@@ -31,7 +31,7 @@ namespace voussoir {
 VOUSSOIR_INLINE ConvexPolyhedron slab_behind(const SpatialFacet& facet, double thickness) {
   const Vec3 in = -thickness * normalized(facet.area_vector());
   const int count = static_cast<int>(facet.vertices.size());
-  VOUSSOIR_ASSERT(count >= 3 && thickness > 0, "a slab has an area and a thickness");
+  VOUSSOIR_ASSERT(thickness > 0, "a slab has a thickness");
   std::vector<Vec3> vertices = facet.vertices;
   for (const Vec3& v : facet.vertices) vertices.emplace_back(v + in);
   std::vector<std::vector<int>> faces(2);

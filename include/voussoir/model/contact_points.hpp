@@ -139,6 +139,8 @@ VOUSSOIR_INLINE void place_points(ContactPoints rule, std::span<const Vec3> poly
     points[next].weight += triangle / 12;
     points.push_back({(centre + polygon[k] + polygon[next]) / 3, 0.75 * triangle});
   }
+  // Of two corners in one place: a point that stands for nothing has no stress.
+  std::erase_if(points, [](const WeightedPoint<3>& p) { return !(p.weight > 0); });
 }
 
 #endif

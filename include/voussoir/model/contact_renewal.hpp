@@ -43,12 +43,12 @@ void match_shear(const Vec<Dim - 1>& wanted, Points& points, ShearNow&& shear_no
 /// Makes the springs of a contact from what the detector has found, with the history of the contact
 /// as it was before.
 ///
-/// Where an old point was within its share of the area the new one carries it on; elsewhere the
-/// contact is new. Carried over, point by point from the nearest old one: the slip, the memory of
-/// the law and the in-situ stress. The stress changes from there by the gradient that it has over
-/// the old points, so that its force and moment are kept, however many the points are, as long as
-/// their area is. Where the normal has turned by more than 60 degrees since, it is another contact
-/// and begins without history.
+/// Where an old point was within its share of the area, or an ellipse that has the moments of the
+/// old area reaches, the new point carries on; elsewhere the contact is new. Carried over, point by
+/// point from the nearest old one: the slip, the memory of the law and the in-situ stress. The
+/// stress changes from there by the gradient that it has over the old points, so that its force and
+/// moment are kept, however many the points are, as long as their area is. Where the normal has
+/// turned by more than 60 degrees since, it is another contact and begins without history.
 ///
 /// The weights of its points are their shares of the whole of the faces that lie over one another,
 /// whatever the depth. Points that are open by more than the reach are left out, unless they carry
@@ -196,8 +196,10 @@ class ContactRenewal {
     }
   }
 
-  /// Whether a point stands where an old one did: seen along the normal, as near to it as its share
-  /// of the area is long.
+  /// Whether a point stands where the old contact was: seen along the normal, as near to one of its
+  /// points as the share of the area is long; or, in a slender area in 3-D, inside the ellipse of
+  /// the same moments that goes through the corners if the area is a triangle, and around them if
+  /// it is a parallelogram.
   [[nodiscard]] bool carries_on(const Contact& old, const Vec<Dim>& place,
                                 const Vec<Dim>& normal) const {
     for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
@@ -207,7 +209,8 @@ class ContactRenewal {
       const double weight = old_points_[i].weight;
       if (way.squaredNorm() <= (Dim == 2 ? weight * weight : weight)) return true;
     }
-    return false;
+    const InPlane arm = part<Dim - 1>(transposed_product(frame_, place), 1) - middle_;
+    return arm.dot(inverse_spread_ * arm) > 0 && arm.dot(inverse_spread_ * arm) <= 8 * (1 + 1e-6);
   }
 
   void place_joined(const ContactArea<Dim>& joined, ContactPoints rule, double measure) {
@@ -251,6 +254,8 @@ class ContactRenewal {
   /// points by their weights. None along a direction in which they do not spread.
   void find_gradient(const Contact& old, const Rotation<Dim>& frame) {
     gradient_ = zeros<Fixed<Dim, Dim - 1>>();
+    inverse_spread_ = zeros<Fixed<Dim - 1, Dim - 1>>();
+    frame_ = frame;
     const auto first = static_cast<std::size_t>(old.first),
                last = static_cast<std::size_t>(old.last);
     const auto in_plane = [&](const Point& p) {
@@ -269,6 +274,7 @@ class ContactRenewal {
     if (!(weight > 0)) return;
     stress /= weight;
     middle /= weight;
+    middle_ = middle;
     Fixed<Dim, Dim - 1> mixed = zeros<Fixed<Dim, Dim - 1>>();
     Fixed<Dim - 1, Dim - 1> spread = zeros<Fixed<Dim - 1, Dim - 1>>();
     for (auto i = first; i < last; ++i) {
@@ -289,6 +295,8 @@ class ContactRenewal {
       inverse(0, 1) = -spread(0, 1) / determinant;
       inverse(1, 0) = -spread(1, 0) / determinant;
       gradient_ = mixed * inverse;
+      inverse_spread_ = weight * inverse;
+      squared_extent_ = std::max(weight, 8 * trace / weight);
     }
   }
 
@@ -325,6 +333,10 @@ class ContactRenewal {
   Vec<Dim> from_ = zeros<Vec<Dim>>();
   Fixed<Dim, Dim - 1> gradient_ = zeros<Fixed<Dim, Dim - 1>>();  ///< of the initial stress [Pa/m]
   double squared_extent_ = 0;                                    ///< of the old contact [m^2]
+  Rotation<Dim> frame_ = diagonal_of<Dim>(1);                    ///< of the contact
+  InPlane middle_ = zeros<InPlane>();                            ///< of the old points, there [m]
+  /// Of the area's second moments over the area [1/m^2]; zero where they are not known: in 2-D.
+  Fixed<Dim - 1, Dim - 1> inverse_spread_ = zeros<Fixed<Dim - 1, Dim - 1>>();
   bool keeps_history_ = false, new_at_rest_ = false;
 };
 
