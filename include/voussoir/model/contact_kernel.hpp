@@ -52,6 +52,35 @@ class ContactKernel {
     return at;
   }
 
+  /// Of body b against body a, along normal and tangent, and its turn.
+  struct PlaneMotion {
+    double normal, tangential, turn;
+  };
+  struct PlaneSums {
+    double normal = 0, tangential = 0, moment = 0;
+  };
+  void add_point(const Law& law, std::size_t k, const PlaneMotion& motion, PlaneSums& sums) const
+      requires(Dim == 2) {
+    const double along = records_[k].along[0];
+    PointLoad<2> load;
+    load.motion.opening = motion.normal - motion.turn * along;
+    load.motion.slip.data()[0] = motion.tangential;
+    double height = 0;
+    if constexpr (Shifted) {
+      const double* start = shifts_[k].start.data();
+      height = shifts_[k].height;
+      load.motion.opening = start[0] + motion.normal - motion.turn * along;
+      load.motion.slip.data()[0] = start[1] + motion.tangential + motion.turn * height;
+    }
+    const PointForce<2> at = react(law, k, load);
+    sums.normal += at.normal;
+    sums.tangential += at.tangential.data()[0];
+    if constexpr (Shifted)
+      sums.moment += height * at.tangential.data()[0] - along * at.normal;
+    else
+      sums.moment -= along * at.normal;
+  }
+
   /// In 2-D, number by number and in the axes of the contact: half the time, for g++ 12 carries
   /// Eigen's two-vectors through memory when they are put together from parts.
   void add_in_plane(const Contact& c, const Law& law, const double* u, double* f) const
@@ -61,28 +90,16 @@ class ContactKernel {
     const double jx = ub[0] - ub[2] * c.arm_b.y() - ua[0] + ua[2] * c.arm_a.y();
     const double jy = ub[1] + ub[2] * c.arm_b.x() - ua[1] - ua[2] * c.arm_a.x();
     const double jump_n = nx * jx + ny * jy, jump_t = nx * jy - ny * jx, turn = ub[2] - ua[2];
-    double force_n = 0, force_t = 0, moment = 0;
-    const auto end = static_cast<std::size_t>(c.last());
-    for (auto k = static_cast<std::size_t>(c.first); k < end; ++k) {
-      const double along = records_[k].along[0];
-      PointLoad<2> load;
-      load.motion.opening = jump_n - turn * along;
-      load.motion.slip[0] = jump_t;
-      double height = 0;
-      if constexpr (Shifted) {
-        const double* start = shifts_[k].start.data();
-        height = shifts_[k].height;
-        load.motion.opening = start[0] + jump_n - turn * along;
-        load.motion.slip[0] = start[1] + jump_t + turn * height;
-      }
-      const PointForce<2> at = react(law, k, load);
-      force_n += at.normal;
-      force_t += at.tangential[0];
-      if constexpr (Shifted)
-        moment += height * at.tangential[0] - along * at.normal;
-      else
-        moment -= along * at.normal;
+    PlaneSums sums;
+    const PlaneMotion motion{jump_n, jump_t, turn};
+    const auto first = static_cast<std::size_t>(c.first);
+    if (c.count == 2) {
+      add_point(law, first, motion, sums);
+      add_point(law, first + 1, motion, sums);
+    } else {
+      for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
     }
+    const double force_n = sums.normal, force_t = sums.tangential, moment = sums.moment;
     const double x = nx * force_n - ny * force_t, y = ny * force_n + nx * force_t;
     double *fa = f + dof * c.a, *fb = f + dof * c.b;
     fb[0] += x;
