@@ -26,6 +26,7 @@ class ContactKernel {
   using State = typename Law::template State<Dim>;
   using Arrays = ContactArrays<Dim, State>;
   using Contact = ReferenceContact<Dim>;
+  static constexpr bool has_pairs = std::is_same_v<History, Frozen> && HasPairForce<Law, Dim>;
   static constexpr int dof = Contact::dof;
 
   explicit ContactKernel(Arrays& arrays)
@@ -81,33 +82,62 @@ class ContactKernel {
       sums.moment -= along * at.normal;
   }
 
-  /// In 2-D, number by number and in the axes of the contact: half the time, for g++ 12 carries
-  /// Eigen's two-vectors through memory when they are put together from parts.
+  /// Both points of a contact that has two.
+  [[nodiscard]] PlaneSums pair_of_points(const Law& law, std::size_t k,
+                                         const PlaneMotion& motion) const
+      requires(Dim == 2 && has_pairs) {
+    const PointRecord<2>&p = records_[k], &q = records_[k + 1];
+    const Lanes along(p.along[0], q.along[0]);
+    PairLoad<2> load;
+    load.weight = Lanes(p.weight, q.weight);
+    load.initial_normal = Lanes(p.initial_normal, q.initial_normal);
+    load.initial_tangential[0] = Lanes(p.initial_tangential[0], q.initial_tangential[0]);
+    load.opening = Lanes(motion.normal);
+    load.slip[0] = Lanes(motion.tangential);
+    [[maybe_unused]] Lanes height(0.0);
+    if constexpr (Shifted) {
+      const PointShift<2>&of_p = shifts_[k], &of_q = shifts_[k + 1];
+      height = Lanes(of_p.height, of_q.height);
+      load.opening = Lanes(of_p.start.data()[0], of_q.start.data()[0]) + load.opening;
+      load.slip[0] =
+          Lanes(of_p.start.data()[1], of_q.start.data()[1]) + load.slip[0] + motion.turn * height;
+    }
+    load.opening = load.opening - motion.turn * along;
+    const PairForce<2> at = law.pair_force(load, states_ + k);
+    Lanes moment = -(along * at.normal);
+    if constexpr (Shifted) moment = height * at.tangential[0] + moment;
+    return {at.normal.sum(), at.tangential[0].sum(), moment.sum()};
+  }
+
+  /// In 2-D, in the axes of the contact, two numbers at a time. Half the time: g++ 12 carries
+  /// Eigen's two-vectors through memory when they are put together from parts, and makes pairs of
+  /// plain numbers where these cost more than they save.
   void add_in_plane(const Contact& c, const Law& law, const double* u, double* f) const
       requires(Dim == 2) {
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
-    const double nx = c.normal.x(), ny = c.normal.y();  // tangent (-ny, nx)
-    const double jx = ub[0] - ub[2] * c.arm_b.y() - ua[0] + ua[2] * c.arm_a.y();
-    const double jy = ub[1] + ub[2] * c.arm_b.x() - ua[1] - ua[2] * c.arm_a.x();
-    const double jump_n = nx * jx + ny * jy, jump_t = nx * jy - ny * jx, turn = ub[2] - ua[2];
+    const Lanes n(c.normal.x(), c.normal.y()), t(-c.normal.y(), c.normal.x());
+    const Lanes turned_a(-c.arm_a.y(), c.arm_a.x()), turned_b(-c.arm_b.y(), c.arm_b.x());
+    const Lanes jump = Lanes::load(ub) + ub[2] * turned_b - Lanes::load(ua) - ua[2] * turned_a;
+    const double jump_n = (n * jump).sum(), jump_t = (t * jump).sum(), turn = ub[2] - ua[2];
     PlaneSums sums;
     const PlaneMotion motion{jump_n, jump_t, turn};
     const auto first = static_cast<std::size_t>(c.first);
-    if (c.count == 2) {
-      add_point(law, first, motion, sums);
-      add_point(law, first + 1, motion, sums);
+    if (c.count == 2) {  // nearly all: without a loop, for which a compiler prepares at length
+      if constexpr (has_pairs) {
+        sums = pair_of_points(law, first, motion);
+      } else {
+        add_point(law, first, motion, sums);
+        add_point(law, first + 1, motion, sums);
+      }
     } else {
       for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
     }
-    const double force_n = sums.normal, force_t = sums.tangential, moment = sums.moment;
-    const double x = nx * force_n - ny * force_t, y = ny * force_n + nx * force_t;
+    const Lanes force = n * sums.normal + t * sums.tangential;
     double *fa = f + dof * c.a, *fb = f + dof * c.b;
-    fb[0] += x;
-    fb[1] += y;
-    fb[2] += moment + c.arm_b.x() * y - c.arm_b.y() * x;
-    fa[0] -= x;
-    fa[1] -= y;
-    fa[2] -= moment + c.arm_a.x() * y - c.arm_a.y() * x;
+    (Lanes::load(fb) + force).store(fb);
+    fb[2] += sums.moment + c.arm_b.x() * force[1] - c.arm_b.y() * force[0];
+    (Lanes::load(fa) - force).store(fa);
+    fa[2] -= sums.moment + c.arm_a.x() * force[1] - c.arm_a.y() * force[0];
   }
 
   /// Sums of the points of a contact in its axes: normal, first and second tangent.
