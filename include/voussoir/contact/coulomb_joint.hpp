@@ -7,6 +7,8 @@
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/lane_pair.hpp>
+#include <voussoir/core/vec.hpp>
 
 namespace voussoir {
 
@@ -64,20 +66,16 @@ class CoulombJoint {
     return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
   }
 
-  /// The same of two points.
-  template <int Dim>
-  [[nodiscard]] PairForce<Dim> pair_force(const PairLoad<Dim>& load, const State<Dim>* two) const {
-    PairForce<Dim> force;
-    force.normal = larger(Lanes(0.0), load.initial_normal - params_.joint_normal_stiffness *
-                                                                load.weight * load.opening);
-    const Lanes limit = friction_coefficient_ * force.normal;
-    const Lanes spring = params_.joint_shear_stiffness * load.weight;
-    for (int m = 0; m < Dim - 1; ++m) {
-      const Lanes plastic(two[0].plastic_slip.data()[m], two[1].plastic_slip.data()[m]);
-      force.tangential[m] = load.initial_tangential[m] - spring * (load.slip[m] - plastic);
-    }
-    shorten(force.tangential, limit);
-    return force;
+  /// The same of two points, in lanes.
+  [[nodiscard]] PairForce pair_force(const PairLoad& load, const State<2>* two) const {
+    const LanePair normal =
+        larger(LanePair(0.0),
+               load.initial_normal - params_.joint_normal_stiffness * load.weight * load.opening);
+    const LanePair plastic_slip(two[0].plastic_slip.data()[0], two[1].plastic_slip.data()[0]);
+    const LanePair elastic = load.initial_shear - params_.joint_shear_stiffness * load.weight *
+                                                      (load.slip - plastic_slip);
+    const LanePair limit = friction_coefficient_ * normal;
+    return {normal, smaller(larger(elastic, -limit), limit)};
   }
 
   /// @return  the friction work T . dq [J], T the mean of now and the last commit
@@ -114,17 +112,6 @@ class CoulombJoint {
            params_.joint_shear_stiffness * load.weight * (load.motion.slip - state.plastic_slip);
   }
 
-  static void shorten(Lanes (&shear)[1], Lanes limit) {
-    shear[0] = smaller(larger(shear[0], -limit), limit);
-  }
-  static void shorten(Lanes (&shear)[2], Lanes limit) {
-    const Lanes length = root_of(shear[0] * shear[0] + shear[1] * shear[1]);
-    for (int k = 0; k < 2; ++k) {
-      if (!(length[k] > limit[k])) continue;  // seldom: hence not in lanes
-      const double factor = limit[k] / length[k];
-      for (Lanes& s : shear) s = k == 0 ? Lanes(s[0] * factor, s[1]) : Lanes(s[0], s[1] * factor);
-    }
-  }
   [[nodiscard]] static Vec<1> shortened(const Vec<1>& shear, double limit) {
     return Vec<1>(std::clamp(shear[0], -limit, limit));
   }
@@ -137,6 +124,7 @@ class CoulombJoint {
   double friction_coefficient_;
 };
 
-static_assert(ContactLaw<CoulombJoint, 2> && ContactLaw<CoulombJoint, 3>);
+static_assert(ContactLaw<CoulombJoint, 2> && ContactLaw<CoulombJoint, 3> &&
+              HasPairForce<CoulombJoint>);
 
 }  // namespace voussoir

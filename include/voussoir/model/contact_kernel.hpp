@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/contact_arrays.hpp>
 #include <voussoir/model/reference_contact.hpp>
@@ -26,7 +27,8 @@ class ContactKernel {
   using State = typename Law::template State<Dim>;
   using Arrays = ContactArrays<Dim, State>;
   using Contact = ReferenceContact<Dim>;
-  static constexpr bool has_pairs = std::is_same_v<History, Frozen> && HasPairForce<Law, Dim>;
+  static constexpr bool has_pairs =
+      std::is_same_v<History, Frozen> && Dim == 2 && HasPairForce<Law>;
   static constexpr int dof = Contact::dof;
 
   explicit ContactKernel(Arrays& arrays)
@@ -87,26 +89,26 @@ class ContactKernel {
                                          const PlaneMotion& motion) const
       requires(Dim == 2 && has_pairs) {
     const PointRecord<2>&p = records_[k], &q = records_[k + 1];
-    const Lanes along(p.along[0], q.along[0]);
-    PairLoad<2> load;
-    load.weight = Lanes(p.weight, q.weight);
-    load.initial_normal = Lanes(p.initial_normal, q.initial_normal);
-    load.initial_tangential[0] = Lanes(p.initial_tangential[0], q.initial_tangential[0]);
-    load.opening = Lanes(motion.normal);
-    load.slip[0] = Lanes(motion.tangential);
-    [[maybe_unused]] Lanes height(0.0);
+    const LanePair along(p.along[0], q.along[0]);
+    PairLoad load;
+    load.weight = LanePair(p.weight, q.weight);
+    load.initial_normal = LanePair(p.initial_normal, q.initial_normal);
+    load.initial_shear = LanePair(p.initial_tangential[0], q.initial_tangential[0]);
+    load.opening = LanePair(motion.normal);
+    load.slip = LanePair(motion.tangential);
+    [[maybe_unused]] LanePair height(0.0);
     if constexpr (Shifted) {
       const PointShift<2>&of_p = shifts_[k], &of_q = shifts_[k + 1];
-      height = Lanes(of_p.height, of_q.height);
-      load.opening = Lanes(of_p.start.data()[0], of_q.start.data()[0]) + load.opening;
-      load.slip[0] =
-          Lanes(of_p.start.data()[1], of_q.start.data()[1]) + load.slip[0] + motion.turn * height;
+      height = LanePair(of_p.height, of_q.height);
+      load.opening = LanePair(of_p.start.data()[0], of_q.start.data()[0]) + load.opening;
+      load.slip =
+          LanePair(of_p.start.data()[1], of_q.start.data()[1]) + load.slip + motion.turn * height;
     }
     load.opening = load.opening - motion.turn * along;
-    const PairForce<2> at = law.pair_force(load, states_ + k);
-    Lanes moment = -(along * at.normal);
-    if constexpr (Shifted) moment = height * at.tangential[0] + moment;
-    return {at.normal.sum(), at.tangential[0].sum(), moment.sum()};
+    const PairForce at = law.pair_force(load, states_ + k);
+    LanePair moment = -(along * at.normal);
+    if constexpr (Shifted) moment = height * at.shear + moment;
+    return {at.normal.sum(), at.shear.sum(), moment.sum()};
   }
 
   /// In 2-D, in the axes of the contact, two numbers at a time. Half the time: g++ 12 carries
@@ -115,9 +117,10 @@ class ContactKernel {
   void add_in_plane(const Contact& c, const Law& law, const double* u, double* f) const
       requires(Dim == 2) {
     const double *ua = u + dof * c.a, *ub = u + dof * c.b;
-    const Lanes n(c.normal.x(), c.normal.y()), t(-c.normal.y(), c.normal.x());
-    const Lanes turned_a(-c.arm_a.y(), c.arm_a.x()), turned_b(-c.arm_b.y(), c.arm_b.x());
-    const Lanes jump = Lanes::load(ub) + ub[2] * turned_b - Lanes::load(ua) - ua[2] * turned_a;
+    const LanePair n(c.normal.x(), c.normal.y()), t(-c.normal.y(), c.normal.x());
+    const LanePair turned_a(-c.arm_a.y(), c.arm_a.x()), turned_b(-c.arm_b.y(), c.arm_b.x());
+    const LanePair jump =
+        LanePair::load(ub) + ub[2] * turned_b - LanePair::load(ua) - ua[2] * turned_a;
     const double jump_n = (n * jump).sum(), jump_t = (t * jump).sum(), turn = ub[2] - ua[2];
     PlaneSums sums;
     const PlaneMotion motion{jump_n, jump_t, turn};
@@ -132,11 +135,11 @@ class ContactKernel {
     } else {
       for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
     }
-    const Lanes force = n * sums.normal + t * sums.tangential;
+    const LanePair force = n * sums.normal + t * sums.tangential;
     double *fa = f + dof * c.a, *fb = f + dof * c.b;
-    (Lanes::load(fb) + force).store(fb);
+    (LanePair::load(fb) + force).store(fb);
     fb[2] += sums.moment + c.arm_b.x() * force[1] - c.arm_b.y() * force[0];
-    (Lanes::load(fa) - force).store(fa);
+    (LanePair::load(fa) - force).store(fa);
     fa[2] -= sums.moment + c.arm_a.x() * force[1] - c.arm_a.y() * force[0];
   }
 
