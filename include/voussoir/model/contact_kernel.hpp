@@ -125,16 +125,13 @@ class ContactKernel {
     PlaneSums sums;
     const PlaneMotion motion{jump_n, jump_t, turn};
     const auto first = static_cast<std::size_t>(c.first);
-    if (c.count == 2) {  // nearly all: without a loop, for which a compiler prepares at length
-      if constexpr (has_pairs) {
-        sums = pair_of_points(law, first, motion);
-      } else {
-        add_point(law, first, motion, sums);
-        add_point(law, first + 1, motion, sums);
-      }
-    } else {
-      for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
+    bool is_done = false;
+    if constexpr (has_pairs) {
+      is_done = c.count == 2;  // as nearly all have
+      if (is_done) sums = pair_of_points(law, first, motion);
     }
+    if (!is_done)
+      for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
     const LanePair force = n * sums.normal + t * sums.tangential;
     double *fa = f + dof * c.a, *fb = f + dof * c.b;
     (LanePair::load(fb) + force).store(fb);

@@ -119,7 +119,7 @@ static_assert(sizeof(ReferenceContact<2>) == 64 && sizeof(ReferenceContact<3>) =
 ///
 /// Neighbours in the rock have numbers near each other, so forces go through the memory of bodies
 /// from front to back: in 2-D 40 instead of 140 ns a contact for a million blocks and 46 instead of
-/// 62 for 105 000, which is what it takes to read the 256 bytes of each.
+/// 62 for 105 000, when each had 256 bytes.
 /// @param bodies_of  bodies_of(contact) are the two bodies, either first
 /// @return  indices into `contacts`
 template <class Contacts, class BodiesOf>
