@@ -115,7 +115,7 @@ InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle, 
     group.visit(system.displacement.data(), [&](const auto& c, const auto& point, const auto&,
                                                 const auto& force) {
       // On b: along the normal from a to b, and along the tangent.
-      const Vec2 on_b = force.normal * c.normal + c.tangents * force.tangential;
+      const Vec2 on_b = force.normal * c.normal + c.tangents() * force.tangential;
       const Vec2 offset = c.offset_of(point);
       for (const auto& [body, arm, f] : {std::tuple(c.a, Vec2(c.arm_a + offset), Vec2(-on_b)),
                                          {c.b, Vec2(c.arm_b + offset), on_b}})

@@ -42,7 +42,7 @@ OpenPoints open_points(const Group& now, const Eigen::VectorXd& u, const Group& 
   constexpr int dim = Group::dim;
   OpenPoints open;
   for (const auto& c : now.contacts())
-    for (int k = c.first; k < c.last; ++k) {
+    for (int k = c.first; k < c.last(); ++k) {
       const auto& p = now.points()[static_cast<std::size_t>(k)];
       if (c.motion(p, c.offset_of(p), u.data()).opening <= reach) continue;
       ++open.all;
@@ -52,7 +52,7 @@ OpenPoints open_points(const Group& now, const Eigen::VectorXd& u, const Group& 
         const bool same = old.a == c.a;
         if ((same ? 1 : -1) * old.normal.dot(c.normal) < 0.5) continue;
         const Vec<dim> arm = (same ? c.arm_a : c.arm_b) + c.offset_of(p);
-        for (int l = old.first; l < old.last; ++l) {
+        for (int l = old.first; l < old.last(); ++l) {
           const auto& q = before.points()[static_cast<std::size_t>(l)];
           Vec<dim> way = old.arm_a + old.offset_of(q) - arm;
           way -= way.dot(c.normal) * c.normal;
@@ -244,7 +244,7 @@ TEST_SUITE("model/contact_update") {
     REQUIRE(now.joints.contacts().size() == old.joints.contacts().size());
     for (std::size_t k = 0; k < old.joints.contacts().size(); ++k) {
       const auto &x = old.joints.contacts()[k], &y = now.joints.contacts()[k];
-      CHECK((x.a == y.a && x.b == y.b && x.first == y.first && x.last == y.last));
+      CHECK((x.a == y.a && x.b == y.b && x.first == y.first && x.count == y.count));
       CHECK(x.arm_a == y.arm_a);
     }
     find_contacts_again(after.system(), 0.04, [](double) { return true; });

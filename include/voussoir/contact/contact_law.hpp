@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -28,6 +29,16 @@ struct PointLoad {
   double weight;
   PointForce<Dim> initial;
   PointMotion<Dim> motion;
+};
+
+/// Two contact points in 2-D side by side, as `PointLoad` and `PointForce` have one.
+struct PairLoad {
+  LanePair weight;
+  LanePair initial_normal, initial_shear;
+  LanePair opening, slip;
+};
+struct PairForce {
+  LanePair normal, shear;
 };
 
 /// What a contact point does, and what has become of it, in words that all laws share: all that
@@ -70,6 +81,13 @@ template <class Law, int Dim>
 concept HasContactReport = requires(const Law law, const PointLoad<Dim>& load,
                                     const typename Law::template State<Dim>& state) {
   { law.describe(load, state) } -> std::same_as<ContactReport>;
+};
+/// Optional, in 2-D: the forces of two points at once, bit for bit those of `force`. For a law that
+/// has no cases to tell apart but by larger and smaller; a fifth less time for all forces.
+template <class Law>
+concept HasPairForce = requires(const Law law, const PairLoad& load,
+                                const typename Law::template State<2>* two) {
+  { law.pair_force(load, two) } -> std::same_as<PairForce>;
 };
 template <class Law>
 concept HasJointStiffness = requires(const Law law) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/lane_pair.hpp>
+#include <voussoir/core/vec.hpp>
 
 namespace voussoir {
 
@@ -64,6 +66,18 @@ class CoulombJoint {
     return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
   }
 
+  /// The same of two points, in lanes.
+  [[nodiscard]] PairForce pair_force(const PairLoad& load, const State<2>* two) const {
+    const LanePair normal =
+        larger(LanePair(0.0),
+               load.initial_normal - params_.joint_normal_stiffness * load.weight * load.opening);
+    const LanePair plastic_slip(two[0].plastic_slip.data()[0], two[1].plastic_slip.data()[0]);
+    const LanePair elastic = load.initial_shear - params_.joint_shear_stiffness * load.weight *
+                                                      (load.slip - plastic_slip);
+    const LanePair limit = friction_coefficient_ * normal;
+    return {normal, smaller(larger(elastic, -limit), limit)};
+  }
+
   /// @return  the friction work T . dq [J], T the mean of now and the last commit
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
@@ -110,6 +124,7 @@ class CoulombJoint {
   double friction_coefficient_;
 };
 
-static_assert(ContactLaw<CoulombJoint, 2> && ContactLaw<CoulombJoint, 3>);
+static_assert(ContactLaw<CoulombJoint, 2> && ContactLaw<CoulombJoint, 3> &&
+              HasPairForce<CoulombJoint>);
 
 }  // namespace voussoir

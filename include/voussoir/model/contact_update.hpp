@@ -66,10 +66,10 @@ class FoundAgain {
 
   template <class Group>
   [[nodiscard]] static Contacts without_laws(const Group& group) {
-    return {group.laws().size() > 1,
-            group.contacts(),
-            {group.points().begin(), group.points().end()},
-            {}};
+    Contacts contacts{group.laws().size() > 1, group.contacts(), {}, {}};
+    contacts.points.reserve(group.points().size());
+    for (const auto& p : group.points()) contacts.points.push_back(p);
+    return contacts;
   }
 
   /// Of all contacts, as they are now [J].
@@ -109,7 +109,7 @@ class FoundAgain {
   template <class Point>
   [[nodiscard]] static std::span<const Point> points_of(const std::vector<Point>& points,
                                                         const ReferenceContact<dim>& c) {
-    return {points.data() + c.first, static_cast<std::size_t>(c.last - c.first)};
+    return {points.data() + c.first, c.count};
   }
 
   /// Gives the points that carry on those of a contact the shear force that it had; one contact may
@@ -130,7 +130,7 @@ class FoundAgain {
     };
     std::vector<int> contact_of(group.points().size(), -1);
     for (std::size_t n = 0; n < group.contacts().size(); ++n)
-      for (int k = group.contacts()[n].first; k < group.contacts()[n].last; ++k)
+      for (int k = group.contacts()[n].first; k < group.contacts()[n].last(); ++k)
         contact_of[static_cast<std::size_t>(k)] = static_cast<int>(n);
     std::vector<std::vector<int>> heirs(group.contacts().size());
     for (std::size_t n = 0; n < by.contacts.size(); ++n) {
@@ -146,7 +146,7 @@ class FoundAgain {
         std::size_t first = 0;
         for (const int heir : heirs[n]) {
           const ReferenceContact<dim>& c = by.contacts[static_cast<std::size_t>(heir)];
-          const auto count = static_cast<std::size_t>(c.last - c.first);
+          const std::size_t count = c.count;
           visit(c, first, count);
           first += count;
         }
@@ -157,7 +157,7 @@ class FoundAgain {
         together.insert(together.end(), of.begin(), of.end());
       });
       const ReferenceContact<dim>& old = group.contacts()[n];
-      match_shear<dim>(shear_of(old, points_of(group.points(), old)), together, [&] {
+      match_shear<dim>(shear_of(old, group.points_of(old)), together, [&] {
         Shear sum = zeros<Shear>();
         each([&](const auto& c, std::size_t first, std::size_t count) {
           sum += shear_of(c, {together.data() + first, count});

@@ -247,7 +247,7 @@ class CarryOver {
       for (auto& p : points) {
         const Vec<dim> at = place(next_, c, p);
         double nearest = std::numeric_limits<double>::infinity();
-        for (int k = best->first; k < best->last; ++k) {
+        for (int k = best->first; k < best->last(); ++k) {
           const auto& was = from.points()[index(k)];
           const double distance = (place(old_, *best, was) - at).squaredNorm();
           if (distance >= nearest) continue;
@@ -267,11 +267,10 @@ class CarryOver {
       std::swap(c.a, c.b);
       std::swap(c.arm_a, c.arm_b);
     }
-    c.normal = was.normal;
-    c.tangents = was.tangents;
+    c.set_frame(was.normal, was.tangents());
     for (std::size_t k = 0; k < offsets.size(); ++k)
       points[k].offset =
-          stacked(c.normal.dot(offsets[k]), transposed_product(c.tangents, offsets[k]));
+          stacked(c.normal.dot(offsets[k]), transposed_product(c.tangents(), offsets[k]));
   }
 
   /// Every point by its place to the pieces it lies between; what lay on excavated rock is dropped.
@@ -285,7 +284,7 @@ class CarryOver {
     std::vector<Target> targets;
     for (const Contact& c : from.contacts()) {
       targets.clear();
-      for (int k = c.first; k < c.last; ++k) {
+      for (int k = c.first; k < c.last(); ++k) {
         const auto& p = from.points()[index(k)];
         const Vec<dim> offset = c.offset_of(p);
         const std::pair<int, int> bodies{heir(c.a, c.arm_a + offset).body,

@@ -6,8 +6,8 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
-#include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/moving_contacts.hpp>
+#include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir::detail {
 
@@ -19,11 +19,11 @@ namespace voussoir::detail {
 template <int Dim>
 [[nodiscard]] MovingContact<Dim> to_frames(const ReferenceContact<Dim>& c, const Pose<Dim>& a) {
   MovingContact<Dim> contact;
-  contact.frame = transposed_product(a.rotation, contact_frame<Dim>(c.normal, c.tangents));
+  contact.frame = transposed_product(a.rotation, contact_frame<Dim>(c.normal, c.tangents()));
   contact.a = c.a;
   contact.b = c.b;
   contact.first = c.first;
-  contact.last = c.last;
+  contact.last = c.last();
   contact.law = c.law;
   return contact;
 }
@@ -63,11 +63,10 @@ template <int Dim, class Points, class Take>
                                                 const Points& points, Take&& take) {
   const Rotation<Dim> frame = a.rotation * c.frame;
   ReferenceContact<Dim> contact{};
-  contact.normal = column(frame, 0);
-  contact.tangents = frame.template rightCols<Dim - 1>();
+  contact.set_frame(column(frame, 0), TangentBasis<Dim>(frame.template rightCols<Dim - 1>()));
   contact.a = c.a;
   contact.b = c.b;
-  contact.law = c.law;
+  contact.set_law(c.law);
   Vec<Dim> middle = zeros<Vec<Dim>>();
   double whole = 0;
   for (const auto& p : points) {

@@ -59,7 +59,7 @@ class FormerContacts {
       Contact contact = to_frames(c, a);
       const auto at = contact.place(a, b);
       contact.first = static_cast<std::int32_t>(points_.size());
-      for (int k = c.first; k < c.last; ++k)
+      for (int k = c.first; k < c.last(); ++k)
         points_.push_back(to_frames<Dim, State>(c, points[index(k)], at, b, u, state_of(k)));
       contact.last = static_cast<std::int32_t>(points_.size());
       contacts_.push_back(contact);

@@ -129,8 +129,7 @@ class ContactUpdate {
     const auto first = static_cast<int>(to.points.size());
     to.contacts.push_back(from_frames(c, now(c.a), now(c.b), displacement_.data(), points,
                                       [&](const auto& p) { to.points.push_back(p); }));
-    to.contacts.back().first = first;
-    to.contacts.back().last = static_cast<int>(to.points.size());
+    to.contacts.back().set_points(first, points.size());
     for (const Point& p : points) to.former.push_back(p.state);
   }
 
@@ -227,7 +226,7 @@ bool ContactUpdate<Dim, Detector>::find_loose(const Contacts& joints, const Cont
   };
   for (const Contacts* contacts : {&joints, &boundary})
     for (const ReferenceContact<Dim>& c : contacts->contacts)
-      if (c.last - c.first >= Dim) group[index(root(c.a))] = root(c.b);
+      if (c.count >= Dim) group[index(root(c.a))] = root(c.b);
   std::vector<char> is_held(bodies_.size(), 0);
   for (std::size_t b = 0; b < group.size(); ++b)
     if (!bodies_[b].movable()) is_held[index(root(static_cast<int>(b)))] = 1;
