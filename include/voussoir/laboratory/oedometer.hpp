@@ -111,8 +111,7 @@ struct Press {
 };
 
 template <class Geometry>
-void check_press(const RockMass<Geometry>& mass,
-                 const OedometerParamsOf<Geometry::dim>& params) {
+void check_press(const RockMass<Geometry>& mass, const OedometerParamsOf<Geometry::dim>& params) {
   if (mass.bodies.empty()) throw InvalidInput("oedometer: the rock mass has no bodies");
   if (!mass.openings.empty()) throw InvalidInput("oedometer: the rock mass has an opening");
   require(params.platen_strain > 0 && std::isfinite(params.platen_strain), "platen_strain",
@@ -174,11 +173,9 @@ template <class Detector = CutContacts, class Geometry, class JointLaw>
 /// @throws InvalidInput, NumericalFault  as `oedometer`; no equilibrium found after a step
 /// @cost   a fraction of a second per step for 6 000 blocks in 2-D
 template <class Detector = CutContacts, class Geometry, class JointLaw, class Method>
-[[nodiscard]] std::vector<OedometerResult> compression_path(const RockMass<Geometry>& mass,
-                                                            const JointLaw& joint_law,
-                                                            const std::vector<double>& motions,
-                                                            const Method& method,
-                                                            const OedometerParamsOf<Geometry::dim>& params = {}) {
+[[nodiscard]] std::vector<OedometerResult> compression_path(
+    const RockMass<Geometry>& mass, const JointLaw& joint_law, const std::vector<double>& motions,
+    const Method& method, const OedometerParamsOf<Geometry::dim>& params = {}) {
   detail::check_press(mass, params);
   detail::Press<Geometry, JointLaw> press(mass, joint_law, params, Detector{});
   Acceptance acceptance;

@@ -123,8 +123,8 @@ isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume);
 /// @param direction  of the line, from the horizontal, anticlockwise [rad]
 /// @throws InvalidInput  a spacing out of range
 /// Source: Priest & Hudson (1976).
-[[nodiscard]] VOUSSOIR_INLINE OedometerModuli isotropic_joint_oedometer(const JointStiffness& joints,
-                                                          double area_per_volume) {
+[[nodiscard]] VOUSSOIR_INLINE OedometerModuli
+isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume) {
   joints.check();
   require(joints.shear <= joints.normal, "joint stiffness k_s", joints.shear, "<= k_n");
   require(area_per_volume > 0 && std::isfinite(area_per_volume), "joint area per volume P32",
@@ -136,8 +136,7 @@ isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume);
   return {shear_modulus_from(e, nu), nu, e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))};
 }
 
-VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets,
-                                                        double direction);
+VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets, double direction);
 
 /// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
 /// shortest piece that counts, 0.1 m.

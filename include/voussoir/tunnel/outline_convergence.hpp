@@ -73,8 +73,10 @@ struct OutlinePoint {
 /// @throws InvalidInput  see `OutlineSampling::check`
 /// @cost   one bounding test per body; points x blocks near the outline
 template <class Solver>
-requires(Solver::dim == 3) [[nodiscard]] std::vector<double> outline_convergence(
-    const Solver& solver, const PrismaticOpening& tunnel, const OutlineSampling& sampling) {
+requires(Solver::dim == 3)
+    [[nodiscard]] std::vector<double> outline_convergence(const Solver& solver,
+                                                          const PrismaticOpening& tunnel,
+                                                          const OutlineSampling& sampling) {
   sampling.check();
   const auto& mass = solver.mass();
   const double tolerance = mass.domain.tolerance();
@@ -140,8 +142,8 @@ VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(const PrismaticOpening&
   points.reserve(around.size() * static_cast<std::size_t>(sampling.stretches * sampling.along));
   for (int stretch = 0; stretch < sampling.stretches; ++stretch)
     for (int k = 0; k < sampling.along; ++k) {
-      const double y = sampling.middle(stretch) +
-                       ((k + 0.5) / sampling.along - 0.5) * sampling.length();
+      const double y =
+          sampling.middle(stretch) + ((k + 0.5) / sampling.along - 0.5) * sampling.length();
       for (const auto& [place, inward] : around)
         points.push_back({tunnel.in_space(place, y), tunnel.in_space(inward, 0), stretch});
     }
