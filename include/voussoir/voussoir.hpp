@@ -33,6 +33,7 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/isotropic_sets.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
@@ -57,6 +58,7 @@
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/outline_convergence.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>

@@ -25,11 +25,15 @@ struct OedometerResult {
   double constrained_modulus;  ///< M = sigma_1 / eps_1 [Pa]
 };
 
-struct OedometerParams {
-  Side loaded = Side::top;          ///< where the platen presses; the side opposite is the base
+/// @tparam Dim  2: a section, under plane strain; 3: a block of rock
+template <int Dim>
+struct OedometerParamsOf {
+  /// Where the platen presses; the side opposite is the base.
+  SideOf<Dim> loaded = SideOf<Dim>::top;
   double platen_strain = 1e-4;      ///< motion of the platen / length of the sample [-], > 0
   double wall_stiffness_ratio = 1;  ///< platen, base and walls / k_n of the joints [-], > 0
 };
+using OedometerParams = OedometerParamsOf<2>;
 
 namespace detail {
 
@@ -45,8 +49,8 @@ struct Press {
   double platen_area = 0, lateral_area = 0, length = 0, wall_stiffness;
 
   template <class Detector>
-  Press(const RockMass<Geometry>& mass, const JointLaw& joint_law, const OedometerParams& params,
-        const Detector&)
+  Press(const RockMass<Geometry>& mass, const JointLaw& joint_law,
+        const OedometerParamsOf<dim>& params, const Detector&)
       : system(joint_law, params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()),
         wall_stiffness(params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()) {
     for (const auto& body : mass.bodies) {
@@ -107,7 +111,7 @@ struct Press {
 };
 
 template <class Geometry>
-void check_press(const RockMass<Geometry>& mass, const OedometerParams& params) {
+void check_press(const RockMass<Geometry>& mass, const OedometerParamsOf<Geometry::dim>& params) {
   if (mass.bodies.empty()) throw InvalidInput("oedometer: the rock mass has no bodies");
   if (!mass.openings.empty()) throw InvalidInput("oedometer: the rock mass has an opening");
   require(params.platen_strain > 0 && std::isfinite(params.platen_strain), "platen_strain",
@@ -144,7 +148,7 @@ void check_press(const RockMass<Geometry>& mass, const OedometerParams& params) 
 /// @cost   one factorisation: about 0.1 s for 6 000 blocks in 2-D
 template <class Detector = CutContacts, class Geometry, class JointLaw>
 [[nodiscard]] OedometerResult oedometer(const RockMass<Geometry>& mass, const JointLaw& joint_law,
-                                        const OedometerParams& params = {}) {
+                                        const OedometerParamsOf<Geometry::dim>& params = {}) {
   detail::check_press(mass, params);
   detail::Press<Geometry, JointLaw> press(mass, joint_law, params, Detector{});
   // The platen is a body that cannot move by itself; moved by hand it pushes the blocks at it. The
@@ -169,11 +173,9 @@ template <class Detector = CutContacts, class Geometry, class JointLaw>
 /// @throws InvalidInput, NumericalFault  as `oedometer`; no equilibrium found after a step
 /// @cost   a fraction of a second per step for 6 000 blocks in 2-D
 template <class Detector = CutContacts, class Geometry, class JointLaw, class Method>
-[[nodiscard]] std::vector<OedometerResult> compression_path(const RockMass<Geometry>& mass,
-                                                            const JointLaw& joint_law,
-                                                            const std::vector<double>& motions,
-                                                            const Method& method,
-                                                            const OedometerParams& params = {}) {
+[[nodiscard]] std::vector<OedometerResult> compression_path(
+    const RockMass<Geometry>& mass, const JointLaw& joint_law, const std::vector<double>& motions,
+    const Method& method, const OedometerParamsOf<Geometry::dim>& params = {}) {
   detail::check_press(mass, params);
   detail::Press<Geometry, JointLaw> press(mass, joint_law, params, Detector{});
   Acceptance acceptance;

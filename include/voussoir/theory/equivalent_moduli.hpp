@@ -107,12 +107,36 @@ struct IsotropicModuli {
 [[nodiscard]] VOUSSOIR_INLINE IsotropicModuli isotropic_joint_moduli(const JointStiffness& joints,
                                                                      double spacing);
 
+/// The same in 3-D, as an oedometer would read it: each joint deforms under the mean stress.
+///
+///   1 / E = P32 (1 / (5 k_n) + 2 / (15 k_s)),   nu / E = P32 (1 / k_s - 1 / k_n) / 15
+///
+/// That is what the energies of the joints amount to if the stress is the same everywhere, so no
+/// mass is softer; one whose blocks hinder each other is stiffer, and its nu is less.
+/// @param area_per_volume  P32, joints of all orientations alike [m^2/m^3], > 0
+/// @throws InvalidInput  a value out of range; k_s > k_n, which has nu < 0
+/// Source: the sum over sets of Amadei & Goodman (1981), its mean over the sphere.
+[[nodiscard]] VOUSSOIR_INLINE OedometerModuli
+isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume);
+
 /// Joints per metre on a straight line across persistent sets: sum of |n . d| / s [1/m].
 /// @param direction  of the line, from the horizontal, anticlockwise [rad]
 /// @throws InvalidInput  a spacing out of range
 /// Source: Priest & Hudson (1976).
-[[nodiscard]] VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets,
-                                                        double direction);
+[[nodiscard]] VOUSSOIR_INLINE OedometerModuli
+isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume) {
+  joints.check();
+  require(joints.shear <= joints.normal, "joint stiffness k_s", joints.shear, "<= k_n");
+  require(area_per_volume > 0 && std::isfinite(area_per_volume), "joint area per volume P32",
+          area_per_volume, "> 0 1/m");
+  const double along = area_per_volume * (0.2 / joints.normal + 2 / (15 * joints.shear)),
+               across = area_per_volume * (1 / joints.shear - 1 / joints.normal) / 15;
+  const double nu = across / along, e = 1 / along;
+  VOUSSOIR_ASSERT(nu >= 0 && nu < 0.5, "a stable material");
+  return {shear_modulus_from(e, nu), nu, e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))};
+}
+
+VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets, double direction);
 
 /// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
 /// shortest piece that counts, 0.1 m.

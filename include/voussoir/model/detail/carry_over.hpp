@@ -11,6 +11,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/small_displacement.hpp>
 #include <voussoir/model/support.hpp>
 
