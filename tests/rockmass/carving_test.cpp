@@ -12,6 +12,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 
 #include "support/jointed_rock.hpp"

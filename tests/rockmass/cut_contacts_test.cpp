@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 

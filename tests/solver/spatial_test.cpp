@@ -11,6 +11,7 @@
 #include <voussoir/geometry/principal_axes.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/slicing.hpp>

@@ -12,7 +12,7 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 
 namespace voussoir {
 

@@ -13,7 +13,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
