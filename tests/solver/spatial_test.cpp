@@ -11,13 +11,14 @@
 #include <voussoir/geometry/principal_axes.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
-#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>

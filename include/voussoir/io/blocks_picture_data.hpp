@@ -64,8 +64,9 @@ struct BlocksPicture {
   PictureHeader header;              ///< title, verdict in words, key numbers
   std::vector<PictureBlock> blocks;  ///< or convex parts of blocks
   std::vector<PictureJoint> joints;
-  std::vector<Vec2> outline;             ///< of the opening, closed, first point not repeated [m]
-  std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
+  std::vector<Vec2> outline;  ///< of the opening, closed, first point not repeated [m]
+  std::vector<std::vector<Vec2>> other_openings{};  ///< excavated before it, the same
+  std::optional<double> ground_surface;             ///< y [m]; none: too far up to matter
   std::vector<PictureBolt> bolts;
   std::optional<PictureLining> lining;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.

@@ -40,7 +40,39 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> members;
   std::vector<LiningContact<Geometry>> contacts;
   std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
+  /// Places beside its ends where nodes of a lining that stands may be [m]: member k joins
+  /// neighbour m if one of its nodes is nodes.size() + m. Where nothing stands there is no such
+  /// member.
+  std::vector<Vec<Geometry::dim>> neighbours{};
+
+  /// Of a node, or of a neighbour behind them.
+  [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {
+    const auto at = static_cast<std::size_t>(k);
+    return at < nodes.size() ? nodes[at] : neighbours[at - nodes.size()];
+  }
 };
+
+/// The frame with those neighbours that are there.
+/// @param is_there  is_there(index of the neighbour)
+template <class Geometry, class IsThere>
+[[nodiscard]] LiningFrame<Geometry> with_neighbours(LiningFrame<Geometry> frame,
+                                                    IsThere&& is_there) {
+  const int nodes = static_cast<int>(frame.nodes.size());
+  std::vector<int> number(frame.neighbours.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < number.size(); ++m)
+    if (is_there(m)) {
+      number[m] = nodes + static_cast<int>(kept);
+      frame.neighbours[kept++] = frame.neighbours[m];
+    }
+  frame.neighbours.resize(kept, zeros<Vec<Geometry::dim>>());
+  std::erase_if(frame.members, [&](LiningMember<Geometry>& member) {
+    for (int* end : {&member.first, &member.second})
+      if (*end >= nodes) *end = number[static_cast<std::size_t>(*end - nodes)];
+    return member.first < 0 || member.second < 0;
+  });
+  return frame;
+}
 
 /// What a node has of the members that meet there.
 struct LiningNodeShare {
@@ -48,17 +80,17 @@ struct LiningNodeShare {
   double mass = 0;    ///< [kg]
 };
 
-/// @return  one for every node
+/// @return  one for every node and neighbour; of the latter what the members that join them add
 /// @throws InvalidInput  a member without length, or of a section that is not given
 template <class Geometry>
 [[nodiscard]] std::vector<LiningNodeShare> node_shares(const LiningFrame<Geometry>& frame,
                                                        const std::vector<LiningSection>& sections) {
-  std::vector<LiningNodeShare> shares(frame.nodes.size());
+  std::vector<LiningNodeShare> shares(frame.nodes.size() + frame.neighbours.size());
   for (const auto& member : frame.members) {
     const auto i = static_cast<std::size_t>(member.first),
                j = static_cast<std::size_t>(member.second);
     VOUSSOIR_ASSERT(i < shares.size() && j < shares.size(), "a member joins nodes of its frame");
-    const double length = (frame.nodes[j] - frame.nodes[i]).norm();
+    const double length = (frame.place(member.second) - frame.place(member.first)).norm();
     require(length > 0, "length of a lining member", length, "> 0 m");
     require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),
             "section of a lining member", member.section, "the index of a section given");
