@@ -83,11 +83,14 @@ struct BlocksPicture {
   return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
 }
 
-/// Three diameters (or what is asked) of rock, the opening in the middle.
+/// Three diameters (or what is asked) of rock, the openings in the middle.
 /// @return  the whole model if there is no opening
 [[nodiscard]] inline ViewRect view_around_opening(const BlocksPicture& picture,
                                                   double diameters = 3) {
-  const std::optional<ViewRect> opening = bounding_rect(picture.outline);
+  std::vector<Vec2> corners = picture.outline;
+  for (const std::vector<Vec2>& other : picture.other_openings)
+    corners.insert(corners.end(), other.begin(), other.end());
+  const std::optional<ViewRect> opening = bounding_rect(corners);
   if (!opening) return view_of_everything(picture);
   const double half = std::max(opening->width(), opening->height()) * diameters / 2;
   return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};

@@ -24,8 +24,8 @@ namespace voussoir {
 // the place and what helps.
 
 /// A point of rock that two openings would both take out, or nothing. Openings along one direction
-/// must not overlap: rounds meet in a face, a bench in the floor of its heading. Those that cross at
-/// an angle may, or a cross-drift could not reach the curved wall of a tunnel.
+/// must not overlap: rounds meet in a face, a bench in the floor of its heading. Those that cross
+/// at an angle may, or a cross-drift could not reach the curved wall of a tunnel.
 /// @param tolerance  what overlaps by less, touches [m]
 [[nodiscard]] inline std::optional<Vec2> common_rock(const SimplePolygon& a, const SimplePolygon& b,
                                                      double tolerance) {
@@ -45,8 +45,10 @@ VOUSSOIR_INLINE void check_opening(const PrismaticOpening& opening, const RockMa
 [[nodiscard]] VOUSSOIR_INLINE bool may_part(const PrismaticOpening& opening,
                                             const Domain<3>& domain);
 
-/// @throws InvalidInput  openings that meet the sides of the domain have left rock in two parts that
-///                       both reach a side other than the top. What reaches none falls
+/// @throws InvalidInput  openings that meet the sides of the domain have left rock in parts that
+/// both
+///                       reach a side other than the top, and are more than a hundredth of the
+///                       domain. Less is a splinter: it stands on the bottom, or falls
 /// @cost  contacts from the cuts, where an opening could have done so; else nothing
 template <class Geometry>
 void check_in_one_piece(const RockMass<Geometry>& mass);
@@ -57,15 +59,15 @@ template <class Opening>
 void check_taken_out(const Opening& opening, double measure) {
   if (measure > 0) return;
   if constexpr (std::is_same_v<Opening, PrismaticOpening>)
-    throw InvalidInput(message({"opening: there is no rock in it, around ",
-                                text_of<3>(opening.in_space(
-                                    opening.section().vertices().front(),
-                                    std::isfinite(opening.from()) ? opening.from() : 0)),
-                                " m; excavate a round once, and where rock is"}));
+    throw InvalidInput(
+        message({"opening: there is no rock in it, around ",
+                 text_of<3>(opening.in_space(opening.section().vertices().front(),
+                                             std::isfinite(opening.from()) ? opening.from() : 0)),
+                 " m; excavate a round once, and where rock is"}));
   else
-    throw InvalidInput(message({"opening: there is no rock in it, around ",
-                                text_of<2>(opening.vertices().front()),
-                                " m; excavate a round once, and where rock is"}));
+    throw InvalidInput(
+        message({"opening: there is no rock in it, around ", text_of<2>(opening.vertices().front()),
+                 " m; excavate a round once, and where rock is"}));
 }
 
 /// "round 2 (the first is 1)" of the opening with an index.
@@ -81,9 +83,9 @@ void check_no_overlap(const typename Geometry::Opening& opening, const RockMass<
   const double tolerance = 1e3 * mass.domain.tolerance();
   for (std::size_t k = 0; k < mass.openings.size(); ++k)
     if (const auto place = common_rock(opening, mass.openings[k], tolerance))
-      throw InvalidInput(message(
-          {"opening: at ", text_of<dim>(*place), " m it overlaps ", round_name(k),
-           ", which has been excavated: let it begin where that ends, or leave it out"}));
+      throw InvalidInput(
+          message({"opening: at ", text_of<dim>(*place), " m it overlaps ", round_name(k),
+                   ", which has been excavated: let it begin where that ends, or leave it out"}));
 }
 
 /// Groups of bodies that hang together, by union of contacts.
@@ -117,20 +119,20 @@ void check_in_one_piece(const RockMass<Geometry>& mass) {
   for (const auto& edge : boundary_facets(mass))
     if (edge.side != SideOf<dim>::top) held[groups.root(static_cast<std::size_t>(edge.body))] = 1;
   std::vector<double> measure(mass.bodies.size(), 0.0);
-  std::vector<std::size_t> parts;
-  for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
-    const std::size_t root = groups.root(b);
-    if (measure[root] == 0 && held[root] > 0) parts.push_back(b);
-    measure[root] += mass.bodies[b].properties.measure;
-  }
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    measure[groups.root(b)] += mass.bodies[b].properties.measure;
+  std::vector<std::size_t> parts;  // a body of each
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    if (groups.root(b) == b && held[b] > 0 && measure[b] > 0.01 * mass.domain.measure())
+      parts.push_back(b);
   if (parts.size() < 2) return;
   const auto place = [&](std::size_t k) {
     return text_of<dim>(mass.bodies[parts[k]].properties.centroid);
   };
-  throw InvalidInput(message(
-      {"opening: it cuts the domain in ", parts.size(), " parts, ", measure[groups.root(parts[0])],
-       " m^", dim, " with ", place(0), " m in it and ", measure[groups.root(parts[1])], " m^", dim,
-       " with ", place(1), " m: enlarge the domain, or end the opening inside it"}));
+  throw InvalidInput(
+      message({"opening: it cuts the domain in ", parts.size(), " parts, ", measure[parts[0]],
+               " m^", dim, " with ", place(0), " m in it and ", measure[parts[1]], " m^", dim,
+               " with ", place(1), " m: enlarge the domain, or end the opening inside it"}));
 }
 
 #if VOUSSOIR_BODIES
@@ -178,12 +180,12 @@ VOUSSOIR_INLINE void check_opening(const PrismaticOpening& opening, const RockMa
   const double tolerance = domain.tolerance();
   for (int k = 0; k < 3; ++k)
     if (!(high[k] > from[k] + tolerance && low[k] < to[k] - tolerance)) {
-      static constexpr std::array names{"across its axis, to the right,", "across its axis, upwards,",
-                                        "along its axis"};
-      throw InvalidInput(message({"opening: it lies beside the domain, which ",
-                                  names[static_cast<std::size_t>(k)], " reaches from ", from[k],
-                                  " to ", to[k], " m; the opening from ", low[k], " to ", high[k],
-                                  " m"}));
+      static constexpr std::array names{"across its axis, to the right,",
+                                        "across its axis, upwards,", "along its axis"};
+      throw InvalidInput(
+          message({"opening: it lies beside the domain, which ", names[static_cast<std::size_t>(k)],
+                   " reaches from ", from[k], " to ", to[k], " m; the opening from ", low[k],
+                   " to ", high[k], " m"}));
     }
   detail::check_no_overlap(opening, mass);
 }
