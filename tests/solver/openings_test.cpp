@@ -207,6 +207,46 @@ TEST_SUITE("solver/openings") {
         "it is outside the domain"));
   }
 
+  TEST_CASE("a splinter that only a smooth edge of the domain touches falls") {
+    Rock rock(slice<Spatial>(cube, {}, {}), elastic, {.density = 2700});
+    // A slot around a strip of 0.2 m x 1 m along the western edge.
+    const SimplePolygon slot(
+        {{-7, 3.5}, {-4, 3.5}, {-4, 5.5}, {-7, 5.5}, {-7, 5}, {-5.8, 5}, {-5.8, 4}, {-7, 4}});
+    rock.excavate(PrismaticOpening(slot), 0);
+    const EquilibriumReport report = rock.equilibrium();
+    INFO(report.reason);
+    CHECK(report.verdict == Verdict::stable);
+    CHECK(report.fallen.size() == 1);
+    CHECK(report.fallen_measure == doctest::Approx(0.2 * 1 * 12));
+  }
+
+  TEST_CASE("2-D: a bench is lined as the section that it makes with its heading") {
+    const Domain<2> ground{{-12, -10}, {12, 10}};
+    const SimplePolygon whole = box(-3, -3, 3, 3), heading = box(-3, 0, 3, 3),
+                        bench = box(-3, -3, 3, 0);
+    const CoulombJoint joint({5e9, 5e8, 40 * degree}), interface({1e9, 1e9, 30 * degree});
+    const LiningSection shell = LiningSection::rectangular(0.2, 25e9);
+    Solver<> tunnel(jointed_rock(ground, 2), joint, {.density = 2700, .surcharge = 5e5});
+    const LiningRing ring{.nodes = 48}, arch{.nodes = 48, .to = 180 * degree},
+        rest{.nodes = 48, .from = 180 * degree, .to = 360 * degree};
+    tunnel.excavate(heading);
+    settle(tunnel, 0.5);
+    const std::string early = refusal([&] { (void)lining_frame(tunnel.mass(), whole, ring); });
+    CHECK(has(early, "rock is not yet excavated: excavate it first"));
+    tunnel.install_lining(lining_frame(tunnel.mass(), whole, arch), shell, interface);
+    settle(tunnel, 0.3);
+    CHECK(has(refusal([&] { tunnel.excavate(whole); }), "it overlaps round 1"));
+    CHECK(
+        has(refusal([&] { tunnel.excavate(box(-2, -1, 2, 1)); }), "let it begin where that ends"));
+    tunnel.excavate(bench);
+    settle(tunnel, 0.2);
+    CHECK(tunnel.mass().openings.size() == 2);
+    tunnel.install_lining(lining_frame(tunnel.mass(), whole, rest), shell, interface);
+    CHECK(lining_members(tunnel).size() == 48);  // one ring
+    settle(tunnel);
+    CHECK(wall_motion(tunnel, whole).size() > wall_motion(tunnel).size());
+  }
+
   TEST_CASE("what is refused is named with its place, and the rock stays as it was") {
     const auto mass = jointed_mass(cube, 6, 3, limits);
     Rock rock(mass, elastic, deep);
@@ -292,7 +332,7 @@ TEST_SUITE("solver/openings") {
     double carried = 0;
     auto members = lining_members(tunnel);
     for (std::size_t k = 0; k < arch; ++k) carried = std::max(carried, members[k].thrust);
-    REQUIRE(carried > 1e4);
+    REQUIRE(carried > 1e3);
     REQUIRE(members.size() == 36);
     for (std::size_t k = arch; k < members.size(); ++k) {
       CHECK(std::abs(members[k].thrust) < 1e-9 * carried);
@@ -337,7 +377,8 @@ TEST_SUITE("solver/openings") {
     const CoulombJoint joint({5e9, 5e8, 40 * degree}), interface({1e9, 1e9, 30 * degree});
     const auto circle_at = [](double x) {
       std::vector<Vec2> vertices;
-      for (const Vec2& v : circular_opening(4, 24).vertices()) vertices.push_back(v + Vec2(x, 0));
+      const SimplePolygon circle = circular_opening(4, 24);
+      for (const Vec2& v : circle.vertices()) vertices.push_back(v + Vec2(x, 0));
       return SimplePolygon(vertices);
     };
     const auto built = [&](const std::vector<Joint>& cuts, double side) {
