@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 #include <voussoir/geometry/outline_overlap.hpp>
 
