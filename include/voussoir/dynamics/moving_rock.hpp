@@ -91,7 +91,9 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 ///
 /// Its nodes become bodies of the run. Their mass is that of the sections, their moment of inertia
 /// that of a tile; rock touches tiles of the thickness given, and may land on them.
-/// @param wanted     the lining, of the mass from which the run was made
+/// @param frame      of the mass from which the run was made. It joins no other lining: those that
+/// do
+///                   are installed at rest, and set in motion
 /// @param interface_law  rock on lining
 /// @param thickness  [m], > 0
 /// @return  the lining, which the run holds too: forces are read there
@@ -100,10 +102,8 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
     Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
-    const LiningFrame<Geometry>& wanted, const std::vector<LiningSection>& sections,
+    const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
     const InterfaceLaw& interface_law, double thickness) {
-  // Linings that join others are installed at rest, and set in motion.
-  const LiningFrame<Geometry> frame = with_neighbours(wanted, [](std::size_t) { return false; });
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");

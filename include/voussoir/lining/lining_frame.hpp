@@ -40,10 +40,11 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> members;
   std::vector<LiningContact<Geometry>> contacts;
   std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
-  /// Places beside its ends where nodes of a lining that stands may be [m]: member k joins
-  /// neighbour m if one of its nodes is nodes.size() + m. Where nothing stands there is no such
-  /// member.
+  /// Places beside its ends where nodes of a lining that stands may be [m].
   std::vector<Vec<Geometry::dim>> neighbours{};
+  /// Members that join it to those: the number of neighbour m is nodes.size() + m. Where nothing
+  /// stands there is no such member.
+  std::vector<LiningMember<Geometry>> joints{};
 
   /// Of a node, or of a neighbour behind them.
   [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {
@@ -52,8 +53,8 @@ struct LiningFrame {
   }
 };
 
-/// The frame with those neighbours that are there.
-/// @param is_there  is_there(index of the neighbour)
+/// The frame with those neighbours that are there; what joins them is among its members.
+/// @param is_there  is_there(index of the neighbour), asked once for each, in their order
 template <class Geometry, class IsThere>
 [[nodiscard]] LiningFrame<Geometry> with_neighbours(LiningFrame<Geometry> frame,
                                                     IsThere&& is_there) {
@@ -66,11 +67,12 @@ template <class Geometry, class IsThere>
       frame.neighbours[kept++] = frame.neighbours[m];
     }
   frame.neighbours.resize(kept, zeros<Vec<Geometry::dim>>());
-  std::erase_if(frame.members, [&](LiningMember<Geometry>& member) {
-    for (int* end : {&member.first, &member.second})
+  for (LiningMember<Geometry> joint : frame.joints) {
+    for (int* end : {&joint.first, &joint.second})
       if (*end >= nodes) *end = number[static_cast<std::size_t>(*end - nodes)];
-    return member.first < 0 || member.second < 0;
-  });
+    if (joint.first >= 0 && joint.second >= 0) frame.members.push_back(joint);
+  }
+  frame.joints.clear();
   return frame;
 }
 

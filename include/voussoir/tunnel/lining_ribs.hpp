@@ -113,16 +113,16 @@ class RibBuilder {
         const int there = add_neighbour(at.place, middle(row)), here = number(row, at.node);
         const Vec2 step = at.place - nodes_.places[static_cast<std::size_t>(at.node)];
         if (at.is_after)
-          frame_.members.push_back({here, there, outward(step), 0});
+          frame_.joints.push_back({here, there, outward(step), 0});
         else
-          frame_.members.push_back({there, here, outward(Vec2(-step)), 0});
+          frame_.joints.push_back({there, here, outward(Vec2(-step)), 0});
       }
     for (int n = 0; tied && n < ring_; ++n) {
       const Vec2& place = nodes_.places[static_cast<std::size_t>(n)];
       const int before = add_neighbour(place, middle(-1)),
                 after = add_neighbour(place, middle(rows_));
-      frame_.members.push_back({before, number(0, n), outward(chord_at(n)), 1});
-      frame_.members.push_back({number(rows_ - 1, n), after, outward(chord_at(n)), 1});
+      frame_.joints.push_back({before, number(0, n), outward(chord_at(n)), 1});
+      frame_.joints.push_back({number(rows_ - 1, n), after, outward(chord_at(n)), 1});
     }
   }
 

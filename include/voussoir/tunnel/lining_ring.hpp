@@ -242,9 +242,9 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
     const auto there = static_cast<int>(frame.nodes.size() + frame.neighbours.size());
     frame.neighbours.push_back(neighbour.place);
     if (neighbour.is_after)
-      frame.members.push_back({neighbour.node, there});
+      frame.joints.push_back({neighbour.node, there});
     else
-      frame.members.push_back({there, neighbour.node});
+      frame.joints.push_back({there, neighbour.node});
   }
   const double shortest = mass.domain.tolerance(), inwards = 1e-6 * opening.perimeter();
   for (const detail::OutlinePart& part : detail::outline_parts(opening, nodes, shortest)) {
