@@ -57,6 +57,16 @@ TEST_SUITE("geometry/outline_overlap") {
     }
     CHECK(overlap_of(middle, box(2 - 1e-5, 0, 4, 2), 1e-7).has_value());
   }
+
+  TEST_CASE("what one outline has all of, and what it has not") {
+    const SimplePolygon large = box(0, 0, 4, 4);
+    CHECK(encloses(large, box(1, 1, 2, 2), 1e-7));
+    CHECK(encloses(large, box(0, 0, 4, 2), 1e-7));  // along three edges
+    CHECK(encloses(large, large, 1e-7));
+    CHECK(!encloses(box(1, 1, 2, 2), large, 1e-7));
+    CHECK(!encloses(large, box(1, 1, 2, 4.001), 1e-7));
+    CHECK(!encloses(box(-3, -1, 3, 1), box(-1, -3, 1, 3), 1e-7));
+  }
 }
 
 }  // namespace outline_overlap_test

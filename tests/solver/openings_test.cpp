@@ -235,7 +235,7 @@ TEST_SUITE("solver/openings") {
     CHECK(has(early, "rock is not yet excavated: excavate it first"));
     tunnel.install_lining(lining_frame(tunnel.mass(), whole, arch), shell, interface);
     settle(tunnel, 0.3);
-    CHECK(has(refusal([&] { tunnel.excavate(whole); }), "it overlaps round 1"));
+    CHECK(has(refusal([&] { tunnel.excavate(heading); }), "it overlaps round 1"));
     CHECK(
         has(refusal([&] { tunnel.excavate(box(-2, -1, 2, 1)); }), "let it begin where that ends"));
     tunnel.excavate(bench);

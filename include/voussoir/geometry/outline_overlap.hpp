@@ -22,6 +22,11 @@ namespace voussoir {
                                                              const SimplePolygon& b,
                                                              double tolerance);
 
+/// True if all of `b` lies in `a`, but for what reaches out of it by no more than the tolerance.
+/// @pre  they overlap
+[[nodiscard]] VOUSSOIR_INLINE bool encloses(const SimplePolygon& a, const SimplePolygon& b,
+                                            double tolerance);
+
 #if VOUSSOIR_BODIES
 
 namespace detail {
@@ -44,9 +49,10 @@ namespace detail {
   return at;
 }
 
-[[nodiscard]] VOUSSOIR_INLINE std::optional<Vec2> inside_of_both(const SimplePolygon& a,
-                                                                 const SimplePolygon& b,
-                                                                 double tolerance) {
+/// Visits points of `a` just inside its edges, one for every part between meetings with `b`.
+/// @param seen  seen(point), returns false to stop
+template <class Seen>
+void visit_inside(const SimplePolygon& a, const SimplePolygon& b, double tolerance, Seen&& seen) {
   for (std::size_t e = 0; e < a.size(); ++e) {
     const Segment edge = a.edge(e);
     const Vec2 inwards = normalized(perpendicular(edge.end - edge.start));
@@ -54,10 +60,20 @@ namespace detail {
     for (std::size_t k = 0; k + 1 < at.size(); ++k) {
       if ((at[k + 1] - at[k]) * edge.length() <= 4 * tolerance) continue;
       const Vec2 p = edge.at(0.5 * (at[k] + at[k + 1])) + tolerance * inwards;
-      if (a.contains(p) && b.contains(p)) return p;
+      if (a.contains(p) && !seen(p)) return;
     }
   }
-  return {};
+}
+
+[[nodiscard]] VOUSSOIR_INLINE std::optional<Vec2> inside_of_both(const SimplePolygon& a,
+                                                                 const SimplePolygon& b,
+                                                                 double tolerance) {
+  std::optional<Vec2> found;
+  visit_inside(a, b, tolerance, [&](const Vec2& p) {
+    if (b.contains(p)) found = p;
+    return !found;
+  });
+  return found;
 }
 
 }  // namespace detail
@@ -66,6 +82,12 @@ VOUSSOIR_INLINE std::optional<Vec2> overlap_of(const SimplePolygon& a, const Sim
                                                double tolerance) {
   const auto place = detail::inside_of_both(a, b, tolerance);
   return place ? place : detail::inside_of_both(b, a, tolerance);
+}
+
+VOUSSOIR_INLINE bool encloses(const SimplePolygon& a, const SimplePolygon& b, double tolerance) {
+  bool is_inside = true;
+  detail::visit_inside(b, a, tolerance, [&](const Vec2& p) { return is_inside = a.contains(p); });
+  return is_inside;
 }
 
 #endif

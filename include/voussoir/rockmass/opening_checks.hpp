@@ -23,16 +23,18 @@ namespace voussoir {
 // What is wrong with an opening before rock is taken out, and with the rock after it. Messages name
 // the place and what helps.
 
-/// A point of rock that two openings would both take out, or nothing. Openings along one direction
-/// must not overlap: rounds meet in a face, a bench in the floor of its heading. Those that cross
-/// at an angle may, or a cross-drift could not reach the curved wall of a tunnel.
+/// A point that an opening and one before it would both take out, or nothing.
+///
+/// Openings along one direction must not overlap: rounds meet in a face, a bench in the floor of
+/// its heading. An enlargement may have all of the earlier one inside, with rock around it.
+/// Openings that cross at an angle may overlap, or a cross-drift could not reach the curved wall of
+/// a tunnel.
 /// @param tolerance  what overlaps by less, touches [m]
-[[nodiscard]] inline std::optional<Vec2> common_rock(const SimplePolygon& a, const SimplePolygon& b,
-                                                     double tolerance) {
-  return overlap_of(a, b, tolerance);
-}
-[[nodiscard]] VOUSSOIR_INLINE std::optional<Vec3> common_rock(const PrismaticOpening& a,
-                                                              const PrismaticOpening& b,
+[[nodiscard]] VOUSSOIR_INLINE std::optional<Vec2> common_rock(const SimplePolygon& opening,
+                                                              const SimplePolygon& before,
+                                                              double tolerance);
+[[nodiscard]] VOUSSOIR_INLINE std::optional<Vec3> common_rock(const PrismaticOpening& opening,
+                                                              const PrismaticOpening& before,
                                                               double tolerance);
 
 /// @throws InvalidInput  the opening leaves the domain (2-D), lies beside it (3-D), or overlaps one
@@ -137,25 +139,38 @@ void check_in_one_piece(const RockMass<Geometry>& mass) {
 
 #if VOUSSOIR_BODIES
 
-VOUSSOIR_INLINE std::optional<Vec3> common_rock(const PrismaticOpening& a,
-                                                const PrismaticOpening& b, double tolerance) {
-  if (!a.axis().is_parallel_to(b.axis())) return {};
-  const double way = dot_product(a.axis().along(), b.axis().along()) < 0 ? -1 : 1;
-  const double shift = a.along(b.axis().origin());
-  double from = shift + way * b.from(), to = shift + way * b.to();
-  if (way < 0) std::swap(from, to);
-  from = std::max(from, a.from());
-  to = std::min(to, a.to());
+VOUSSOIR_INLINE std::optional<Vec2> common_rock(const SimplePolygon& opening,
+                                                const SimplePolygon& before, double tolerance) {
+  const auto place = overlap_of(opening, before, tolerance);
+  if (place && encloses(opening, before, tolerance) && !encloses(before, opening, tolerance))
+    return {};
+  return place;
+}
+
+VOUSSOIR_INLINE std::optional<Vec3> common_rock(const PrismaticOpening& opening,
+                                                const PrismaticOpening& before, double tolerance) {
+  const TunnelAxis& axis = opening.axis();
+  if (!axis.is_parallel_to(before.axis())) return {};
+  const double way = dot_product(axis.along(), before.axis().along()) < 0 ? -1 : 1;
+  const double shift = opening.along(before.axis().origin());
+  double low = shift + way * before.from(), high = shift + way * before.to();
+  if (way < 0) std::swap(low, high);
+  const double from = std::max(low, opening.from()), to = std::min(high, opening.to());
   if (!(to - from > tolerance)) return {};
-  std::vector<Vec2> seen;
-  for (const Vec2& v : b.section().vertices()) seen.push_back(a.across(b.in_space(v, 0)));
-  const auto place = overlap_of(a.section(), SimplePolygon(std::move(seen)), tolerance);
+  std::vector<Vec2> corners;
+  for (const Vec2& v : before.section().vertices())
+    corners.push_back(opening.across(before.in_space(v, 0)));
+  const SimplePolygon seen(std::move(corners));
+  const auto place = overlap_of(opening.section(), seen, tolerance);
   if (!place) return {};
-  const double middle = std::isfinite(from) && std::isfinite(to) ? 0.5 * (from + to)
-                        : std::isfinite(from)                    ? from
-                        : std::isfinite(to)                      ? to
-                                                                 : 0.0;
-  return a.in_space(*place, middle);
+  const bool is_longer = opening.from() < low - tolerance || opening.to() > high + tolerance,
+             is_shorter = opening.from() > low + tolerance || opening.to() < high - tolerance;
+  if (!is_shorter && encloses(opening.section(), seen, tolerance) &&
+      (is_longer || !encloses(seen, opening.section(), tolerance)))
+    return {};
+  const bool begins = std::isfinite(from), ends = std::isfinite(to);
+  return opening.in_space(*place,
+                          begins && ends ? 0.5 * (from + to) : (begins ? from : (ends ? to : 0)));
 }
 
 VOUSSOIR_INLINE void check_opening(const SimplePolygon& opening, const RockMass<Planar>& mass) {
