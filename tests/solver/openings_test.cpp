@@ -338,6 +338,7 @@ TEST_SUITE("solver/openings") {
       CHECK(std::abs(members[k].thrust) < 1e-9 * carried);
       CHECK(members[k].moment < 1e-9 * carried);
     }
+    MESSAGE(tunnel.first_lining_node(), " ", tunnel.system().body_count());
     // With nothing taken away the rock stays, however often contacts are updated.
     REQUIRE(tunnel.equilibrium(0.3, {}, {.refind_limit = 1e-6}).verdict == Verdict::stable);
     members = lining_members(tunnel);

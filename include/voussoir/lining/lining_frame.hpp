@@ -76,6 +76,63 @@ template <class Geometry, class IsThere>
   return frame;
 }
 
+/// The frame whose ends begin at nodes that stand: these become neighbours, with the members that
+/// lead to them as joints. What lies on a standing lining as a whole, a second layer, stays.
+/// @param stands  stands(place): whether a lining has a node there
+template <class Geometry, class Stands>
+[[nodiscard]] LiningFrame<Geometry> with_shared_ends(const LiningFrame<Geometry>& frame,
+                                                     Stands&& stands) {
+  const std::size_t count = frame.nodes.size();
+  std::vector<char> is_end(count, 0), is_standing(count, 0), leads_on(count, 0);
+  for (const auto& joint : frame.joints)
+    for (const int end : {joint.first, joint.second})
+      if (static_cast<std::size_t>(end) < count) is_end[static_cast<std::size_t>(end)] = 1;
+  for (std::size_t k = 0; k < count; ++k) is_standing[k] = is_end[k] && stands(frame.nodes[k]);
+  for (const auto& m : frame.members) {
+    const auto i = static_cast<std::size_t>(m.first), j = static_cast<std::size_t>(m.second);
+    if (is_standing[i] != is_standing[j]) leads_on[i] = leads_on[j] = 1;
+  }
+  LiningFrame<Geometry> rest;
+  std::vector<int> number(count + frame.neighbours.size(), -1);
+  const auto is_shared = [&](int k) {
+    const auto at = static_cast<std::size_t>(k);
+    return at < count && is_standing[at] && leads_on[at];
+  };
+  for (std::size_t k = 0; k < count; ++k)
+    if (!is_shared(static_cast<int>(k))) {
+      number[k] = static_cast<int>(rest.nodes.size());
+      rest.nodes.push_back(frame.nodes[k]);
+    }
+  for (std::size_t k = 0; k < number.size(); ++k)
+    if (number[k] < 0) {
+      number[k] = static_cast<int>(rest.nodes.size() + rest.neighbours.size());
+      rest.neighbours.push_back(frame.place(static_cast<int>(k)));
+    }
+  const auto renumbered = [&](LiningMember<Geometry> m) {
+    m.first = number[static_cast<std::size_t>(m.first)];
+    m.second = number[static_cast<std::size_t>(m.second)];
+    return m;
+  };
+  for (const auto& m : frame.members) {
+    if (is_shared(m.first) && is_shared(m.second)) continue;
+    (is_shared(m.first) || is_shared(m.second) ? rest.joints : rest.members)
+        .push_back(renumbered(m));
+  }
+  for (const auto& m : frame.joints)
+    if (!is_shared(m.first) && !is_shared(m.second)) rest.joints.push_back(renumbered(m));
+  for (auto c : frame.contacts)
+    if (!is_shared(c.node)) {
+      c.node = number[static_cast<std::size_t>(c.node)];
+      rest.contacts.push_back(c);
+    }
+  for (auto p : frame.panels)
+    if (!is_shared(p.node)) {
+      p.node = number[static_cast<std::size_t>(p.node)];
+      rest.panels.push_back(p);
+    }
+  return rest;
+}
+
 /// What a node has of the members that meet there.
 struct LiningNodeShare {
   double length = 0;  ///< half of every member [m]

@@ -411,10 +411,12 @@ void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& wanted,
   if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                    [this](const auto& c) { return system_.body(c.body).movable; }))
     throw InvalidInput("lining: no rock touches it");
+  const LiningFrame<Geometry> beside =
+      with_shared_ends(wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
   const int first_node = system_.body_count();
   std::vector<int> standing;
-  const LiningFrame<Geometry> frame = with_neighbours(wanted, [&](std::size_t m) {
-    const int node = standing_node(wanted.neighbours[m]);
+  const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
+    const int node = standing_node(beside.neighbours[m]);
     if (node >= 0) standing.push_back(node);
     return node >= 0;
   });
