@@ -338,13 +338,17 @@ TEST_SUITE("solver/openings") {
       CHECK(std::abs(members[k].thrust) < 1e-9 * carried);
       CHECK(members[k].moment < 1e-9 * carried);
     }
-    MESSAGE(tunnel.first_lining_node(), " ", tunnel.system().body_count());
     // With nothing taken away the rock stays, however often contacts are updated.
-    REQUIRE(tunnel.equilibrium(0.3, {}, {.refind_limit = 1e-6}).verdict == Verdict::stable);
+    // A block whose last contact but one an update has taken falls; it was a numerical fault.
+    EquilibriumReport report = tunnel.equilibrium(0.3, {}, {.refind_limit = 1e-6});
+    INFO(report.reason);
+    REQUIRE(report.verdict == Verdict::stable);
+    CHECK(report.fallen_measure < 1);
     members = lining_members(tunnel);
     for (std::size_t k = members.size() - 2; k < members.size(); ++k)
       CHECK(std::abs(members[k].thrust) < 0.05 * carried);
-    REQUIRE(tunnel.equilibrium(0.0, {}, updating).verdict == Verdict::stable);
+    report = tunnel.equilibrium(0.0, {}, updating);
+    REQUIRE(report.verdict == Verdict::stable);
     members = lining_members(tunnel);
     CHECK(members[members.size() - 1].thrust > 0.05 * carried);
   }
