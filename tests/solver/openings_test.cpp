@@ -338,19 +338,23 @@ TEST_SUITE("solver/openings") {
       CHECK(std::abs(members[k].thrust) < 1e-9 * carried);
       CHECK(members[k].moment < 1e-9 * carried);
     }
-    // With nothing taken away the rock stays, however often contacts are updated.
-    // A block whose last contact but one an update has taken falls; it was a numerical fault.
-    EquilibriumReport report = tunnel.equilibrium(0.3, {}, {.refind_limit = 1e-6});
+    // From here on they get their share of a ring: the in-situ stress of 1.25 MPa, times what is
+    // unloaded, times the radius. A millimetre that had been strained at installation is 10 MN.
+    const double whole = 1.25e6 * 2.5;
+    EquilibriumReport report = tunnel.equilibrium(0.29, {}, updating);
     INFO(report.reason);
     REQUIRE(report.verdict == Verdict::stable);
-    CHECK(report.fallen_measure < 1);
     members = lining_members(tunnel);
     for (std::size_t k = members.size() - 2; k < members.size(); ++k)
-      CHECK(std::abs(members[k].thrust) < 0.05 * carried);
+      CHECK(std::abs(members[k].thrust) < 0.01 * whole);
     report = tunnel.equilibrium(0.0, {}, updating);
     REQUIRE(report.verdict == Verdict::stable);
+    REQUIRE(tunnel.system().has_found_again());
     members = lining_members(tunnel);
-    CHECK(members[members.size() - 1].thrust > 0.05 * carried);
+    for (std::size_t k = members.size() - 2; k < members.size(); ++k) {
+      CHECK(members[k].thrust > 0.01 * whole);
+      CHECK(members[k].thrust < 0.3 * whole);
+    }
   }
 
   TEST_CASE("3-D: ribs next to ribs are the ribs at once") {
