@@ -12,6 +12,7 @@
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/support_forces.hpp>

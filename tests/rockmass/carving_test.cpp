@@ -13,6 +13,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"

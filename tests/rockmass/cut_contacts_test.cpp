@@ -12,6 +12,7 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 
 #include "support/jointed_rock.hpp"
 #include "support/shapes.hpp"

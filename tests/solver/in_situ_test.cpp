@@ -9,6 +9,7 @@
 #include <vector>
 #include <voussoir/core/random.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/opening.hpp>
 

@@ -10,6 +10,7 @@
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>

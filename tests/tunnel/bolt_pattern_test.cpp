@@ -150,7 +150,12 @@ TEST_SUITE("tunnel/bolt_pattern") {
     CHECK_THROWS_AS((void)bars({.length = 4, .angular_spacing = d, .from = 0, .to = nan}),
                     InvalidInput);
     const SimplePolygon elsewhere({{1, 1}, {2, 1}, {2, 2}, {1, 2}});
-    CHECK_THROWS_AS((void)bolt_bars({.length = 4, .angular_spacing = d}, elsewhere), InvalidInput);
+    CHECK_THROWS_WITH_AS(
+        (void)bolt_bars({.length = 4, .angular_spacing = d, .centre = Vec2(0, 0)}, elsewhere),
+        doctest::Contains("the tunnel centre (0, 0) m is not inside the opening"), InvalidInput);
+    // Without that they point away from its own middle.
+    for (const Segment& bar : bolt_bars({.length = 4, .angular_spacing = d}, elsewhere))
+      CHECK(std::abs(cross(bar.start - Vec2(1.5, 1.5), bar.end - bar.start)) < 1e-12);
   }
 }
 

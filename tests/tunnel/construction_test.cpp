@@ -10,6 +10,7 @@
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/construction_checks.hpp>
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
@@ -212,6 +213,59 @@ TEST_SUITE("tunnel/support_demand") {
     REQUIRE(remarks.size() == 2);
     CHECK(remarks[0] == "1 of 2 bolts cross no joint and hold nothing");
     CHECK(remarks[1] == "bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
+  }
+
+  TEST_CASE("a plan that cannot be carried out is refused before anything is done") {
+    const SimplePolygon heading({{-2, 0}, {2, 0}, {2, 2}, {-2, 2}}),
+        bench({{-2, -2}, {2, -2}, {2, 0}, {-2, 0}}), wide({{-3, -2}, {3, -2}, {3, 1}, {-3, 1}});
+    const auto said = [&](const Construction<Tunnel>& made) {
+      Tunnel tunnel = rock();
+      const std::string why = refusal([&] { (void)construct(tunnel, made); });
+      CHECK(tunnel.mass().openings.empty());
+      return why;
+    };
+    Construction<Tunnel> core, twice, overlap, sound;
+    core.add_stage("top", 0.5)
+        .excavate(heading)
+        .install_bolts({{{{-2, 1}, {-4, 1}}, {{1, 0}, {1, -3}}}, bolt});
+    core.add_stage("bottom").excavate(bench);
+    const std::string bolts = said(core);
+    CHECK(bolts.find("stage \"top\": bolt 2 runs at (1, -1) m") != std::string::npos);
+    CHECK(bolts.find("\"bottom\" takes out: install it after that") != std::string::npos);
+    twice.add_stage("first").excavate(heading);
+    twice.add_stage("second").excavate(heading);
+    CHECK(said(twice).find("stage \"second\": opening: at ") != std::string::npos);
+    CHECK(said(twice).find("it overlaps round 1") != std::string::npos);
+    overlap.add_stage("all").excavate(heading).excavate(bench).excavate(wide);
+    CHECK(said(overlap).find("it overlaps round 1") != std::string::npos);
+    // A bolt along the floor of the heading, on the wall that is to go, and beside it: sound.
+    sound.add_stage("top", 0.5)
+        .excavate(heading)
+        .install_bolts({{{{-2, 1}, {-4, 1}}, {{2, 0}, {2, -3}}, {{0, 2}, {0, 4}}}, bolt});
+    sound.add_stage("bottom", 0.5)
+        .excavate(bench)
+        .install_lining({{.nodes = 24},
+                         {shell},
+                         interface,
+                         SimplePolygon({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}})});
+    CHECK_NOTHROW(check_construction(sound, rock().mass()));
+  }
+
+  TEST_CASE("3-D: places of bars in an opening, and of those that only touch it") {
+    const PrismaticOpening drift(circular_opening(4, 12), 0, 3);
+    const auto inside = [&](const Vec3& head, const Vec3& tip) {
+      const auto place = place_inside(SpatialLine{head, tip}, drift, 1e-6);
+      if (place) CHECK(drift.contains(*place));
+      return place.has_value();
+    };
+    CHECK(inside({0, -2, 0}, {0, 5, 0}));       // ahead of the face, along the axis
+    CHECK(inside({0, -2, 1}, {1, 1, 1}));       // at an angle
+    CHECK(inside({-5, 1, 0}, {5, 1, 0}));       // across
+    CHECK(!inside({0, -2, 0}, {0, 0, 0}));      // ends at the face
+    CHECK(!inside({-5, -1, 0}, {5, -0.1, 0}));  // before it begins
+    CHECK(!inside({2.1, 0, 0}, {2.1, 3, 0}));   // beside it
+    CHECK(!inside({0, 1, 2}, {0, 1, 5}));       // from its crown
+    CHECK(!inside({0, -2, 1}, {0, -0.5, 1.5}));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/opening.hpp>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <vector>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
@@ -90,7 +91,9 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 ///
 /// Its nodes become bodies of the run. Their mass is that of the sections, their moment of inertia
 /// that of a tile; rock touches tiles of the thickness given, and may land on them.
-/// @param frame      of the mass from which the run was made
+/// @param frame      of the mass from which the run was made. It joins no other lining: those that
+/// do
+///                   are installed at rest, and set in motion
 /// @param interface_law  rock on lining
 /// @param thickness  [m], > 0
 /// @return  the lining, which the run holds too: forces are read there
@@ -122,8 +125,10 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
         {places.back(), surface.tiles(k), shares[k].mass, all_entries<dof - dim>(inertia)});
   }
   const int first = run.add_lining_nodes(nodes, interface_law);
+  std::vector<int> numbers(nodes.size());
+  std::iota(numbers.begin(), numbers.end(), first);
   auto lining = std::make_shared<LiningMembers<Geometry>>(
-      lining_elements<Lining>(frame, sections, places, first), first,
+      lining_elements<Lining>(frame, sections, places, numbers), first,
       static_cast<int>(nodes.size()));
   run.add_support(lining);
   return lining;

@@ -13,6 +13,7 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/linear/conjugate_gradients.hpp>
+#include <voussoir/linear/free_body.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
 namespace voussoir::detail {
@@ -54,6 +55,29 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
   };
   for (const int b : bodies) enter(b);
   for (const int b : remove_with_loose(system, bodies)) enter(b);
+}
+
+/// Prepares a solver of the elastic stiffness. A body that can move without resistance though all
+/// contacts are closed is held by nothing: it is dropped, and the solver prepared again.
+///
+/// Not where contacts have one point each: that lets blocks turn that real contacts hold.
+/// @throws FreeBody  in such a model, or after more than `most` bodies: it is the model that is
+/// free
+template <class System, class Prepare>
+void prepare_without_free_bodies(System& system, const SearchContext& context,
+                                 EquilibriumReport& report, Prepare&& prepare, int most = 100) {
+  const auto& contacts = system.joints.contacts();
+  for (int dropped = 0;; ++dropped) {
+    try {
+      return prepare();
+    } catch (const FreeBody& free) {
+      if (dropped == most || !system.body(free.body()).movable ||
+          std::all_of(contacts.begin(), contacts.end(),
+                      [](const auto& c) { return c.last - c.first == 1; }))
+        throw;
+      drop(system, {free.body()}, context, report);
+    }
+  }
 }
 
 /// How exact the correction of an error estimate must be.

@@ -199,7 +199,9 @@ void TwoLevel::find_by_stages(System& system, const SearchContext& context,
                               detail::ElasticCorrections<System>& elastic,
                               EquilibriumReport& whole) const {
   detail::drop(system, {}, context, whole);
-  elastic.prepare(system, params_.fire, params_.linear, context.progress, whole);
+  detail::prepare_without_free_bodies(system, context, whole, [&] {
+    elastic.prepare(system, params_.fire, params_.linear, context.progress, whole);
+  });
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return elastic.solve(f, tolerance, context.progress, whole);
   };

@@ -13,76 +13,105 @@
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
+#include <voussoir/geometry/tunnel_axis.hpp>
 
 namespace voussoir {
 
-/// A tunnel in 3-D: a section of any outline, drawn along y.
+/// An opening in 3-D: a section of any outline, drawn along a straight axis.
 ///
-/// The section's x and y are x and z in 3-D. A tunnel of unlimited length goes through all the
-/// rock; one that ends has a face there.
+/// A tunnel, a heading, a cross-drift, a shaft, a slot. Of unlimited length it goes through all the
+/// rock; one that ends has a face there, at right angles to its axis. Where it leaves the domain
+/// rock ends: a section that reaches beyond the surface is an open cut.
 class PrismaticOpening {
  public:
   static constexpr double endless = std::numeric_limits<double>::infinity();
 
-  /// @param from, to  where it begins and ends along y [m]
+  /// Along y: the section's x and y are x and z in 3-D.
+  /// @param from, to  where it begins and ends along its axis [m]
   /// @throws InvalidInput  from is not below to
   explicit PrismaticOpening(SimplePolygon section, double from = -endless, double to = endless)
-      : section_(std::move(section)), from_(from), to_(to) {
-    require(from < to, "beginning of the tunnel along y", from, "below its end");
+      : PrismaticOpening(std::move(section), TunnelAxis(), from, to) {}
+  /// Along any axis; the origin of the section lies on it.
+  PrismaticOpening(SimplePolygon section, const TunnelAxis& axis, double from = -endless,
+                   double to = endless)
+      : section_(std::move(section)), axis_(axis), from_(from), to_(to) {
+    require(from < to, "beginning of the tunnel along its axis", from, "below its end");
   }
 
   [[nodiscard]] const SimplePolygon& section() const { return section_; }
+  [[nodiscard]] const TunnelAxis& axis() const { return axis_; }
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
+  [[nodiscard]] double length() const { return to_ - from_; }
 
-  /// A point of the section, and its place along the tunnel.
-  [[nodiscard]] static Vec2 across(const Vec3& p) { return {p.x(), p.z()}; }
-  [[nodiscard]] static Vec3 in_space(const Vec2& p, double y) { return {p.x(), y, p.y()}; }
+  /// A point, or a displacement, as it is seen in the section.
+  [[nodiscard]] Vec2 across(const Vec3& p) const {
+    const Vec3 seen = axis_.local(p);
+    return {seen.x(), seen.y()};
+  }
+  [[nodiscard]] Vec2 across_direction(const Vec3& d) const {
+    const Vec3 seen = axis_.local_direction(d);
+    return {seen.x(), seen.y()};
+  }
+  /// Place of a point along the axis [m].
+  [[nodiscard]] double along(const Vec3& p) const { return axis_.local(p).z(); }
+  /// The point at a place of the section, `s` along the axis [m].
+  [[nodiscard]] Vec3 in_space(const Vec2& p, double s) const { return axis_.point(p, s); }
 
   [[nodiscard]] bool contains(const Vec3& p) const {
-    return p.y() > from_ && p.y() < to_ && section_.contains(across(p));
+    const Vec3 seen = axis_.local(p);
+    return seen.z() > from_ && seen.z() < to_ && section_.contains({seen.x(), seen.y()});
   }
+  /// The box around it in the coordinates of its axis (`TunnelAxis::local`).
+  [[nodiscard]] std::pair<Vec3, Vec3> local_box() const;
 
   /// Pieces of its surface: one for every edge of the section, then the faces at its ends.
   [[nodiscard]] std::size_t size() const { return section_.size() + ends().size(); }
-  /// Piece k as a polygon that covers it, at most `reach` long. The half space of its plane is what
-  /// lies to the left of the edge, as in the section: inside the opening next to it.
+  /// Piece k as a polygon that covers it, at most `reach` to both sides of the axis' origin. The
+  /// half space of its plane is what lies to the left of the edge, as in the section: inside the
+  /// opening next to it.
   [[nodiscard]] JointPlane side(std::size_t k, double reach) const;
 
  private:
   [[nodiscard]] std::vector<double> ends() const {
     std::vector<double> found;
-    for (const double y : {from_, to_})
-      if (std::isfinite(y)) found.push_back(y);
+    for (const double s : {from_, to_})
+      if (std::isfinite(s)) found.push_back(s);
     return found;
   }
 
   SimplePolygon section_;
+  TunnelAxis axis_;
   double from_, to_;
 };
 
 #if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE auto PrismaticOpening::local_box() const -> std::pair<Vec3, Vec3> {
+  Vec2 low = section_.vertices().front(), high = low;
+  for (const Vec2& v : section_.vertices()) {
+    low = smaller_of(low, v);
+    high = larger_of(high, v);
+  }
+  return {Vec3(low.x(), low.y(), from_), Vec3(high.x(), high.y(), to_)};
+}
 
 VOUSSOIR_INLINE auto PrismaticOpening::side(std::size_t k, double reach) const -> JointPlane {
   const double from = std::max(from_, -reach), to = std::min(to_, reach);
   if (k < section_.size()) {
     const Segment edge = section_.edge(k);
     const HalfSpace<2> line = left_of(edge.start, edge.end);
-    const Vec3 normal = in_space(line.normal, 0);
-    return {{normal, line.offset},
+    const Vec3 normal = axis_.direction(line.normal);
+    return {{normal, line.offset + dot_product(normal, axis_.origin())},
             {in_space(edge.start, from), in_space(edge.start, to), in_space(edge.end, to),
              in_space(edge.end, from)}};
   }
   // The rectangle around the section: what it cuts beside the face stays one body.
-  Vec2 low = section_.vertices().front(), high = low;
-  for (const Vec2& v : section_.vertices()) {
-    low = smaller_of(low, v);
-    high = larger_of(high, v);
-  }
-  const double y = ends()[k - section_.size()];
-  return {{Vec3(0, 1, 0), y},
-          {in_space(low, y), in_space({low.x(), high.y()}, y), in_space(high, y),
-           in_space({high.x(), low.y()}, y)}};
+  const auto [low, high] = local_box();
+  const double s = ends()[k - section_.size()];
+  return {{axis_.along(), s + dot_product(axis_.along(), axis_.origin())},
+          {in_space({low.x(), low.y()}, s), in_space({low.x(), high.y()}, s),
+           in_space({high.x(), high.y()}, s), in_space({high.x(), low.y()}, s)}};
 }
 
 #endif

@@ -144,6 +144,8 @@ VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, 
   draw_fallen_blocks(canvas, picture, map);
   canvas.end_layer();
   canvas.begin_layer("opening");
+  for (const std::vector<Vec2>& other : picture.other_openings)
+    canvas.polygon(on_page(other, map), {.stroke = "#111", .stroke_width = 1.6});
   canvas.polygon(on_page(picture.outline, map), {.stroke = "#111", .stroke_width = 1.6});
   if (picture.ground_surface) draw_ground(canvas, *picture.ground_surface, map, 8);
   canvas.end_layer();

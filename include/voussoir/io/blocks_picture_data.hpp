@@ -64,8 +64,9 @@ struct BlocksPicture {
   PictureHeader header;              ///< title, verdict in words, key numbers
   std::vector<PictureBlock> blocks;  ///< or convex parts of blocks
   std::vector<PictureJoint> joints;
-  std::vector<Vec2> outline;             ///< of the opening, closed, first point not repeated [m]
-  std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
+  std::vector<Vec2> outline;  ///< of the opening, closed, first point not repeated [m]
+  std::vector<std::vector<Vec2>> other_openings{};  ///< excavated before it, the same
+  std::optional<double> ground_surface;             ///< y [m]; none: too far up to matter
   std::vector<PictureBolt> bolts;
   std::optional<PictureLining> lining;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
@@ -82,11 +83,14 @@ struct BlocksPicture {
   return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
 }
 
-/// Three diameters (or what is asked) of rock, the opening in the middle.
+/// Three diameters (or what is asked) of rock, the openings in the middle.
 /// @return  the whole model if there is no opening
 [[nodiscard]] inline ViewRect view_around_opening(const BlocksPicture& picture,
                                                   double diameters = 3) {
-  const std::optional<ViewRect> opening = bounding_rect(picture.outline);
+  std::vector<Vec2> corners = picture.outline;
+  for (const std::vector<Vec2>& other : picture.other_openings)
+    corners.insert(corners.end(), other.begin(), other.end());
+  const std::optional<ViewRect> opening = bounding_rect(corners);
   if (!opening) return view_of_everything(picture);
   const double half = std::max(opening->width(), opening->height()) * diameters / 2;
   return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};

@@ -70,6 +70,8 @@ namespace detail {
          joint.report.is_open ? PictureJoint::State::opened : PictureJoint::State::slipped});
   }
   if (!mass.openings.empty()) picture.outline = mass.openings.back().vertices();
+  for (std::size_t k = 0; k + 1 < mass.openings.size(); ++k)
+    picture.other_openings.push_back(mass.openings[k].vertices());
   picture.ground_surface = mass.domain.surface();
   for (const Segment& bar : bars) picture.bolts.push_back({bar.start, bar.end, {}});
   for (const CrossingForce& at : state.bolts) {

@@ -70,6 +70,9 @@ struct FrameElement {
   /// Forces on the ends at displacement zero, element axes: not zero once contacts have been
   /// updated and the element has turned.
   Values start = zeros<Values>();
+  /// What `deformation` would find of it where it is free of force: not zero of a member between
+  /// nodes that had moved when it was installed.
+  Values unstrained = zeros<Values>();
   bool is_pinned = false;  ///< its nodes turn as they like: that strains it only where they cannot
 
   /// Forces on the two ends in element axes at displacement `u`.
@@ -101,6 +104,15 @@ struct FrameElement {
     start = forces - end_forces(u);
   }
 
+  /// Makes it free of force where its nodes are now.
+  /// @param u  their displacement
+  void install_at(const Pose<dim>& a, const Pose<dim>& b, const double* u) {
+    unstrained = zeros<Values>();
+    unstrained = deformation(a, b);
+    start = zeros<Values>();
+    start = -end_forces(u);
+  }
+
   void add_force(const double* u, double* f) const {
     const Values push = -(transposed(turn) * end_forces(u));
     add_at<dof>(f + dof * i, part<dof>(push, 0));
@@ -120,10 +132,12 @@ struct FrameElement {
     const Vec<dim> along = b.position - a.position;
     const Rotation<dim> now = axes_along(along, a);
     Values q = zeros<Values>();
-    q[dof] = along.norm() - length;
+    q[dof] = along.norm() - length - unstrained[dof];
     if (is_pinned) return q;
-    write_at(q.data() + dim, small_turn(now * a.rotation * transposed(at_rest)));
-    write_at(q.data() + dof + dim, small_turn(now * b.rotation * transposed(at_rest)));
+    write_at(q.data() + dim, Spin<dim>(small_turn(now * a.rotation * transposed(at_rest)) -
+                                       part<dof - dim>(unstrained, dim)));
+    write_at(q.data() + dof + dim, Spin<dim>(small_turn(now * b.rotation * transposed(at_rest)) -
+                                             part<dof - dim>(unstrained, dof + dim)));
     return q;
   }
   /// Axes of the element along a chord, its second axis turned with node a.

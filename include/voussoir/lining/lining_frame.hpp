@@ -40,7 +40,98 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> members;
   std::vector<LiningContact<Geometry>> contacts;
   std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
+  /// Places beside its ends where nodes of a lining that stands may be [m].
+  std::vector<Vec<Geometry::dim>> neighbours{};
+  /// Members that join it to those: the number of neighbour m is nodes.size() + m. Where nothing
+  /// stands there is no such member.
+  std::vector<LiningMember<Geometry>> joints{};
+
+  /// Of a node, or of a neighbour behind them.
+  [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {
+    const auto at = static_cast<std::size_t>(k);
+    return at < nodes.size() ? nodes[at] : neighbours[at - nodes.size()];
+  }
 };
+
+/// The frame with those neighbours that are there; what joins them is among its members.
+/// @param is_there  is_there(index of the neighbour), asked once for each, in their order
+template <class Geometry, class IsThere>
+[[nodiscard]] LiningFrame<Geometry> with_neighbours(LiningFrame<Geometry> frame,
+                                                    IsThere&& is_there) {
+  const int nodes = static_cast<int>(frame.nodes.size());
+  std::vector<int> number(frame.neighbours.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < number.size(); ++m)
+    if (is_there(m)) {
+      number[m] = nodes + static_cast<int>(kept);
+      frame.neighbours[kept++] = frame.neighbours[m];
+    }
+  frame.neighbours.resize(kept, zeros<Vec<Geometry::dim>>());
+  for (LiningMember<Geometry> joint : frame.joints) {
+    for (int* end : {&joint.first, &joint.second})
+      if (*end >= nodes) *end = number[static_cast<std::size_t>(*end - nodes)];
+    if (joint.first >= 0 && joint.second >= 0) frame.members.push_back(joint);
+  }
+  frame.joints.clear();
+  return frame;
+}
+
+/// The frame whose ends begin at nodes that stand: these become neighbours, with the members that
+/// lead to them as joints. What lies on a standing lining as a whole, a second layer, stays.
+/// @param stands  stands(place): whether a lining has a node there
+template <class Geometry, class Stands>
+[[nodiscard]] LiningFrame<Geometry> with_shared_ends(const LiningFrame<Geometry>& frame,
+                                                     Stands&& stands) {
+  const std::size_t count = frame.nodes.size();
+  std::vector<char> is_end(count, 0), is_standing(count, 0), leads_on(count, 0);
+  for (const auto& joint : frame.joints)
+    for (const int end : {joint.first, joint.second})
+      if (static_cast<std::size_t>(end) < count) is_end[static_cast<std::size_t>(end)] = 1;
+  for (std::size_t k = 0; k < count; ++k) is_standing[k] = is_end[k] && stands(frame.nodes[k]);
+  for (const auto& m : frame.members) {
+    const auto i = static_cast<std::size_t>(m.first), j = static_cast<std::size_t>(m.second);
+    if (is_standing[i] != is_standing[j]) leads_on[i] = leads_on[j] = 1;
+  }
+  LiningFrame<Geometry> rest;
+  std::vector<int> number(count + frame.neighbours.size(), -1);
+  const auto is_shared = [&](int k) {
+    const auto at = static_cast<std::size_t>(k);
+    return at < count && is_standing[at] && leads_on[at];
+  };
+  for (std::size_t k = 0; k < count; ++k)
+    if (!is_shared(static_cast<int>(k))) {
+      number[k] = static_cast<int>(rest.nodes.size());
+      rest.nodes.push_back(frame.nodes[k]);
+    }
+  for (std::size_t k = 0; k < number.size(); ++k)
+    if (number[k] < 0) {
+      number[k] = static_cast<int>(rest.nodes.size() + rest.neighbours.size());
+      rest.neighbours.push_back(frame.place(static_cast<int>(k)));
+    }
+  const auto renumbered = [&](LiningMember<Geometry> m) {
+    m.first = number[static_cast<std::size_t>(m.first)];
+    m.second = number[static_cast<std::size_t>(m.second)];
+    return m;
+  };
+  for (const auto& m : frame.members) {
+    if (is_shared(m.first) && is_shared(m.second)) continue;
+    (is_shared(m.first) || is_shared(m.second) ? rest.joints : rest.members)
+        .push_back(renumbered(m));
+  }
+  for (const auto& m : frame.joints)
+    if (!is_shared(m.first) && !is_shared(m.second)) rest.joints.push_back(renumbered(m));
+  for (auto c : frame.contacts)
+    if (!is_shared(c.node)) {
+      c.node = number[static_cast<std::size_t>(c.node)];
+      rest.contacts.push_back(c);
+    }
+  for (auto p : frame.panels)
+    if (!is_shared(p.node)) {
+      p.node = number[static_cast<std::size_t>(p.node)];
+      rest.panels.push_back(p);
+    }
+  return rest;
+}
 
 /// What a node has of the members that meet there.
 struct LiningNodeShare {
@@ -48,17 +139,17 @@ struct LiningNodeShare {
   double mass = 0;    ///< [kg]
 };
 
-/// @return  one for every node
+/// @return  one for every node and neighbour; of the latter what the members that join them add
 /// @throws InvalidInput  a member without length, or of a section that is not given
 template <class Geometry>
 [[nodiscard]] std::vector<LiningNodeShare> node_shares(const LiningFrame<Geometry>& frame,
                                                        const std::vector<LiningSection>& sections) {
-  std::vector<LiningNodeShare> shares(frame.nodes.size());
+  std::vector<LiningNodeShare> shares(frame.nodes.size() + frame.neighbours.size());
   for (const auto& member : frame.members) {
     const auto i = static_cast<std::size_t>(member.first),
                j = static_cast<std::size_t>(member.second);
     VOUSSOIR_ASSERT(i < shares.size() && j < shares.size(), "a member joins nodes of its frame");
-    const double length = (frame.nodes[j] - frame.nodes[i]).norm();
+    const double length = (frame.place(member.second) - frame.place(member.first)).norm();
     require(length > 0, "length of a lining member", length, "> 0 m");
     require(member.section >= 0 && static_cast<std::size_t>(member.section) < sections.size(),
             "section of a lining member", member.section, "the index of a section given");

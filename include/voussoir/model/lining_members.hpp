@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -10,12 +11,13 @@
 
 namespace voussoir {
 
-/// The members of a lining, whose nodes are bodies: elastic, strained by the change of their chord
-/// and the turns of their nodes against it, however far the lining as a whole moves.
+/// Members between bodies, of a lining or from one lining to another: elastic, strained by the
+/// change of their chord and the turns of their nodes against it, however far they move as a whole.
 ///
-/// Nodes do not lie turned when they are added.
-template <class Geometry>
-class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim> {
+/// Nodes do not lie turned when members between them are added, but for `FrameElement::install_at`.
+template <class Derived, class Geometry>
+class FrameMembers : public SupportModel<Derived, Geometry::dim> {
+ protected:
   static constexpr int dim = Geometry::dim, dof = Geometry::dof;
   using Base = Support<dim>;
 
@@ -27,17 +29,18 @@ class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim
   using typename Base::StiffnessSink;
 
   /// @param members  between bodies, free of force where these are now
-  /// @param first    body that is the first node;  @param count  of nodes
-  LiningMembers(std::vector<Element> members, int first, int count)
-      : members_(std::move(members)), first_(first), count_(count) {}
+  explicit FrameMembers(std::vector<Element> members) : members_(std::move(members)) {}
 
   [[nodiscard]] const std::vector<Element>& members() const { return members_; }
-  [[nodiscard]] int first_node() const { return first_; }
-  [[nodiscard]] int node_count() const { return count_; }
 
   [[nodiscard]] std::vector<int> bodies() const override {
-    std::vector<int> held(static_cast<std::size_t>(count_));
-    for (int k = 0; k < count_; ++k) held[static_cast<std::size_t>(k)] = first_ + k;
+    std::vector<int> held;
+    for (const Element& m : members_) {
+      held.push_back(m.i);
+      held.push_back(m.j);
+    }
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
     return held;
   }
   [[nodiscard]] std::vector<std::pair<int, int>> links() const override {
@@ -52,7 +55,6 @@ class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim
 
   void take_over(const Heirs<dim>& heirs) override {
     const auto number = [&](int b) { return heirs(b, zeros<Vec<dim>>()).body; };
-    first_ = number(first_);
     for (Element& m : members_) {
       m.i = number(m.i);
       m.j = number(m.j);
@@ -127,7 +129,44 @@ class LiningMembers : public SupportModel<LiningMembers<Geometry>, Geometry::dim
   }
 
   std::vector<Element> members_;
+};
+
+/// The members of a lining, whose nodes are bodies, one after the other.
+template <class Geometry>
+class LiningMembers : public FrameMembers<LiningMembers<Geometry>, Geometry> {
+  using Base = FrameMembers<LiningMembers<Geometry>, Geometry>;
+
+ public:
+  using typename Base::Element;
+
+  /// @param members  between its nodes, free of force where these are now
+  /// @param first    body that is the first node;  @param count  of nodes
+  LiningMembers(std::vector<Element> members, int first, int count)
+      : Base(std::move(members)), first_(first), count_(count) {}
+
+  [[nodiscard]] int first_node() const { return first_; }
+  [[nodiscard]] int node_count() const { return count_; }
+
+  [[nodiscard]] std::vector<int> bodies() const override {
+    std::vector<int> held(static_cast<std::size_t>(count_));
+    for (int k = 0; k < count_; ++k) held[static_cast<std::size_t>(k)] = first_ + k;
+    return held;
+  }
+  void take_over(const Heirs<Geometry::dim>& heirs) override {
+    first_ = heirs(first_, zeros<Vec<Geometry::dim>>()).body;
+    Base::take_over(heirs);
+  }
+
+ private:
   int first_, count_;
+};
+
+/// Members that join the end of a lining to one that stood before: what carries on an arch, a ring
+/// or a row of ribs.
+template <class Geometry>
+class LiningJoints : public FrameMembers<LiningJoints<Geometry>, Geometry> {
+ public:
+  using FrameMembers<LiningJoints<Geometry>, Geometry>::FrameMembers;
 };
 
 }  // namespace voussoir

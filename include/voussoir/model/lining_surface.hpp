@@ -103,13 +103,13 @@ struct InstalledLining {
 };
 
 /// The members of a lining between its nodes.
-/// @param places  of the nodes [m]
-/// @param first   body that is the first node
+/// @param places  of the nodes, and of the neighbours behind them [m]
+/// @param bodies  that they are
 /// @throws InvalidInput  a member without length, or of a section that is not given
 template <class Lining, class Geometry>
 [[nodiscard]] std::vector<FrameElement<Geometry>> lining_elements(
     const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-    const std::vector<Vec<Geometry::dim>>& places, int first) {
+    const std::vector<Vec<Geometry::dim>>& places, const std::vector<int>& bodies) {
   std::vector<FrameElement<Geometry>> elements;
   elements.reserve(frame.members.size());
   for (const auto& member : frame.members) {
@@ -118,7 +118,8 @@ template <class Lining, class Geometry>
     const double length = along.norm();
     require(length > 0, "length of a lining member", length, "> 0 m");
     const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
-    elements.push_back({first + member.first, first + member.second, length,
+    elements.push_back({bodies[static_cast<std::size_t>(member.first)],
+                        bodies[static_cast<std::size_t>(member.second)], length,
                         frame_axes<Geometry::dim>(along, member.outward),
                         Lining::template stiffness<Geometry::dof>(section, length)});
     elements.back().is_pinned = is_pinned_lining<Lining>();

@@ -217,7 +217,8 @@ class System {
 
   /// Movable bodies without a chain of contacts and lining members to a body that cannot move: they
   /// fall whatever the forces, alone or as a group that holds nothing but itself. Bolts alone do
-  /// not hold: a block could still turn about them.
+  /// not hold: a block could still turn about them. Nor do the upright edges of the domain, which
+  /// are smooth.
   [[nodiscard]] std::vector<int> unsupported() const;
 
   /// Weight of the lightest block: the scale for weightless lining nodes [N].
@@ -385,7 +386,9 @@ std::vector<int> System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::unsupp
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (!bodies_[b].movable) up[b] = fixed;
   for (const auto& c : joints.contacts()) link(c.a, c.b);
-  for (const auto& c : boundary.contacts()) link(c.a, c.b);
+  // Edges of the domain are smooth: a side holds nothing up, what stands on the bottom is held.
+  for (const auto& c : boundary.contacts())
+    if (std::abs(c.normal[dim - 1]) > 1e-3) link(c.a, c.b);
   for (const auto& c : interface.contacts()) link(c.a, c.b);
   for (const auto& support : supports)
     for (const auto& [a, b] : support->links()) link(a, b);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -25,19 +27,29 @@ template <class Geometry>
   return std::min(area * std::sqrt(area), 0.1 * mean);
 }
 
+/// From where to where along its axis an opening lies inside the domain [m]: of an inclined one as
+/// far as any part of the domain reaches.
+[[nodiscard]] inline std::pair<double, double> stretch_inside(const PrismaticOpening& opening,
+                                                              const Domain<3>& domain) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1 ? domain.high : domain.low).x(),
+                 (corner & 2 ? domain.high : domain.low).y(),
+                 (corner & 4 ? domain.high : domain.low).z());
+    low = std::min(low, opening.along(p));
+    high = std::max(high, opening.along(p));
+  }
+  return {std::max(opening.from(), low), std::min(opening.to(), high)};
+}
+
 /// Length of tunnel over which lost rock is counted (see `SearchContext::open_length`) [m].
 [[nodiscard]] inline double open_length(const RockMass<Planar>&) { return 1; }
 [[nodiscard]] inline double open_length(const RockMass<Spatial>& mass) {
   if (mass.openings.empty()) return 1;
   const PrismaticOpening& opening = mass.openings.back();
-  double low = opening.section().vertices().front().x(), high = low;
-  for (const Vec2& v : opening.section().vertices()) {
-    low = std::min(low, v.x());
-    high = std::max(high, v.x());
-  }
-  const double length =
-      std::min(opening.to(), mass.domain.high.y()) - std::max(opening.from(), mass.domain.low.y());
-  return std::min(length, high - low);
+  const auto [low, high] = opening.local_box();
+  const auto [from, to] = stretch_inside(opening, mass.domain);
+  return std::min(to - from, high.x() - low.x());
 }
 
 }  // namespace voussoir

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/in_situ.hpp>
+#include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/composition.hpp>
 
@@ -102,6 +104,7 @@ class ComposedSolver {
 
   /// Installs a lining on the wall in its present position, free of force. There may be several, on
   /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
+  /// One that begins where another ends joins it (`LiningFrame::neighbours`).
   /// @param interface_law  rock on lining
   /// @throws InvalidInput  a member has no length, or no rock touches it
   void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
@@ -220,6 +223,13 @@ class ComposedSolver {
   /// @return  the largest of them
   double aim_at(const std::vector<double>& wall_fractions);
 
+  /// Members between the nodes of a lining, and from these to some that stand.
+  void add_lining_members(const LiningFrame<Geometry>& frame,
+                          const std::vector<LiningSection>& sections, int first_node,
+                          const std::vector<int>& standing);
+  /// The node of a lining that was installed at a place; -1: there is none.
+  [[nodiscard]] int standing_node(const Vec<dim>& place) const;
+
   /// The intersections of a bar without the bodies that are detached.
   [[nodiscard]] std::vector<BlockIntersection> intersections_of_present_rock(
       const typename Geometry::Line& bar) const;
@@ -297,10 +307,14 @@ void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
                                       double smallest_piece, const Progress& progress) {
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   if (started_ || walls_.count() > 0) return excavate_further(opening, smallest_piece, progress);
-  system_.shapes.reset();  // they are those of the mass
-  const bool is_shared = mass_.use_count() > 1;
+  check_opening(opening, *mass_);
+  // A small mass is copied, and one that may be cut in two: if that is refused the solver stays as
+  // it was. The mass is held by its shapes, too.
+  const bool is_kept =
+      mass_.use_count() > 2 || mass_->bodies.size() < 10000 || may_part(opening, mass_->domain);
+  if (!is_kept) system_.shapes.reset();
   mass_ = std::make_shared<RockMass<Geometry>>(
-      carve(is_shared ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
+      carve(is_kept ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
   system_ = SystemType(joint_laws_, joint_laws_.stiffest());
   build(progress);
   hold_wall();
@@ -391,13 +405,21 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
 }
 
 template <class Models>
-void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
+void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& wanted,
                                             const std::vector<LiningSection>& sections,
                                             const InterfaceLaw& interface_law) {
-  if (std::none_of(frame.contacts.begin(), frame.contacts.end(),
+  if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                    [this](const auto& c) { return system_.body(c.body).movable; }))
     throw InvalidInput("lining: no rock touches it");
+  const LiningFrame<Geometry> beside =
+      with_shared_ends(wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
   const int first_node = system_.body_count();
+  std::vector<int> standing;
+  const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
+    const int node = standing_node(beside.neighbours[m]);
+    if (node >= 0) standing.push_back(node);
+    return node >= 0;
+  });
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
   for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
     const double weight = shares[k].mass * in_situ_.gravity;
@@ -406,9 +428,10 @@ void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
     system_.load[dof * node + dim - 1] = -weight;
     measures_.push_back(0.0);
   }
-  system_.supports.add(std::make_shared<LiningType>(
-      lining_elements<Lining>(frame, sections, frame.nodes, first_node), first_node,
-      static_cast<int>(frame.nodes.size())));
+  add_lining_members(frame, sections, first_node, standing);
+  for (std::size_t m = 0; m < standing.size(); ++m)
+    system_.load[dof * standing[m] + dim - 1] -=
+        shares[frame.nodes.size() + m].mass * in_situ_.gravity;
   const int law = system_.interface.add_law(interface_law);
   double thickness = 0;
   for (const LiningSection& section : sections)
@@ -433,6 +456,36 @@ void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& frame,
   }
   system_.interface.touch_at(system_.displacement.data(), before);
   started_ = true;
+}
+
+template <class Models>
+void ComposedSolver<Models>::add_lining_members(const LiningFrame<Geometry>& frame,
+                                                const std::vector<LiningSection>& sections,
+                                                int first_node, const std::vector<int>& standing) {
+  std::vector<int> bodies(frame.nodes.size());
+  std::iota(bodies.begin(), bodies.end(), first_node);
+  bodies.insert(bodies.end(), standing.begin(), standing.end());
+  std::vector<Vec<dim>> places = frame.nodes;
+  places.insert(places.end(), frame.neighbours.begin(), frame.neighbours.end());
+  std::vector<FrameElement<Geometry>> own, joints;
+  for (FrameElement<Geometry>& e : lining_elements<Lining>(frame, sections, places, bodies)) {
+    const bool joins = e.i < first_node || e.j < first_node;
+    if (joins) e.install_at(system_.pose(e.i), system_.pose(e.j), system_.displacement.data());
+    (joins ? joints : own).push_back(e);
+  }
+  system_.supports.add(std::make_shared<LiningType>(std::move(own), first_node,
+                                                    static_cast<int>(frame.nodes.size())));
+  if (!joints.empty())
+    system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
+}
+
+template <class Models>
+int ComposedSolver<Models>::standing_node(const Vec<dim>& place) const {
+  const double near = 1e3 * mass_->domain.tolerance();
+  for (const LiningType* lining : linings())
+    for (int n = lining->first_node(); n < lining->first_node() + lining->node_count(); ++n)
+      if (system_.body(n).movable && (system_.body(n).centre - place).norm() < near) return n;
+  return -1;
 }
 
 template <class Models>

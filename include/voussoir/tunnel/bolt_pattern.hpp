@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
@@ -12,16 +13,19 @@
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/geometry/spatial_line.hpp>
+#include <voussoir/tunnel/opening_centre.hpp>
 
 namespace voussoir {
 
-/// Radial bolts along an arc of the wall. Angles run anticlockwise from the right-hand springing.
+/// Radial bolts along an arc of the wall. Angles run anticlockwise from the right-hand springing,
+/// about the centre of the opening.
 struct BoltPattern {
   double length;                 ///< [m], > 0
   double angular_spacing = 0;    ///< [rad]; 0: use `wall_spacing`
   double wall_spacing = 0;       ///< along the wall [m]; 0: use `angular_spacing`
   double from = 0;               ///< [rad]
   double to = std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
+  std::optional<Vec2> centre{};  ///< where bolts point away from [m]; none: see `centre_of`
 };
 
 /// The bars of a pattern, head (on the wall) first, in the order of their angle. As many as fit the
@@ -31,10 +35,10 @@ struct BoltPattern {
 [[nodiscard]] VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
                                                              const SimplePolygon& opening);
 
-/// The bars of rows of bolts along a tunnel in 3-D, row by row; the first row lies half a spacing
-/// from its beginning.
-/// @param row_spacing  along the tunnel [m], > 0
-/// @param from, to     the stretch of the tunnel to bolt [m]
+/// The bars of rows of bolts along an opening in 3-D, at right angles to its axis, row by row; the
+/// first row lies half a spacing from its beginning.
+/// @param row_spacing  along the axis [m], > 0
+/// @param from, to     the stretch to bolt, places along the axis [m]
 /// @throws InvalidInput  as above, or the spacing or stretch out of range
 [[nodiscard]] VOUSSOIR_INLINE std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
                                                                  const PrismaticOpening& opening,
@@ -53,13 +57,16 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
   const double spacing = angular ? pattern.angular_spacing : pattern.wall_spacing;
   require(spacing > 0 && std::isfinite(spacing) && !(pattern.wall_spacing > 0 && angular),
           "bolt spacing", spacing, "> 0, either along the wall or as an angle");
+  const Vec2 centre = pattern.centre.value_or(centre_of(opening));
   double reach = 0;
-  for (const Vec2& v : opening.vertices()) reach = std::max(reach, length_of(v));
+  for (const Vec2& v : opening.vertices()) reach = std::max(reach, length_of(Vec2(v - centre)));
   const auto wall_point = [&](double angle) {
     const Vec2 far = 2 * reach * Vec2(std::cos(angle), std::sin(angle));
-    const auto t = opening.last_crossing({zeros<Vec2>(), far});
-    if (!t) throw InvalidInput("bolts: the tunnel centre is not inside the opening");
-    return Vec2(*t * far);
+    const auto t = opening.last_crossing({centre, centre + far});
+    if (!t)
+      throw InvalidInput("bolts: the tunnel centre " + text_of<2>(centre) +
+                         " m is not inside the opening: give `centre`");
+    return Vec2(centre + *t * far);
   };
   // Arc length along the wall as a function of the angle, finely sampled; the identity if angular.
   constexpr int samples = 3600;
@@ -106,8 +113,7 @@ VOUSSOIR_INLINE std::vector<SpatialLine> bolt_bars(const BoltPattern& pattern,
   for (int k = 0; k < rows; ++k)
     for (const Segment& bar : row) {
       const double y = from + (k + 0.5) * row_spacing;
-      bars.push_back(
-          {PrismaticOpening::in_space(bar.start, y), PrismaticOpening::in_space(bar.end, y)});
+      bars.push_back({opening.in_space(bar.start, y), opening.in_space(bar.end, y)});
     }
   return bars;
 }

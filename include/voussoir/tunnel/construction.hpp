@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,8 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
+#include <voussoir/tunnel/construction_checks.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 
@@ -38,7 +41,7 @@ struct BoltInstallation {
   typename Solver::Anchors anchors = {};
 };
 
-/// A lining on the wall of the last opening.
+/// A lining on the wall of an opening.
 template <class Solver>
 struct LiningInstallation {
   /// Where nodes and members lie: `LiningRing` in 2-D, `LiningRibs` in 3-D.
@@ -46,6 +49,8 @@ struct LiningInstallation {
   Layout layout = {};
   std::vector<LiningSection> sections;  ///< those that the members of the layout name
   typename Solver::InterfaceLaw interface_law;
+  /// That is lined: the last one, unless another is given, or the section that several rounds make.
+  std::optional<typename Solver::Geometry::Opening> opening = {};
 };
 
 /// One stage, in this order: rock is taken out; bolts and linings are installed where the rock is
@@ -158,8 +163,10 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
       result.bars.push_back(bar);
     }
   for (const auto& lining : stage.linings)
-    solver.install_lining(lining_frame(solver.mass(), lining.layout), lining.sections,
-                          lining.interface_law);
+    solver.install_lining(lining.opening
+                              ? lining_frame(solver.mass(), *lining.opening, lining.layout)
+                              : lining_frame(solver.mass(), lining.layout),
+                          lining.sections, lining.interface_law);
 }
 
 }  // namespace detail
@@ -169,8 +176,9 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
 ///
 /// @param progress  asked now and then whether to go on. A search that it stops is undecided, with
 ///                  `report.stopped`
-/// @throws InvalidInput    no stages, or one that cannot be carried out: the message names it;
-///                         those before it have been
+/// @throws InvalidInput    no stages, or what `check_construction` refuses, and nothing has been
+///                         done; or a stage that cannot be carried out: the message names it, those
+///                         before it have been
 /// @throws NumericalFault  see the method
 /// @throws Stopped         while rock was taken out or bolts were installed
 template <class Solver>
@@ -179,6 +187,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
                                                         const StageProgress& progress = {}) {
   if (construction.stages.empty())
     throw InvalidInput("construction: has no stages; accepted: at least one");
+  check_construction(construction, solver.mass());
   ConstructionResult<typename Solver::Geometry> result;
   result.first_bolt = solver.bolt_count();
   for (const ConstructionStage<Solver>& stage : construction.stages) {

@@ -12,15 +12,18 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
+#include <voussoir/tunnel/opening_centre.hpp>
 
 namespace voussoir {
 
-/// A lining along the wall: the full ring, or an arc of it.
+/// A lining along the wall: the full ring, or an arc of it about the centre of the opening. An arc
+/// next to one that stands on the same outline, with as many nodes, joins it.
 struct LiningRing {
   int nodes = 72;                    ///< on the full outline; evenly spaced, 8 to 2000
   double from = 0;                   ///< [rad], anticlockwise from the right-hand springing
   double to = 2 * std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
+  std::optional<Vec2> centre{};      ///< about which angles are counted [m]; none: see `centre_of`
 };
 
 namespace detail {
@@ -40,6 +43,13 @@ struct RingNodes {
   std::vector<int> number;   ///< for every stretch, index into `places`, or -1
 
   std::vector<char> joined;  ///< for every node, whether a member joins it and the next
+  /// A place of the full ring next to a node at an end of an arc.
+  struct Neighbour {
+    int node;
+    Vec2 place;     ///< [m]
+    bool is_after;  ///< it follows the node, anticlockwise
+  };
+  std::vector<Neighbour> neighbours{};
 
   /// The first stretch that reaches beyond a place on the outline; -1: the last one, of which the
   /// end lies behind vertex 0.
@@ -77,26 +87,35 @@ struct OutlinePart {
 /// piece of wall in its stretch touches it at one point, so a uniform pressure loads the node
 /// without turning it. On a partial ring a node is there if its angle lies in the arc.
 ///
-/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc
+/// @param opening  that is lined; its outline may be that of a section taken out in rounds
+/// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc; rock
+///                       that is not yet excavated where a node would be, or no rock at all because
+///                       that is outside the domain
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
+                                                               const SimplePolygon& opening,
+                                                               const LiningRing& ring);
+/// The same on the wall of the last opening.
 [[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
                                                                const LiningRing& ring);
 
-/// A lining in 3-D: ribs, lattice girders or strips of shotcrete across the tunnel, and what
-/// joins them along it.
-struct LiningRibs {
-  LiningRing ring{};   ///< one rib
-  double spacing = 1;  ///< of the ribs along the tunnel [m], > 0
-  bool tied = true;    ///< longitudinal members join the nodes of neighbouring ribs
-};
+namespace detail {
 
-/// Nodes and members of ribs over the length of the last opening inside the domain: members across
-/// the tunnel have section 0, members along it section 1. Every rib stands for the rock up to half
-/// its spacing on both sides; each piece of wall there touches its node at one point.
-///
-/// @throws InvalidInput  as `lining_frame` of a ring; spacing out of range or longer than the
-/// tunnel
-[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                                const LiningRibs& ribs);
+/// Refuses to line what is not yet excavated, or lies outside the domain.
+/// @param inside  a point of the opening in front of the wall
+template <class Geometry>
+void require_excavated(const RockMass<Geometry>& mass, const Vec<Geometry::dim>& inside) {
+  const auto& domain = mass.domain;
+  if (any_less(inside, domain.low) || any_less(domain.high, inside))
+    throw InvalidInput("lining: at " + text_of<Geometry::dim>(inside) +
+                       " m it is outside the domain: line an arc or a stretch inside it");
+  for (const auto& opening : mass.openings)
+    if (opening.contains(inside)) return;
+  throw InvalidInput("lining: at " + text_of<Geometry::dim>(inside) +
+                     " m rock is not yet excavated: excavate it first, or line an arc or a stretch "
+                     "of what is");
+}
+
+}  // namespace detail
 
 #if VOUSSOIR_BODIES
 
@@ -146,10 +165,11 @@ VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningR
     return opening.vertices().front();
   };
   const bool closed = nodes.closed = arc > circle * (1 - 1e-9);
+  const Vec2 centre = ring.centre.value_or(centre_of(opening));
   nodes.number.assign(static_cast<std::size_t>(ring.nodes), -1);
   // Start behind the gap of a partial ring, so that consecutive nodes are neighbours.
   const auto inside = [&](const Vec2& p) {
-    const double angle = std::atan2(p.y(), p.x()) - ring.from;
+    const double angle = std::atan2(p.y() - centre.y(), p.x() - centre.x()) - ring.from;
     return closed || angle - circle * std::floor(angle / circle) <= arc;
   };
   int start = 0;
@@ -170,6 +190,14 @@ VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningR
   }
   if (nodes.places.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
   nodes.joined.push_back(closed);
+  for (int k = 0; k < ring.nodes; ++k)
+    for (const int step : {-1, 1}) {
+      const int next = (k + step + ring.nodes) % ring.nodes;
+      if (nodes.number[static_cast<std::size_t>(k)] >= 0 &&
+          nodes.number[static_cast<std::size_t>(next)] < 0)
+        nodes.neighbours.push_back({nodes.number[static_cast<std::size_t>(k)],
+                                    point_at((next + 0.5) * stretch), step > 0});
+    }
   return nodes;
 }
 
@@ -196,18 +224,36 @@ VOUSSOIR_INLINE std::vector<OutlinePart> outline_parts(const SimplePolygon& open
 VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
                                                  const LiningRing& ring) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  const detail::RingNodes nodes = detail::ring_nodes(mass.openings.back(), ring);
+  return lining_frame(mass, mass.openings.back(), ring);
+}
+
+VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
+                                                 const SimplePolygon& opening,
+                                                 const LiningRing& ring) {
+  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
+  const detail::RingNodes nodes = detail::ring_nodes(opening, ring);
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
     if (nodes.joined[n])
       frame.members.push_back(
           {static_cast<int>(n), n + 1 == nodes.places.size() ? 0 : static_cast<int>(n) + 1});
-  const double shortest = mass.domain.tolerance();
-  for (const detail::OutlinePart& part :
-       detail::outline_parts(mass.openings.back(), nodes, shortest))
+  for (const auto& neighbour : nodes.neighbours) {
+    const auto there = static_cast<int>(frame.nodes.size() + frame.neighbours.size());
+    frame.neighbours.push_back(neighbour.place);
+    if (neighbour.is_after)
+      frame.joints.push_back({neighbour.node, there});
+    else
+      frame.joints.push_back({there, neighbour.node});
+  }
+  const double shortest = mass.domain.tolerance(), inwards = 1e-6 * opening.perimeter();
+  for (const detail::OutlinePart& part : detail::outline_parts(opening, nodes, shortest)) {
+    const Vec2 normal = normalized(perpendicular(part.edge.end - part.edge.start));
+    if (part.edge.length() > 4 * inwards)
+      detail::require_excavated(mass, Vec2(part.edge.centre() + inwards * normal));
     frame.panels.push_back({part.node, part.edge});
-  for (const WallPiece<Planar>& wall : wall_pieces(mass)) {
+  }
+  for (const WallPiece<Planar>& wall : wall_pieces(mass, opening)) {
     for (int k = nodes.first_beyond(wall.from); nodes.begin(k) < wall.to; ++k) {
       const double from = std::max(wall.from, nodes.begin(k)),
                    to = std::min(wall.to, nodes.begin(k + 1));
@@ -218,77 +264,6 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
           {node,
            wall.body,
            {wall.facet.at((from - wall.from) / length), wall.facet.at((to - wall.from) / length)}});
-    }
-  }
-  return frame;
-}
-
-VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                  const LiningRibs& ribs) {
-  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  const PrismaticOpening& opening = mass.openings.back();
-  const SimplePolygon& section = opening.section();
-  const detail::RingNodes nodes = detail::ring_nodes(section, ribs.ring);
-  const double from = std::max(opening.from(), mass.domain.low.y()),
-               to = std::min(opening.to(), mass.domain.high.y());
-  require(ribs.spacing > 0 && ribs.spacing <= (to - from) * (1 + 1e-9), "spacing of ribs",
-          ribs.spacing, "> 0 m and no longer than the tunnel");
-  const int rows = static_cast<int>(std::floor((to - from) / ribs.spacing + 1e-9));
-  const double width = (to - from) / rows;
-  const int ring = static_cast<int>(nodes.places.size());
-  const auto node_at = [ring](int row, int n) { return row * ring + n; };
-  LiningFrame<Spatial> frame;
-  for (int row = 0; row < rows; ++row)
-    for (int n = 0; n < ring; ++n) {
-      const auto here = static_cast<std::size_t>(n);
-      const std::size_t next = n + 1 == ring ? 0 : here + 1;
-      frame.nodes.push_back(
-          PrismaticOpening::in_space(nodes.places[here], from + (row + 0.5) * width));
-      const Vec2 along = nodes.places[next] - nodes.places[here];
-      if (nodes.joined[here])
-        frame.members.push_back({node_at(row, n), node_at(row, static_cast<int>(next)),
-                                 PrismaticOpening::in_space(-perpendicular(along), 0), 0});
-      if (ribs.tied && row > 0) {
-        const std::size_t before = n == 0 ? nodes.places.size() - 1 : here - 1;
-        const Vec2 chord = (nodes.joined[here] ? nodes.places[next] : nodes.places[here]) -
-                           (nodes.joined[before] ? nodes.places[before] : nodes.places[here]);
-        frame.members.push_back({node_at(row - 1, n), node_at(row, n),
-                                 PrismaticOpening::in_space(-perpendicular(chord), 0), 1});
-      }
-    }
-  const double tolerance = mass.domain.tolerance();
-  for (const detail::OutlinePart& part : detail::outline_parts(section, nodes, tolerance))
-    for (int row = 0; row < rows; ++row) {
-      const auto at = [&](const Vec2& p, int end) {
-        return PrismaticOpening::in_space(p, from + (row + end) * width);
-      };
-      const Vec2 &a = part.edge.start, &b = part.edge.end;
-      frame.panels.push_back({node_at(row, part.node), {{at(a, 0), at(a, 1), at(b, 1), at(b, 0)}}});
-    }
-  for (const WallPiece<Spatial>& wall : wall_pieces(mass)) {
-    const Segment edge = section.edge(static_cast<std::size_t>(wall.edge));
-    const Vec3 along = PrismaticOpening::in_space(normalized(edge.end - edge.start), 0);
-    const Vec3 begin = PrismaticOpening::in_space(edge.start, 0);
-    const Vec3 normal = normalized(wall.facet.area_vector());
-    for (int k = nodes.first_beyond(wall.from); nodes.begin(k) < wall.to; ++k) {
-      const int node = nodes.node_of(k);
-      if (node < 0) continue;
-      std::optional<JointPlane> strip = JointPlane{
-          HalfSpace<3>::through(wall.facet.vertices.front(), normal), wall.facet.vertices};
-      const auto keep = [&](const Vec3& outward, const Vec3& on) {
-        if (strip)
-          strip = split(std::move(*strip), HalfSpace<3>::through(on, outward), tolerance).below;
-      };
-      keep(-along, begin + (nodes.begin(k) - wall.from) * along);
-      keep(along, begin + (nodes.begin(k + 1) - wall.from) * along);
-      for (int row = 0; strip && row < rows; ++row) {
-        auto parts = split(
-            std::move(*strip),
-            HalfSpace<3>::through(Vec3(0, from + (row + 1) * width, 0), Vec3(0, 1, 0)), tolerance);
-        if (parts.below && parts.below->area() > tolerance * nodes.stretch)
-          frame.contacts.push_back({node_at(row, node), wall.body, {parts.below->corners}});
-        strip = std::move(parts.above);
-      }
     }
   }
   return frame;

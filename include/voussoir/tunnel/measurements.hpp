@@ -13,8 +13,9 @@
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/opening_centre.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
 
@@ -22,8 +23,9 @@ namespace voussoir {
 
 /// Movement of a piece of the wall.
 struct WallMotion {
-  double angle;   ///< of its middle, anticlockwise from the right-hand springing [rad], 0 to 2 pi
-  double length;  ///< [m]; in 3-D its area [m^2]
+  double angle;  ///< of its middle about `centre_of` the opening, anticlockwise from the right-hand
+                 ///< springing [rad], 0 to 2 pi
+  double length;       ///< [m]; in 3-D its area [m^2]
   double convergence;  ///< towards the axis of the tunnel, positive inwards [m]
 };
 
@@ -34,20 +36,22 @@ namespace detail {
 /// @param displacement  displacement(body, place) [m]
 template <class Geometry, class IsCounted, class Displacement>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
+                                                     const typename Geometry::Opening& opening,
                                                      IsCounted&& is_counted,
                                                      Displacement&& displacement) {
+  const Vec2 centre = centre_of(opening);
   std::vector<WallMotion> motion;
-  for (const auto& piece : wall_pieces(mass)) {
+  for (const auto& piece : wall_pieces(mass, opening)) {
     const auto place = piece.facet.centre();
     if (!is_counted(piece.body, place)) continue;
     const auto moved = displacement(piece.body, place);
     Vec2 p, u;
     if constexpr (Geometry::dim == 2) {
-      p = place;
+      p = place - centre;
       u = moved;
     } else {
-      p = PrismaticOpening::across(place);
-      u = PrismaticOpening::across(moved);
+      p = opening.across(place) - centre;
+      u = opening.across_direction(moved);
     }
     double angle = std::atan2(p.y(), p.x());
     if (angle < 0) angle += 2 * std::numbers::pi;
@@ -59,35 +63,54 @@ template <class Geometry, class IsCounted, class Displacement>
 
 }  // namespace detail
 
-/// All pieces of the wall that are not detached.
+/// All pieces of the wall of an opening that are not detached. The opening may be the outline of a
+/// section that was taken out in rounds.
 template <class Solver>
-[[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
+[[nodiscard]] std::vector<WallMotion> wall_motion(
+    const Solver& solver, const typename Solver::Geometry::Opening& opening) {
   return detail::wall_motion_of(
-      solver.mass(), [&](int b, const auto&) { return solver.system().body(b).movable; },
+      solver.mass(), opening, [&](int b, const auto&) { return solver.system().body(b).movable; },
       [&](int b, const auto& p) { return solver.displacement_of(b, p); });
 }
-/// In 3-D those whose middle lies within a stretch of the tunnel.
-/// @param section  the middle of the stretch along the tunnel, y [m]
+/// Of the last opening; none before one was carved.
+template <class Solver>
+[[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
+  if (solver.mass().openings.empty()) return {};
+  return wall_motion(solver, solver.mass().openings.back());
+}
+/// In 3-D those whose middle lies within a stretch of the opening.
+/// @param section  the middle of the stretch along the axis [m]
 /// @param half_length  of the stretch [m], > 0
+template <class Solver>
+requires(Solver::dim == 3)
+    [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver,
+                                                      const PrismaticOpening& opening,
+                                                      double section, double half_length) {
+  require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
+  return detail::wall_motion_of(
+      solver.mass(), opening,
+      [&](int b, const Vec3& p) {
+        return solver.system().body(b).movable &&
+               std::abs(opening.along(p) - section) <= half_length;
+      },
+      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); });
+}
+/// The same of the last opening.
 template <class Solver>
 requires(Solver::dim == 3)
     [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver, double section,
                                                       double half_length) {
-  require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
-  return detail::wall_motion_of(
-      solver.mass(),
-      [&](int b, const Vec3& p) {
-        return solver.system().body(b).movable && std::abs(p.y() - section) <= half_length;
-      },
-      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); });
+  if (solver.mass().openings.empty()) return {};
+  return wall_motion(solver, solver.mass().openings.back(), section, half_length);
 }
 /// Of rock that moves.
 /// @param mass  from which the run was made
 template <class Geometry, class... Parts>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, Parts...>& run,
                                                   const RockMass<Geometry>& mass) {
+  if (mass.openings.empty()) return {};
   return detail::wall_motion_of(
-      mass, [&](int b, const auto&) { return !run.body(b).is_gone; },
+      mass, mass.openings.back(), [&](int b, const auto&) { return !run.body(b).is_gone; },
       [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });
 }
 
@@ -111,7 +134,20 @@ template <class Solver>
 [[nodiscard]] Convergence convergence(const Solver& solver) {
   return convergence_of(wall_motion(solver));
 }
-/// In 3-D at a section of the tunnel: of the wall within `half_length` of it.
+/// Of any opening, the outline of several rounds among them.
+template <class Solver>
+[[nodiscard]] Convergence convergence(const Solver& solver,
+                                      const typename Solver::Geometry::Opening& opening) {
+  return convergence_of(wall_motion(solver, opening));
+}
+/// In 3-D at a section of an opening: of the wall within `half_length` of it.
+template <class Solver>
+requires(Solver::dim == 3) [[nodiscard]] Convergence
+    convergence(const Solver& solver, const PrismaticOpening& opening, double section,
+                double half_length = 1) {
+  return convergence_of(wall_motion(solver, opening, section, half_length));
+}
+/// The same of the last opening.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] Convergence
     convergence(const Solver& solver, double section, double half_length = 1) {

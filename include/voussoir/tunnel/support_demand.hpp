@@ -95,10 +95,12 @@ template <class Solver>
     condition.idle += result.crossings[k] == 0;
     condition.lost += result.crossings[k] > 0 && held[k] == 0;
   }
+  const bool is_joined =
+      solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto* lining : solver.linings()) {
     const std::size_t members = lining->members().size();
     condition.lining_lost |= !solver.system().body(lining->first_node()).movable;
-    condition.lining_open |= Solver::dim == 2 && members > 0 &&
+    condition.lining_open |= Solver::dim == 2 && !is_joined && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
   return condition;

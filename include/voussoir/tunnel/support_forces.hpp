@@ -99,15 +99,20 @@ template <int Dim, class EndForces>
 
 }  // namespace detail
 
-/// All members of all linings, where their nodes were installed.
+/// All members of all linings, then those that join one to another, where their nodes were
+/// installed.
 template <class Solver, int Dim = Solver::SystemType::dim>
 [[nodiscard]] std::vector<MemberForces<Dim>> lining_members(const Solver& solver) {
   std::vector<MemberForces<Dim>> members;
   const auto& system = solver.system();
-  for (const auto* lining : solver.linings())
-    for (const auto& e : lining->members())
+  const auto add = [&](const auto& it) {
+    for (const auto& e : it.members())
       members.push_back(detail::lining_member<Dim>(system.body(e.i).centre, system.body(e.j).centre,
                                                    e.end_forces(system.displacement.data())));
+  };
+  for (const auto* lining : solver.linings()) add(*lining);
+  for (const auto* joints : system.supports.template all<LiningJoints<typename Solver::Geometry>>())
+    add(*joints);
   return members;
 }
 /// The same of a lining that moves, where its nodes are now.

@@ -90,7 +90,9 @@ class GlobalSearch {
   enum class Change { none, some, too_often, collapse };
 
   void prepare() {
-    elastic_.prepare(system_, effort_.fire, effort_.linear, context_.progress, report_);
+    prepare_without_free_bodies(system_, context_, report_, [this] {
+      elastic_.prepare(system_, effort_.fire, effort_.linear, context_.progress, report_);
+    });
   }
 
   /// Forces, and the elastic displacements that they cause.

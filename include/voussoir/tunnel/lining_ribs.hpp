@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+
+namespace voussoir {
+
+/// A lining in 3-D: ribs, lattice girders or strips of shotcrete across an opening, and what joins
+/// them along it. Ribs next to some that stand, at the same spacing, are joined to them.
+struct LiningRibs {
+  LiningRing ring{};   ///< one rib, in the coordinates of the section
+  double spacing = 1;  ///< of the ribs along the axis [m], > 0
+  bool tied = true;    ///< longitudinal members join the nodes of neighbouring ribs
+  /// The lined stretch: places along the axis [m], as far as the opening is inside the domain.
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();  ///< see `from`
+};
+
+/// Nodes and members of ribs: members across the opening have section 0, members along it
+/// section 1. Every rib stands for the rock up to half its spacing on both sides; each piece of
+/// wall there touches its node at one point.
+///
+/// @param opening  that is lined; it may be one that was taken out in rounds
+/// @throws InvalidInput  as `lining_frame` of a ring; the stretch lies outside; spacing out of
+/// range
+///                       or longer than the stretch
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                                const PrismaticOpening& opening,
+                                                                const LiningRibs& ribs);
+/// The same on the wall of the last opening.
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                                const LiningRibs& ribs);
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+/// Puts the frame of ribs together, piece by piece.
+class RibBuilder {
+ public:
+  RibBuilder(const RockMass<Spatial>& mass, const PrismaticOpening& opening, const LiningRibs& ribs)
+      : mass_(mass), opening_(opening), nodes_(ring_nodes(opening.section(), ribs.ring)) {
+    const auto [low, high] = stretch_inside(opening, mass.domain);
+    from_ = std::max(ribs.from, low);
+    const double to = std::min(ribs.to, high);
+    require(
+        to > from_, "end of the lined stretch", to,
+        message({"beyond its beginning at ", from_, " m: the opening is inside the domain from ",
+                 low, " to ", high, " m along its axis"})
+            .c_str());
+    require(ribs.spacing > 0 && ribs.spacing <= (to - from_) * (1 + 1e-9), "spacing of ribs",
+            ribs.spacing, "> 0 m and no longer than the tunnel");
+    rows_ = static_cast<int>(std::floor((to - from_) / ribs.spacing + 1e-9));
+    width_ = (to - from_) / rows_;
+    ring_ = static_cast<int>(nodes_.places.size());
+  }
+
+  [[nodiscard]] LiningFrame<Spatial> build(bool tied) {
+    for (int row = 0; row < rows_; ++row)
+      for (int n = 0; n < ring_; ++n) {
+        const auto here = static_cast<std::size_t>(n);
+        const int next = n + 1 == ring_ ? 0 : n + 1;
+        frame_.nodes.push_back(opening_.in_space(nodes_.places[here], middle(row)));
+        if (nodes_.joined[here])
+          frame_.members.push_back(
+              {number(row, n), number(row, next),
+               outward(nodes_.places[static_cast<std::size_t>(next)] - nodes_.places[here]), 0});
+        if (tied && row > 0)
+          frame_.members.push_back({number(row - 1, n), number(row, n), outward(chord_at(n)), 1});
+      }
+    add_neighbours(tied);
+    add_panels();
+    for (const WallPiece<Spatial>& wall : wall_pieces(mass_, opening_)) add_contacts(wall);
+    return std::move(frame_);
+  }
+
+ private:
+  [[nodiscard]] int number(int row, int n) const { return row * ring_ + n; }
+  [[nodiscard]] double middle(int row) const { return from_ + (row + 0.5) * width_; }
+  /// Out of the section, at right angles to a chord that runs anticlockwise.
+  [[nodiscard]] Vec3 outward(const Vec2& chord) const {
+    return opening_.axis().direction(Vec2(-perpendicular(chord)));
+  }
+  /// From the node before one to the node behind it.
+  [[nodiscard]] Vec2 chord_at(int n) const {
+    const auto here = static_cast<std::size_t>(n);
+    const std::size_t before = n == 0 ? nodes_.places.size() - 1 : here - 1;
+    const std::size_t next = n + 1 == ring_ ? 0 : here + 1;
+    return (nodes_.joined[here] ? nodes_.places[next] : nodes_.places[here]) -
+           (nodes_.joined[before] ? nodes_.places[before] : nodes_.places[here]);
+  }
+  /// @return  the number of the neighbour at a place
+  int add_neighbour(const Vec2& place, double along) {
+    frame_.neighbours.push_back(opening_.in_space(place, along));
+    return static_cast<int>(frame_.nodes.size() + frame_.neighbours.size()) - 1;
+  }
+
+  void add_neighbours(bool tied) {
+    for (int row = 0; row < rows_; ++row)
+      for (const auto& at : nodes_.neighbours) {
+        const int there = add_neighbour(at.place, middle(row)), here = number(row, at.node);
+        const Vec2 step = at.place - nodes_.places[static_cast<std::size_t>(at.node)];
+        if (at.is_after)
+          frame_.joints.push_back({here, there, outward(step), 0});
+        else
+          frame_.joints.push_back({there, here, outward(Vec2(-step)), 0});
+      }
+    for (int n = 0; tied && n < ring_; ++n) {
+      const Vec2& place = nodes_.places[static_cast<std::size_t>(n)];
+      const int before = add_neighbour(place, middle(-1)),
+                after = add_neighbour(place, middle(rows_));
+      frame_.joints.push_back({before, number(0, n), outward(chord_at(n)), 1});
+      frame_.joints.push_back({number(rows_ - 1, n), after, outward(chord_at(n)), 1});
+    }
+  }
+
+  void add_panels() {
+    const double inwards = 1e-6 * opening_.section().perimeter();
+    for (const OutlinePart& part :
+         outline_parts(opening_.section(), nodes_, mass_.domain.tolerance()))
+      for (int row = 0; row < rows_; ++row) {
+        const auto at = [&](const Vec2& p, int end) {
+          return opening_.in_space(p, from_ + (row + end) * width_);
+        };
+        const Vec2 &a = part.edge.start, &b = part.edge.end;
+        if (part.edge.length() > 4 * inwards)
+          require_excavated(
+              mass_, opening_.in_space(
+                         part.edge.centre() + inwards * normalized(perpendicular(Vec2(b - a))),
+                         middle(row)));
+        frame_.panels.push_back(
+            {number(row, part.node), {{at(a, 0), at(a, 1), at(b, 1), at(b, 0)}}});
+      }
+  }
+
+  /// Parts a piece of wall among the stretches of the ring, and these among the ribs.
+  void add_contacts(const WallPiece<Spatial>& wall) {
+    const double tolerance = mass_.domain.tolerance();
+    const Segment edge = opening_.section().edge(static_cast<std::size_t>(wall.edge));
+    const Vec3 along = opening_.axis().direction(normalized(edge.end - edge.start));
+    const Vec3 begin = opening_.in_space(edge.start, 0), &axis = opening_.axis().along();
+    const Vec3 normal = normalized(wall.facet.area_vector());
+    for (int k = nodes_.first_beyond(wall.from); nodes_.begin(k) < wall.to; ++k) {
+      const int node = nodes_.node_of(k);
+      if (node < 0) continue;
+      std::optional<JointPlane> strip = JointPlane{
+          HalfSpace<3>::through(wall.facet.vertices.front(), normal), wall.facet.vertices};
+      const auto keep = [&](const Vec3& away, const Vec3& on) {
+        if (strip)
+          strip = split(std::move(*strip), HalfSpace<3>::through(on, away), tolerance).below;
+      };
+      keep(-along, begin + (nodes_.begin(k) - wall.from) * along);
+      keep(along, begin + (nodes_.begin(k + 1) - wall.from) * along);
+      keep(Vec3(-axis), opening_.in_space(edge.start, from_));
+      for (int row = 0; strip && row < rows_; ++row) {
+        const Vec3 end = opening_.in_space(edge.start, from_ + (row + 1) * width_);
+        auto parts = split(std::move(*strip), HalfSpace<3>::through(end, axis), tolerance);
+        if (parts.below && parts.below->area() > tolerance * nodes_.stretch)
+          frame_.contacts.push_back({number(row, node), wall.body, {parts.below->corners}});
+        strip = std::move(parts.above);
+      }
+    }
+  }
+
+  const RockMass<Spatial>& mass_;
+  const PrismaticOpening& opening_;
+  RingNodes nodes_;
+  double from_ = 0, width_ = 0;
+  int rows_ = 0, ring_ = 0;
+  LiningFrame<Spatial> frame_;
+};
+
+}  // namespace detail
+
+VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                  const PrismaticOpening& opening,
+                                                  const LiningRibs& ribs) {
+  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
+  return detail::RibBuilder(mass, opening, ribs).build(ribs.tied);
+}
+
+VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
+                                                  const LiningRibs& ribs) {
+  if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
+  return lining_frame(mass, mass.openings.back(), ribs);
+}
+
+#endif
+
+}  // namespace voussoir
