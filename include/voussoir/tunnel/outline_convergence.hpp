@@ -11,14 +11,14 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/opening_box.hpp>
 
 namespace voussoir {
 
 /// Where the movement of a tunnel's outline is sampled: stretches along the axis, each by a grid of
 /// points.
 struct OutlineSampling {
-  double from;      ///< along the axis, y [m]
+  double from;      ///< along the axis [m]
   double to;        ///< [m], > from
   int stretches;    ///< of equal length, > 0
   int around = 72;  ///< points on the outline, >= 3
@@ -43,12 +43,24 @@ namespace detail {
 /// A point in the rock next to an outline, and the way into the opening.
 struct OutlinePoint {
   Vec3 place, inward;
+  double along;  ///< the axis [m]
   int stretch;
 };
 /// Stretch by stretch, row by row.
 /// @param behind  from the outline to the points [m]
 [[nodiscard]] VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(
     const PrismaticOpening& tunnel, const OutlineSampling& sampling, double behind);
+
+/// From where to where a shape lies along the axis of a tunnel [m].
+[[nodiscard]] inline std::pair<double, double> reach_along(const PrismaticOpening& tunnel,
+                                                           const ConvexPolyhedron& shape) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Vec3& v : shape.vertices()) {
+    first = std::min(first, tunnel.along(v));
+    last = std::max(last, tunnel.along(v));
+  }
+  return {first, last};
+}
 
 [[nodiscard]] inline bool holds(const ConvexPolyhedron& shape, const Vec3& place,
                                 double tolerance) {
@@ -93,11 +105,12 @@ requires(Solver::dim == 3)
     const int body = static_cast<int>(b);
     if (!solver.system().body(body).movable) continue;
     for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
-      if (detail::apart(part, low, high)) continue;
-      const auto [first, last] = detail::bounding_box<3>(part.vertices());
+      const auto box = detail::bounding_box<3>(part.vertices());
+      if (any_less(high, box.first) || any_less(box.second, low)) continue;
+      const auto [first, last] = detail::reach_along(tunnel, part);
       for (std::size_t begin = 0; begin < points.size(); begin += row) {
-        const double y = points[begin].place.y();
-        if (y < first.y() - tolerance || y > last.y() + tolerance) continue;
+        const double s = points[begin].along;
+        if (s < first - tolerance || s > last + tolerance) continue;
         for (std::size_t k = begin; k < begin + row; ++k) {
           const detail::OutlinePoint& p = points[k];
           if (is_seen[k] != 0 || !detail::holds(part, p.place, tolerance)) continue;
@@ -142,10 +155,12 @@ VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(const PrismaticOpening&
   points.reserve(around.size() * static_cast<std::size_t>(sampling.stretches * sampling.along));
   for (int stretch = 0; stretch < sampling.stretches; ++stretch)
     for (int k = 0; k < sampling.along; ++k) {
-      const double y =
+      const double s =
           sampling.middle(stretch) + ((k + 0.5) / sampling.along - 0.5) * sampling.length();
       for (const auto& [place, inward] : around)
-        points.push_back({tunnel.in_space(place, y), tunnel.in_space(inward, 0), stretch});
+        points.push_back({tunnel.in_space(place, s),
+                          tunnel.in_space(inward, s) - tunnel.in_space(zeros<Vec2>(), s), s,
+                          stretch});
     }
   return points;
 }
