@@ -73,7 +73,7 @@ void prepare_without_free_bodies(System& system, const SearchContext& context,
     } catch (const FreeBody& free) {
       if (dropped == most || !system.body(free.body()).movable ||
           std::all_of(contacts.begin(), contacts.end(),
-                      [](const auto& c) { return c.last - c.first == 1; }))
+                      [](const auto& c) { return c.last() - c.first == 1; }))
         throw;
       drop(system, {free.body()}, context, report);
     }

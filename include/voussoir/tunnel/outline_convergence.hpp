@@ -11,14 +11,14 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
-#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/opening_box.hpp>
 
 namespace voussoir {
 
 /// Where the movement of a tunnel's outline is sampled: stretches along the axis, each by a grid of
 /// points.
 struct OutlineSampling {
-  double from;      ///< along the axis, y [m]
+  double from;      ///< along the axis [m]
   double to;        ///< [m], > from
   int stretches;    ///< of equal length, > 0
   int around = 72;  ///< points on the outline, >= 3
@@ -49,6 +49,17 @@ struct OutlinePoint {
 /// @param behind  from the outline to the points [m]
 [[nodiscard]] VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(
     const PrismaticOpening& tunnel, const OutlineSampling& sampling, double behind);
+
+struct BoxOfPoints {
+  Vec3 low, high;  ///< [m]
+
+  [[nodiscard]] bool is_apart(const Vec3& other_low, const Vec3& other_high) const {
+    return any_less(other_high, low) || any_less(high, other_low);
+  }
+};
+/// Of every row of points; the last is that of all.
+[[nodiscard]] VOUSSOIR_INLINE std::vector<BoxOfPoints> boxes_of_rows(
+    const std::vector<OutlinePoint>& points, std::size_t row);
 
 [[nodiscard]] inline bool holds(const ConvexPolyhedron& shape, const Vec3& place,
                                 double tolerance) {
@@ -84,20 +95,15 @@ requires(Solver::dim == 3)
   const auto row = static_cast<std::size_t>(sampling.around);
   std::vector<char> is_seen(points.size(), 0);
   std::vector<double> sum(static_cast<std::size_t>(sampling.stretches), 0.0), count = sum;
-  Vec3 low = points.front().place, high = low;
-  for (const auto& p : points) {
-    low = smaller_of(low, p.place);
-    high = larger_of(high, p.place);
-  }
+  const std::vector<detail::BoxOfPoints> boxes = detail::boxes_of_rows(points, row);
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     const int body = static_cast<int>(b);
     if (!solver.system().body(body).movable) continue;
     for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
-      if (detail::apart(part, low, high)) continue;
-      const auto [first, last] = detail::bounding_box<3>(part.vertices());
+      const auto [low, high] = detail::bounding_box<3>(part.vertices());
+      if (boxes.back().is_apart(low, high)) continue;
       for (std::size_t begin = 0; begin < points.size(); begin += row) {
-        const double y = points[begin].place.y();
-        if (y < first.y() - tolerance || y > last.y() + tolerance) continue;
+        if (boxes[begin / row].is_apart(low, high)) continue;
         for (std::size_t k = begin; k < begin + row; ++k) {
           const detail::OutlinePoint& p = points[k];
           if (is_seen[k] != 0 || !detail::holds(part, p.place, tolerance)) continue;
@@ -145,9 +151,28 @@ VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(const PrismaticOpening&
       const double y =
           sampling.middle(stretch) + ((k + 0.5) / sampling.along - 0.5) * sampling.length();
       for (const auto& [place, inward] : around)
-        points.push_back({tunnel.in_space(place, y), tunnel.in_space(inward, 0), stretch});
+        points.push_back({tunnel.in_space(place, y),
+                          tunnel.in_space(inward, 0) - tunnel.in_space({0, 0}, 0), stretch});
     }
   return points;
+}
+
+VOUSSOIR_INLINE std::vector<BoxOfPoints> boxes_of_rows(const std::vector<OutlinePoint>& points,
+                                                       std::size_t row) {
+  VOUSSOIR_ASSERT(row > 0 && points.size() % row == 0, "rows are whole");
+  std::vector<BoxOfPoints> boxes;
+  BoxOfPoints all{points.front().place, points.front().place};
+  for (std::size_t begin = 0; begin < points.size(); begin += row) {
+    BoxOfPoints box{points[begin].place, points[begin].place};
+    for (std::size_t k = begin; k < begin + row; ++k) {
+      box.low = smaller_of(box.low, points[k].place);
+      box.high = larger_of(box.high, points[k].place);
+    }
+    all = {smaller_of(all.low, box.low), larger_of(all.high, box.high)};
+    boxes.push_back(box);
+  }
+  boxes.push_back(all);
+  return boxes;
 }
 
 }  // namespace detail
