@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,7 +10,10 @@
 #include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/isotropic_sets.hpp>
 #include <voussoir/rockmass/slicing.hpp>
+#include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/theory/equivalent_moduli.hpp>
 
 #include "support/jointed_rock.hpp"
 #include "support/reference.hpp"
@@ -182,6 +186,53 @@ TEST_SUITE("laboratory/oedometer") {
     CHECK(std::abs(rough[2].stress_axial / rough[0].stress_axial - 1) < 2e-3);
     CHECK_THROWS_AS((void)path(35, {-1e-4}), InvalidInput);
     CHECK_THROWS_AS((void)path(35, {std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
+  }
+
+  // A section drawn along y is the same press: no joint lies across y, so nothing pushes there, and
+  // half of the lateral walls of a square prism carry the lateral stress of the section. 1e-6: two
+  // solves to 1e-8, lateral stress a fifth of the axial one.
+  TEST_CASE("3-D: a section drawn along the axis is pressed as the section is") {
+    const Domain<2> section{{0, 0}, {8, 8}};
+    const Domain<3> prism{{0, 0, 0}, {8, 8, 8}};
+    std::vector<Joint> lines;
+    std::vector<SpatialJoint> planes;
+    for (const double slope : {0.7, -0.7})
+      for (int k = -4; k <= 12; ++k) {
+        const Vec2 normal(std::sin(slope), std::cos(slope));
+        const Vec2 place(4, 1.1 * k + 0.3), far = 30 * Vec2(normal.y(), -normal.x());
+        lines.push_back({{place - far, place + far}, 0});
+        planes.push_back(
+            {{HalfSpace<3>::through(Vec3(place.x(), 0, place.y()), Vec3(normal.x(), 0, normal.y())),
+              {}},
+             0});
+      }
+    const auto flat = oedometer(slice(section, lines, {}), joint);
+    const auto solid = oedometer(slice<Spatial>(prism, planes, {}), joint);
+    CHECK(flat.stress_lateral > 0.05 * flat.stress_axial);
+    CHECK(std::abs(solid.constrained_modulus / flat.constrained_modulus - 1) <= 1e-6);
+    CHECK(std::abs(2 * solid.stress_lateral / flat.stress_lateral - 1) <= 1e-6);
+  }
+
+  // The mean stress in every joint bounds the stiffness from below. Blocks that hinder each other
+  // and walls that restrain them add some 5 %; 20 % and a third off nu would be another rock.
+  TEST_CASE(
+      "3-D: six sets make one modulus in three directions, near that of the sum over joints") {
+    const Domain<3> ground{{0, 0, 0}, {12, 12, 12}};
+    const auto rock = slice<Spatial>(ground, joint_network(isotropic_sets(2.4), ground, 1),
+                                     {.min_inscribed_radius = 0.12});
+    const JointStiffness stiffness{k_n, k_n / 3};
+    const auto free = isotropic_joint_oedometer(stiffness, joint_intensity(rock));
+    double least = 1e300, most = 0;
+    for (const SpatialSide side : {SpatialSide::top, SpatialSide::east, SpatialSide::north}) {
+      const auto pressed = oedometer(rock, CoulombJoint({k_n, k_n / 3, 0.6}), {.loaded = side});
+      CHECK(pressed.constrained_modulus > free.constrained_modulus);
+      CHECK(pressed.constrained_modulus < 1.2 * free.constrained_modulus);
+      CHECK(pressed.poisson_ratio < free.poisson_ratio);
+      CHECK(pressed.poisson_ratio > 2 * free.poisson_ratio / 3);
+      least = std::min(least, pressed.constrained_modulus);
+      most = std::max(most, pressed.constrained_modulus);
+    }
+    CHECK(most < 1.05 * least);
   }
 
   TEST_CASE("what cannot be tested is refused") {

@@ -103,6 +103,28 @@ TEST_SUITE("theory/equivalent_moduli") {
     CHECK(relative(o.poisson_ratio, m.poisson_ratio) <= 1e-11);
   }
 
+  // Compliance by a sum over directions spread evenly on the sphere, in place of the moments 1/5
+  // and 1/15: midpoints of 200 x 400 cells of equal area, an error of about (1 / 200)^2.
+  TEST_CASE("joints of all orientations in 3-D, and the sum over a sphere") {
+    const JointStiffness soft{5e9, 5e9 / 3};
+    double along = 0, across = 0;  // strain along z and x from one stress along z, P32 = 1
+    for (int i = 0; i < 200; ++i)
+      for (int j = 0; j < 400; ++j) {
+        const double z = (i + 0.5) / 200, phi = (j + 0.5) * std::numbers::pi / 200;
+        const double x = std::sqrt(1 - z * z) * std::cos(phi);
+        along += (z * z * z * z / soft.normal + z * z * (1 - z * z) / soft.shear) / 80000;
+        across += x * x * z * z * (1 / soft.normal - 1 / soft.shear) / 80000;
+      }
+    const double nu = -across / along;
+    const auto m = isotropic_joint_oedometer(soft, 2.5);
+    CHECK(relative(m.poisson_ratio, nu) <= 1e-4);
+    CHECK(relative(m.shear_modulus, 1 / (2.5 * along) / (2 * (1 + nu))) <= 1e-4);
+    CHECK(relative(m.constrained_modulus, 2 * m.shear_modulus * (1 - m.poisson_ratio) /
+                                              (1 - 2 * m.poisson_ratio)) <= 1e-12);
+    CHECK_THROWS_AS(isotropic_joint_oedometer(soft, 0), InvalidInput);
+    CHECK_THROWS_AS(isotropic_joint_oedometer({1, 2}, 1), InvalidInput);
+  }
+
   TEST_CASE("scanlines and RQD") {
     for (const auto& [id, direction] : {std::pair("horizontal", 0.0), std::pair("45deg", 45.0),
                                         std::pair("vertical", 90.0), std::pair("135deg", 135.0)})

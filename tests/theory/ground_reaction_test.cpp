@@ -147,6 +147,29 @@ TEST_SUITE("theory/longitudinal_profile") {
     CHECK(longitudinal_profile(100, 1) == 1);
   }
 
+  // The fit as it is printed: u0 + A_a (1 - exp(B_a x)) ahead, u0 + A_b (1 - (B_b / (B_b + x))^2)
+  // behind; figures by hand for nu = 0 and 0.5. Rounding alone: 1e-14.
+  TEST_CASE("elastic ground: the face, one radius behind it and ahead, both ends") {
+    CHECK(relative(elastic_longitudinal_profile(0, 0), 0.19) <= 1e-14);
+    CHECK(relative(elastic_longitudinal_profile(0, 0.5), 0.30) <= 1e-14);
+    CHECK(relative(elastic_longitudinal_profile(1, 0), 1 - 0.81 * std::pow(0.65 / 1.65, 2)) <=
+          1e-14);
+    CHECK(relative(elastic_longitudinal_profile(2, 0.5), 1 - 0.70 * std::pow(0.845 / 2.845, 2)) <=
+          1e-14);
+    CHECK(relative(elastic_longitudinal_profile(-1, 0.5), 0.30 - 0.30 * (1 - std::exp(-1.175))) <=
+          1e-14);
+    for (const double nu : {0.0, 0.2, 0.5}) {
+      CHECK(relative(elastic_longitudinal_profile(1e-13, nu),
+                     elastic_longitudinal_profile(-1e-13, nu)) <= 1e-11);
+      CHECK(elastic_longitudinal_profile(-60, nu) < 1e-20);
+      CHECK(relative(elastic_longitudinal_profile(1e9, nu), 1) <= 1e-14);
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(elastic_longitudinal_profile(nan, 0.2), InvalidInput);
+    for (const double bad : {-0.01, 0.51, nan})
+      CHECK_THROWS_AS(elastic_longitudinal_profile(0, bad), InvalidInput);
+  }
+
   TEST_CASE("fictitious support pressure of elastic ground") {
     CHECK(relative(fictitious_pressure(662175, longitudinal_profile(1, 1)),
                    reference("C.fict.elastic.X1")) <= printed);

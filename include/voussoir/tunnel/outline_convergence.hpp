@@ -43,7 +43,6 @@ namespace detail {
 /// A point in the rock next to an outline, and the way into the opening.
 struct OutlinePoint {
   Vec3 place, inward;
-  double along;  ///< the axis [m]
   int stretch;
 };
 /// Stretch by stretch, row by row.
@@ -51,16 +50,16 @@ struct OutlinePoint {
 [[nodiscard]] VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(
     const PrismaticOpening& tunnel, const OutlineSampling& sampling, double behind);
 
-/// From where to where a shape lies along the axis of a tunnel [m].
-[[nodiscard]] inline std::pair<double, double> reach_along(const PrismaticOpening& tunnel,
-                                                           const ConvexPolyhedron& shape) {
-  double first = std::numeric_limits<double>::infinity(), last = -first;
-  for (const Vec3& v : shape.vertices()) {
-    first = std::min(first, tunnel.along(v));
-    last = std::max(last, tunnel.along(v));
+struct BoxOfPoints {
+  Vec3 low, high;  ///< [m]
+
+  [[nodiscard]] bool is_apart(const Vec3& other_low, const Vec3& other_high) const {
+    return any_less(other_high, low) || any_less(high, other_low);
   }
-  return {first, last};
-}
+};
+/// Of every row of points; the last is that of all.
+[[nodiscard]] VOUSSOIR_INLINE std::vector<BoxOfPoints> boxes_of_rows(
+    const std::vector<OutlinePoint>& points, std::size_t row);
 
 [[nodiscard]] inline bool holds(const ConvexPolyhedron& shape, const Vec3& place,
                                 double tolerance) {
@@ -96,21 +95,15 @@ requires(Solver::dim == 3)
   const auto row = static_cast<std::size_t>(sampling.around);
   std::vector<char> is_seen(points.size(), 0);
   std::vector<double> sum(static_cast<std::size_t>(sampling.stretches), 0.0), count = sum;
-  Vec3 low = points.front().place, high = low;
-  for (const auto& p : points) {
-    low = smaller_of(low, p.place);
-    high = larger_of(high, p.place);
-  }
+  const std::vector<detail::BoxOfPoints> boxes = detail::boxes_of_rows(points, row);
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     const int body = static_cast<int>(b);
     if (!solver.system().body(body).movable) continue;
     for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
-      const auto box = detail::bounding_box<3>(part.vertices());
-      if (any_less(high, box.first) || any_less(box.second, low)) continue;
-      const auto [first, last] = detail::reach_along(tunnel, part);
+      const auto [low, high] = detail::bounding_box<3>(part.vertices());
+      if (boxes.back().is_apart(low, high)) continue;
       for (std::size_t begin = 0; begin < points.size(); begin += row) {
-        const double s = points[begin].along;
-        if (s < first - tolerance || s > last + tolerance) continue;
+        if (boxes[begin / row].is_apart(low, high)) continue;
         for (std::size_t k = begin; k < begin + row; ++k) {
           const detail::OutlinePoint& p = points[k];
           if (is_seen[k] != 0 || !detail::holds(part, p.place, tolerance)) continue;
@@ -155,14 +148,31 @@ VOUSSOIR_INLINE std::vector<OutlinePoint> outline_points(const PrismaticOpening&
   points.reserve(around.size() * static_cast<std::size_t>(sampling.stretches * sampling.along));
   for (int stretch = 0; stretch < sampling.stretches; ++stretch)
     for (int k = 0; k < sampling.along; ++k) {
-      const double s =
+      const double y =
           sampling.middle(stretch) + ((k + 0.5) / sampling.along - 0.5) * sampling.length();
       for (const auto& [place, inward] : around)
-        points.push_back({tunnel.in_space(place, s),
-                          tunnel.in_space(inward, s) - tunnel.in_space(zeros<Vec2>(), s), s,
-                          stretch});
+        points.push_back({tunnel.in_space(place, y),
+                          tunnel.in_space(inward, 0) - tunnel.in_space({0, 0}, 0), stretch});
     }
   return points;
+}
+
+VOUSSOIR_INLINE std::vector<BoxOfPoints> boxes_of_rows(const std::vector<OutlinePoint>& points,
+                                                       std::size_t row) {
+  VOUSSOIR_ASSERT(row > 0 && points.size() % row == 0, "rows are whole");
+  std::vector<BoxOfPoints> boxes;
+  BoxOfPoints all{points.front().place, points.front().place};
+  for (std::size_t begin = 0; begin < points.size(); begin += row) {
+    BoxOfPoints box{points[begin].place, points[begin].place};
+    for (std::size_t k = begin; k < begin + row; ++k) {
+      box.low = smaller_of(box.low, points[k].place);
+      box.high = larger_of(box.high, points[k].place);
+    }
+    all = {smaller_of(all.low, box.low), larger_of(all.high, box.high)};
+    boxes.push_back(box);
+  }
+  boxes.push_back(all);
+  return boxes;
 }
 
 }  // namespace detail
