@@ -321,7 +321,7 @@ TEST_SUITE("detection/facing_contact") {
       const auto shapes = shaken<Geometry>(shift, shift == 1e-3 ? 2 : 1);
       typename Detector::template Pair<dim> pair(shapes);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [a, b] = pairs[k];
+        const auto a = pairs[k].a, b = pairs[k].b;
         CAPTURE(a);
         CAPTURE(b);
         const Found<dim> warm(pair.facing_contact(a, b, memories[k], reach));
@@ -359,7 +359,7 @@ TEST_SUITE("detection/facing_contact") {
       const auto shapes = shaken<Geometry>(shift, shift == 1e-3 ? 2 : 1);
       FaceContacts::Pair<dim> pair(shapes);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [a, b] = pairs[k];
+        const auto a = pairs[k].a, b = pairs[k].b;
         State& state = states[k];
         const bool near = state.known || pair.separation(a, b, state.before, reach) <= reach;
         Found<dim> expected{Contact<dim>{}};
