@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 #include <vector>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/detection/analytic_centre.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -176,6 +179,13 @@ TEST_SUITE("dynamics/set_in_motion") {
     CHECK(farthest(moved, sought.system().displacement) < 0.03 * largest);
     REQUIRE(moved.equilibrium().verdict == Verdict::stable);
     CHECK(farthest(moved, sought.system().displacement) < 0.03 * largest);
+  }
+
+  TEST_CASE("a run is composed of the policies of its solver, whatever their order") {
+    using Run = RunOf<Solver<Spatial, MohrCoulombJoint, AnalyticCentre>>;
+    CHECK(std::is_same_v<Run, RunOf<Solver<AnalyticCentre, Spatial, MohrCoulombJoint>>>);
+    CHECK(std::is_same_v<Run, Dynamics<3, MohrCoulombJoint, CoulombJoint, AnalyticCentre>>);
+    CHECK(std::is_same_v<RunOf<Solver<>>, Dynamics<2, CoulombJoint>>);
   }
 
   TEST_CASE("bodies without shape and linings without mass cannot move") {

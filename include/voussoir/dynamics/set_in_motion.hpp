@@ -23,6 +23,12 @@ struct MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>> {
   using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>;
 };
 
+/// The run of a solver: composed of the same policies, in any order.
+///
+///   RunOf<Solver<Spatial, MohrCoulombJoint, AnalyticCentre>> run = set_in_motion(tunnel);
+template <class Solver>
+using RunOf = typename MotionOf<typename Solver::SystemType>::type;
+
 namespace detail {
 
 /// Takes a model at rest over into a run and back. Bodies have the same numbers in both.
