@@ -721,7 +721,7 @@ TEST_SUITE("detection/face_contacts: known contacts") {
         for (const auto& face : own->faces) {
           auto part = own->corners(face);
           for (std::size_t f = 0; f < other->faces.size() && !part.empty(); ++f)
-            part = clipped<3>(part, [&](const LongVec<3>& x) {
+            part = clipped<3>(part, [&, other = other](const LongVec<3>& x) {
               return other->normals[f].dot(x - other->at(other->faces[f][0]));
             });
           for (const LongVec<3>& x : part) {

@@ -187,7 +187,8 @@ TEST_SUITE("detection/facing_contact") {
       const auto shapes = shaken<Geometry>(0, 1, move);
       typename C::Detector::template Pair<dim> pair(shapes);
       std::size_t known = 0;
-      for (const auto& [a, b] : near_pairs<dim>(shapes, reach)) {
+      for (const auto& both : near_pairs<dim>(shapes, reach)) {
+        const auto a = both.a, b = both.b;  // clang 14 captures no bindings
         const auto entry = expected.find(std::minmax(static_cast<int>(a), static_cast<int>(b)));
         if (entry == expected.end()) continue;
         ++known;
@@ -237,7 +238,8 @@ TEST_SUITE("detection/facing_contact") {
       const double reach = 1e-3;
       const auto shapes = shaken<Geometry>(shift);
       int touching = 0, by_centre_alone = 0, overlapping = 0, same = 0;
-      for (const auto& [a, b] : near_pairs<dim>(shapes, reach)) {
+      for (const auto& both : near_pairs<dim>(shapes, reach)) {
+        const auto a = both.a, b = both.b;  // clang 14 captures no bindings
         CAPTURE(a);
         CAPTURE(b);
         const auto faces = facing<FaceContacts, dim>(shapes, a, b, reach);
@@ -274,7 +276,8 @@ TEST_SUITE("detection/facing_contact") {
       CAPTURE(shift);
       const auto shapes = shaken<Geometry>(shift);
       int touching = 0;
-      for (const auto& [a, b] : near_pairs<dim>(shapes, 1e-3)) {
+      for (const auto& both : near_pairs<dim>(shapes, 1e-3)) {
+        const auto a = both.a, b = both.b;  // clang 14 captures no bindings
         CAPTURE(a);
         CAPTURE(b);
         const auto found = facing<typename C::Detector, dim>(shapes, a, b, 1e-3);
@@ -318,7 +321,7 @@ TEST_SUITE("detection/facing_contact") {
       const auto shapes = shaken<Geometry>(shift, shift == 1e-3 ? 2 : 1);
       typename Detector::template Pair<dim> pair(shapes);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [a, b] = pairs[k];
+        const auto a = pairs[k].a, b = pairs[k].b;
         CAPTURE(a);
         CAPTURE(b);
         const Found<dim> warm(pair.facing_contact(a, b, memories[k], reach));
@@ -356,7 +359,7 @@ TEST_SUITE("detection/facing_contact") {
       const auto shapes = shaken<Geometry>(shift, shift == 1e-3 ? 2 : 1);
       FaceContacts::Pair<dim> pair(shapes);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [a, b] = pairs[k];
+        const auto a = pairs[k].a, b = pairs[k].b;
         State& state = states[k];
         const bool near = state.known || pair.separation(a, b, state.before, reach) <= reach;
         Found<dim> expected{Contact<dim>{}};

@@ -117,7 +117,8 @@ class ConvexPolyhedron {
     std::pair<ConvexPolyhedron, ConvexPolyhedron> parts;
     parts.first.surface_ = splitter.below;
     parts.second.surface_ = splitter.above;
-    VOUSSOIR_ASSERT(parts.first.size() >= 4 && parts.second.size() >= 4, "a part has a volume");
+    // Two faces are all that is left of a part no thicker than the tolerance.
+    VOUSSOIR_ASSERT(parts.first.size() >= 2 && parts.second.size() >= 2, "a part is closed");
     VOUSSOIR_ASSERT(
         parts.first.surface_.loops.size() % 2 == 0 && parts.second.surface_.loops.size() % 2 == 0,
         "an edge has two sides");
