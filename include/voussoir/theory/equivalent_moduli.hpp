@@ -123,8 +123,10 @@ isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume);
 /// @param direction  of the line, from the horizontal, anticlockwise [rad]
 /// @throws InvalidInput  a spacing out of range
 /// Source: Priest & Hudson (1976).
-[[nodiscard]] VOUSSOIR_INLINE OedometerModuli
-isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume) {
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE OedometerModuli isotropic_joint_oedometer(const JointStiffness& joints,
+                                                          double area_per_volume) {
   joints.check();
   require(joints.shear <= joints.normal, "joint stiffness k_s", joints.shear, "<= k_n");
   require(area_per_volume > 0 && std::isfinite(area_per_volume), "joint area per volume P32",
@@ -135,6 +137,8 @@ isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume) 
   VOUSSOIR_ASSERT(nu >= 0 && nu < 0.5, "a stable material");
   return {shear_modulus_from(e, nu), nu, e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))};
 }
+
+#endif
 
 VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets, double direction);
 
