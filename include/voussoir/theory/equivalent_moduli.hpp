@@ -123,6 +123,20 @@ isotropic_joint_oedometer(const JointStiffness& joints, double area_per_volume);
 /// @param direction  of the line, from the horizontal, anticlockwise [rad]
 /// @throws InvalidInput  a spacing out of range
 /// Source: Priest & Hudson (1976).
+[[nodiscard]] VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets,
+                                                        double direction);
+
+/// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
+/// shortest piece that counts, 0.1 m.
+/// @param frequency  f, joints per metre [1/m], >= 0
+/// @throws InvalidInput  a value out of range
+/// Source: Priest & Hudson (1976).
+[[nodiscard]] inline double rock_quality_designation(double frequency, double shortest = 0.1) {
+  require(frequency >= 0 && std::isfinite(frequency), "joint frequency", frequency, ">= 0 1/m");
+  require(shortest > 0 && std::isfinite(shortest), "shortest piece", shortest, "> 0 m");
+  return 100 * (1 + shortest * frequency) * std::exp(-shortest * frequency);
+}
+
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE OedometerModuli isotropic_joint_oedometer(const JointStiffness& joints,
@@ -137,23 +151,6 @@ VOUSSOIR_INLINE OedometerModuli isotropic_joint_oedometer(const JointStiffness& 
   VOUSSOIR_ASSERT(nu >= 0 && nu < 0.5, "a stable material");
   return {shear_modulus_from(e, nu), nu, e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))};
 }
-
-#endif
-
-VOUSSOIR_INLINE double scanline_frequency(const std::vector<PersistentSet>& sets, double direction);
-
-/// Rock quality designation for exponential spacings: RQD = 100 (1 + t f) exp(-t f) [%], t the
-/// shortest piece that counts, 0.1 m.
-/// @param frequency  f, joints per metre [1/m], >= 0
-/// @throws InvalidInput  a value out of range
-/// Source: Priest & Hudson (1976).
-[[nodiscard]] inline double rock_quality_designation(double frequency, double shortest = 0.1) {
-  require(frequency >= 0 && std::isfinite(frequency), "joint frequency", frequency, ">= 0 1/m");
-  require(shortest > 0 && std::isfinite(shortest), "shortest piece", shortest, "> 0 m");
-  return 100 * (1 + shortest * frequency) * std::exp(-shortest * frequency);
-}
-
-#if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE JointedModuli goodman_moduli(const JointStiffness& joints, double spacing,
                                              double youngs_modulus, double shear_modulus) {
