@@ -43,8 +43,8 @@ void match_shear(const Vec<Dim - 1>& wanted, Points& points, ShearNow&& shear_no
 /// Makes the springs of a contact from what the detector has found, with the history of the contact
 /// as it was before.
 ///
-/// Where an old point was within its share of the area, or an ellipse that has the moments of the
-/// old area reaches, the new point carries on; elsewhere the contact is new. Carried over, point by
+/// Where an old point was within its share of the area the new one carries it on; elsewhere the
+/// contact is new, but for what is closed inside the old area. Carried over, point by
 /// point from the nearest old one: the slip, the memory of the law and the in-situ stress. The
 /// stress changes from there by the gradient that it has over the old points, so that its force and
 /// moment are kept, however many the points are, as long as their area is. Where the normal has
@@ -133,7 +133,7 @@ class ContactRenewal {
       if (opening > reach && !(is_old || (gaping == Gaping::facing && faces))) continue;
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
-      if (is_old) inherit(*old, frame, it.place, point);
+      if (is_old || (keeps && is_in_old_area(it.place))) inherit(*old, frame, it.place, point);
       if (old == nullptr && new_at_rest_) point.zero[0] = std::min(point.zero[0], now.opening);
       points.push_back(point);
     }
@@ -196,10 +196,8 @@ class ContactRenewal {
     }
   }
 
-  /// Whether a point stands where the old contact was: seen along the normal, as near to one of its
-  /// points as the share of the area is long; or, in a slender area in 3-D, inside the ellipse of
-  /// the same moments that goes through the corners if the area is a triangle, and around them if
-  /// it is a parallelogram.
+  /// Whether a point stands where an old one did: seen along the normal, as near to it as its share
+  /// of the area is long.
   [[nodiscard]] bool carries_on(const Contact& old, const Vec<Dim>& place,
                                 const Vec<Dim>& normal) const {
     for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
@@ -209,8 +207,16 @@ class ContactRenewal {
       const double weight = old_points_[i].weight;
       if (way.squaredNorm() <= (Dim == 2 ? weight * weight : weight)) return true;
     }
+    return false;
+  }
+
+  /// Whether a point lies in the old area, which in 3-D may be slender: inside the ellipse of the
+  /// same moments that goes through the corners if the area is a triangle, and around them if it is
+  /// a parallelogram.
+  [[nodiscard]] bool is_in_old_area(const Vec<Dim>& place) const {
     const InPlane arm = part<Dim - 1>(transposed_product(frame_, place), 1) - middle_;
-    return arm.dot(inverse_spread_ * arm) > 0 && arm.dot(inverse_spread_ * arm) <= 8 * (1 + 1e-6);
+    const double distance = arm.dot(inverse_spread_ * arm);
+    return distance > 0 && distance <= 8 * (1 + 1e-6);
   }
 
   void place_joined(const ContactArea<Dim>& joined, ContactPoints rule, double measure) {
