@@ -141,7 +141,7 @@ void check_in_one_piece(const RockMass<Geometry>& mass) {
 
 VOUSSOIR_INLINE std::optional<Vec2> common_rock(const SimplePolygon& opening,
                                                 const SimplePolygon& before, double tolerance) {
-  const auto place = overlap_of(opening, before, tolerance);
+  std::optional<Vec2> place = overlap_of(opening, before, tolerance);
   if (place && encloses(opening, before, tolerance) && !encloses(before, opening, tolerance))
     return {};
   return place;

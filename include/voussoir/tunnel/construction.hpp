@@ -94,9 +94,9 @@ struct Construction {
 
   /// @param wall_traction  part of the in-situ traction left at the end [-], 0 to 1
   /// @return  the new stage, until the next is added
-  ConstructionStage<Solver>& add_stage(std::string name, double wall_traction = 0) {
+  ConstructionStage<Solver>& add_stage(const std::string& name, double wall_traction = 0) {
     ConstructionStage<Solver>& stage = stages.emplace_back();
-    stage.name = std::move(name);
+    stage.name = name;
     stage.wall_traction = wall_traction;
     return stage;
   }

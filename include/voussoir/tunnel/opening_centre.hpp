@@ -14,7 +14,7 @@ namespace voussoir {
 /// drawn about the origin has it in the middle of its springing, one that stands beside it (twin
 /// tunnels) in its own middle.
 [[nodiscard]] inline Vec2 centre_of(const SimplePolygon& section) {
-  const Vec2 origin = zeros<Vec2>();
+  Vec2 origin = zeros<Vec2>();
   if (section.contains(origin)) return origin;
   const double near = 1e-9 * section.perimeter();
   for (std::size_t e = 0; e < section.size(); ++e) {
