@@ -577,7 +577,11 @@ TEST_SUITE("rockmass/slicing") {
     const double nan = std::nan("");
     const std::vector<Joint> flat{{{{0, 1}, {4, 1}}, 0}, {{{0, nan}, {4, 2}}, 2}};
     CHECK_THROWS_WITH_AS((void)slice({{0, 0}, {4, 4}}, flat, {}),
-                         "joint 1 of set 2: every coordinate must be finite", InvalidInput);
+                         "joint 1 of set 2: every coordinate must be finite, and less than "
+                         "1e150 m from 0",
+                         InvalidInput);
+    const std::vector<Joint> endless{{{{-1e300, 1}, {4, 1}}, 2}};
+    CHECK_THROWS_AS((void)slice({{0, 0}, {4, 4}}, endless, {}), InvalidInput);
     const Domain<3> cube{{0, 0, 0}, {4, 4, 4}};
     const JointPlane level{{Vec3(0, 0, 1), 2}, {}};
     JointPlane no_plane = level, no_corner = level;
@@ -585,7 +589,16 @@ TEST_SUITE("rockmass/slicing") {
     no_corner.corners = {{0, 0, 2}, {1, 0, 2}, {1, nan, 2}};
     for (const JointPlane& bad : {no_plane, no_corner})
       CHECK_THROWS_WITH_AS((void)slice<Spatial>(cube, {{level, 0}, {level, 0}, {bad, 1}}, {}),
-                           "joint 2 of set 1: every coordinate must be finite", InvalidInput);
+                           "joint 2 of set 1: every coordinate must be finite, and less than "
+                           "1e150 m from 0",
+                           InvalidInput);
+  }
+
+  TEST_CASE("a trace whose ends are one point cuts nothing, and is counted") {
+    const std::vector<Joint> joints{{{{1, 1}, {1, 1}}, 0}, {{{-1, 2}, {5, 2}}, 0}};
+    const auto mass = slice({{0, 0}, {4, 4}}, joints, {});
+    CHECK(mass.bodies.size() == 2);
+    CHECK(mass.slicing.unused_joints == 1);
   }
 
   TEST_CASE("one metre or one kilometre, near or far: the same number of blocks") {

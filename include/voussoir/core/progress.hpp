@@ -24,10 +24,12 @@ class Stopped : public std::runtime_error {
 /// whatever a turn costs (up to some tenths of a millisecond), and never if there is none to ask.
 class StopCheck {
  public:
+  StopCheck() = default;  ///< asks nobody
   /// @param progress        must outlive this; none: nothing is ever asked
   /// @param turns_per_look  1: turns are long, the clock is looked at in each
   explicit StopCheck(const Progress& progress, unsigned turns_per_look = 32)
       : progress_(progress ? &progress : nullptr), turns_per_look_(turns_per_look) {}
+  explicit StopCheck(const Progress&&, unsigned = 32) = delete;  ///< gone before the first turn
 
   /// One turn of the loop. @throws Stopped
   void operator()(double fraction = -1) {
@@ -48,8 +50,8 @@ class StopCheck {
   }
 
   static constexpr double pause = 10;  ///< [ms]
-  const Progress* progress_;
-  unsigned turns_per_look_;
+  const Progress* progress_ = nullptr;
+  unsigned turns_per_look_ = 32;
   unsigned turns_ = 0;
   double last_ = milliseconds();  ///< of the last look
 };

@@ -38,8 +38,7 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
   System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
       laws, laws.stiffest());
   std::vector<double> measures;
-  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, settings.points, system,
-                                                         {});
+  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, settings.points, system);
   model.run(std::make_shared<const RockMass<Geometry>>(mass), laws, measures);
   auto run = set_in_motion(system, settings);
   run.hold();

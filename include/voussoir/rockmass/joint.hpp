@@ -19,8 +19,10 @@ struct JointOf {
 
 namespace detail {
 
+/// And its length too, which overflows where coordinates are beyond 1e150 m.
 [[nodiscard]] inline bool is_finite(const Segment& trace) {
-  return voussoir::is_finite(trace.start) && voussoir::is_finite(trace.end);
+  return voussoir::is_finite(trace.start) && voussoir::is_finite(trace.end) &&
+         std::isfinite(squared_length_of(Vec2(trace.end - trace.start)));
 }
 [[nodiscard]] inline bool is_finite(const JointPlane& trace) {
   return voussoir::is_finite(trace.plane.normal) && std::isfinite(trace.plane.offset) &&

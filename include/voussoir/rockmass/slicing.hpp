@@ -150,6 +150,7 @@ class Slicer {
     for (const auto& side : sides_)
       if (inside) inside = voussoir::split(std::move(*inside), side, tolerance_).below;
     if (!inside) ++report_.outside_joints;
+    if (is_zero(plane.normal)) inside.reset();  // a trace whose ends are one point
     pending_.clear();
     if (inside) pending_.emplace_back(0, std::move(*inside));
     while (!pending_.empty()) {
@@ -286,7 +287,8 @@ template <class Geometry = Planar>
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (!detail::is_finite(joints[k].trace))
       throw InvalidInput(
-          message({"joint ", k, " of set ", joints[k].set, ": every coordinate must be finite"}));
+          message({"joint ", k, " of set ", joints[k].set,
+                   ": every coordinate must be finite, and less than 1e150 m from 0"}));
   for (std::size_t k = 0; k < joints.size(); ++k) {
     stop(static_cast<double>(k) / static_cast<double>(joints.size()));
     slicer.cut_by(joints[k], static_cast<int>(k));

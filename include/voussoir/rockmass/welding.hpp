@@ -119,7 +119,7 @@ std::size_t weld(std::vector<Body<Geometry>>& bodies, double tolerance, StopChec
 }
 template <class Geometry>
 std::size_t weld(std::vector<Body<Geometry>>& bodies, double tolerance) {
-  StopCheck never{Progress()};
+  StopCheck never;
   return weld(bodies, tolerance, never);
 }
 

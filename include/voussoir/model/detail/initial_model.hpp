@@ -55,15 +55,15 @@ class InitialModel {
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
-  /// All must outlive this.
+  /// Rock and model must outlive this.
   InitialModel(const RockMass<Geometry>& mass, const InSitu& in_situ, ContactPoints points,
-               System& system, const Progress& progress)
+               System& system, Progress progress = {})
       : mass_(mass),
         in_situ_(in_situ),
         kind_(points),
         system_(system),
-        progress_(progress),
-        stop_(progress) {}
+        progress_(std::move(progress)),
+        stop_(progress_) {}
 
   /// All of it.
   /// @param mass      the same as above, to be kept alive for its shapes
@@ -173,8 +173,8 @@ class InitialModel {
   const InSitu& in_situ_;
   ContactPoints kind_;
   System& system_;
-  const Progress& progress_;
-  StopCheck stop_;
+  Progress progress_;
+  StopCheck stop_;                       ///< asks the one above
   std::vector<FacetPoint<dim>> points_;  ///< of the contact at hand
 };
 
