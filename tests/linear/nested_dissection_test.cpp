@@ -66,7 +66,7 @@ std::vector<BodyPairs> graphs_of_all_kinds_and_sizes() {
 
 TEST_SUITE("linear/nested_dissection") {
   TEST_CASE("every body has its place, the same one when asked again") {
-    StopCheck never{Progress()};
+    StopCheck never;
     for (const BodyPairs& bodies : graphs_of_all_kinds_and_sizes()) {
       CAPTURE(bodies.size);
       CAPTURE(bodies.pairs.size());
@@ -80,7 +80,7 @@ TEST_SUITE("linear/nested_dissection") {
   }
 
   TEST_CASE("no coupling joins the parts, and little lies between them") {
-    StopCheck never{Progress()};
+    StopCheck never;
     for (const BodyPairs& bodies : graphs_of_all_kinds_and_sizes()) {
       CAPTURE(bodies.size);
       CAPTURE(bodies.pairs.size());
@@ -137,7 +137,7 @@ TEST_SUITE("linear/nested_dissection") {
   }
 
   TEST_CASE("minimum degree of a part knows of what is around it, and leaves that out") {
-    StopCheck never{Progress()};
+    StopCheck never;
     // A row of four bodies; body 4, which is eliminated later, is coupled to the first three.
     const std::vector<std::pair<int, int>> pairs{{1, 0}, {2, 1}, {3, 2}, {4, 0}, {4, 1}, {4, 2}};
     detail::QuotientGraph part(5, pairs, 0, 4);
@@ -153,7 +153,7 @@ TEST_SUITE("linear/nested_dissection") {
   }
 
   TEST_CASE("never more operations than minimum degree, in 3-D far fewer") {
-    StopCheck never{Progress()};
+    StopCheck never;
     for (const BodyPairs& bodies : large_graphs()) {
       CAPTURE(bodies.size);
       detail::QuotientGraph whole(bodies.size, bodies.pairs, 0);
