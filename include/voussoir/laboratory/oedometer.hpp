@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
+#include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
+#include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {
@@ -53,21 +58,17 @@ struct Press {
         const OedometerParamsOf<dim>& params, const Detector&)
       : system(joint_law, params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()),
         wall_stiffness(params.wall_stiffness_ratio * joint_law.joint_normal_stiffness()) {
-    for (const auto& body : mass.bodies) {
-      // What an out-of-balance force is compared with: the force of the stresses that are meant.
-      const double weight = 1e4 * body.properties.measure;
-      system.add_body({body.properties.centroid, weight, 1.0, true});
-      measures.push_back(body.properties.measure);
-    }
-    const int ground = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
+    // The stress is that of the platen alone; the weight is what an out-of-balance force is
+    // compared with, that of the stresses that are meant.
+    const InSitu meant{.density = 1e4, .gravity = 1};
+    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, ContactPoints::gauss,
+                                                             system);
+    model.add_bodies(measures);
+    model.add_contacts(LawsBySet<JointLaw>(joint_law));
+    std::fill(system.load.data(), system.load.data() + system.load.size(), 0.0);
+    const int ground = system.body_count() - 1;
     platen = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});
-    measures.resize(measures.size() + 2, 0.0);
-    visit_joined(
-        Detector::find(mass), mass.domain.tolerance(), [](int) { return 0; },
-        [&](int a, int b, const auto& area, int) {
-          const auto points = area.gauss_points();
-          system.joints.add(a, b, area, system.body(a).centre, system.body(b).centre, points);
-        });
+    measures.push_back(0.0);
     const auto boundary = boundary_facets(mass);
     for (const auto& f : boundary)
       if (f.side == params.loaded) outward += f.facet.area_vector();

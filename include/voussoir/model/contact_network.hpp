@@ -19,6 +19,8 @@
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
+#include <voussoir/model/detail/contact_springs.hpp>
+#include <voussoir/model/detail/contact_sums.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/moving_contacts.hpp>
@@ -129,7 +131,7 @@ class ContactNetwork {
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
-                                       cut_of,  gained, first_end_.size() != bodies.size() + 1};
+                                       cut_of,  gained, !sums_.is_listed(bodies.size())};
     detail::ContactShares<Dim, Tracker> shares(tracker);
     std::vector<Left> left;
     const auto leave = [&](Pair& pair) {
@@ -170,9 +172,19 @@ class ContactNetwork {
   void set_laws(const LawsBySet<JointLaw>& laws) { std::get<0>(groups_).set_laws(laws.all()); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
-  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost);
+  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
+    std::size_t before = 0;
+    each_group([&](auto& group) {
+      const std::size_t end = std::min(last, before + group.size());
+      for (std::size_t k = std::max(first, before); k < end; ++k)
+        sums_.reaction(k) = group.react(k - before, bodies, lost);
+      before += group.size();
+    });
+  }
   /// Force and moment of all contacts on a body, as last computed; world axes.
-  [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const;
+  [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {
+    return sums_.gather(b);
+  }
 
   [[nodiscard]] double stored_energy(const Bodies& bodies) const {
     double sum = 0;
@@ -188,20 +200,12 @@ class ContactNetwork {
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (is_stale_[b]) {
         is_stale_[b] = 0;
-        stiffest_[b] = bodies[b].movable() ? largest_row(b, bodies) : 0.0;
+        stiffest_[b] = bodies[b].movable() ? detail::largest_row(stiffness_of(b, bodies)) : 0.0;
       }
     return stiffest_;
   }
 
  private:
-  using Stiffness = Fixed<dof, dof>;
-  /// One end of a contact, as its body sees it.
-  struct End {
-    std::uint32_t contact;
-    std::uint32_t end;  ///< 0: body a, 1: body b
-    [[nodiscard]] double sign() const { return 2.0 * end - 1.0; }
-  };
-
   template <class T>
   [[nodiscard]] static std::size_t index(T i) {
     return static_cast<std::size_t>(i);
@@ -429,7 +433,11 @@ class ContactNetwork {
   }
 
   /// Lists every body's contacts; those without points are on no list.
-  void list(std::size_t body_count);
+  void list(std::size_t body_count) {
+    sums_.list(body_count, size(), [this](auto&& visit) {
+      each([&](const auto&, const auto& c) { visit(c.a, c.b, c.first < c.last); });
+    });
+  }
   /// Drops what is no longer used, and puts contacts in the order of the pairs.
   template <class KindOf>
   void tidy(Tracker& tracker, KindOf&& kind_of) {
@@ -460,33 +468,18 @@ class ContactNetwork {
     group.points().swap(points);
   }
 
-  [[nodiscard]] double largest_row(std::size_t b, const Bodies& bodies) const;
-  /// Adds M^-1/2 G^T K G M^-1/2 of one contact to the matrix of body a or b, in the body's frame.
-  template <class Group>
-  static void add_springs(const Group& group, std::size_t k, bool on_b, const Bodies& bodies,
-                          Stiffness& sum) {
-    const auto& c = group.contacts()[k];
-    const Body &a = bodies[index(c.a)], &b = bodies[index(c.b)], &body = on_b ? b : a;
-    const Rotation<Dim> frame =
-        on_b ? Rotation<Dim>(transposed(b.pose.rotation) * (a.pose.rotation * c.frame)) : c.frame;
-    const double root = 1 / std::sqrt(body.mass);
-    for (auto i = index(c.first); i < index(c.last); ++i) {
-      const auto& p = group.points()[i];
-      const Vec<Dim> place =
-          on_b ? p.place
-               : Vec<Dim>(transposed(a.pose.rotation) * (b.pose(p.place) - a.pose.position));
-      for (int axis = 0; axis < Dim; ++axis) {
-        const Vec<Dim> along = column(frame, axis);
-        Fixed<dof, 1> g;
-        const Spin<Dim> moment = moment_of(place, along);
-        for (int row = 0; row < Dim; ++row) g[row] = root * along[row];
-        for (int row = 0; row < spin_count<Dim>; ++row)
-          g[Dim + row] = moment[row] / std::sqrt(body.inertia[row]);
-        const double stiffness = p.weight * (axis == 0 ? group.law_of(c).joint_normal_stiffness()
-                                                       : group.law_of(c).joint_shear_stiffness());
-        sum += outer<dof, dof>(stiffness * g, g);
-      }
+  /// Stiffness over mass of a body, all others fixed, its contacts closed and sticking.
+  [[nodiscard]] Fixed<dof, dof> stiffness_of(std::size_t b, const Bodies& bodies) const {
+    Fixed<dof, dof> sum = zeros<Fixed<dof, dof>>();
+    for (const auto& end : sums_.ends_of(b)) {
+      std::size_t before = 0;
+      each_group([&](const auto& group) {
+        const std::size_t k = end.contact - before;  // wraps where it is of a group before
+        if (k < group.size()) detail::add_springs<Dim>(group, k, end.end == 1, bodies, sum);
+        before += group.size();
+      });
     }
+    return sum;
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
@@ -497,81 +490,9 @@ class ContactNetwork {
   ContactPoints rule_;
   double viscous_damping_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
-  std::vector<Reaction<Dim>> reactions_;
-  std::vector<std::uint32_t> first_end_;  ///< of every body in `ends_`, and one more
-  std::vector<End> ends_;
+  detail::ContactSums<Dim> sums_;
   std::vector<char> is_stale_;    ///< contacts of the body have changed since `stiffest_`
   std::vector<double> stiffest_;  ///< [1/s^2]
 };
-
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::react(std::size_t first,
-                                                                  std::size_t last,
-                                                                  const Bodies& bodies,
-                                                                  Dissipation& lost) {
-  std::size_t before = 0;
-  each_group([&](auto& group) {
-    const std::size_t end = std::min(last, before + group.size());
-    for (std::size_t k = std::max(first, before); k < end; ++k)
-      reactions_[k] = group.react(k - before, bodies, lost);
-    before += group.size();
-  });
-}
-
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-auto ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::gather(std::size_t b) const
-    -> std::pair<Vec<Dim>, Spin<Dim>> {
-  Vec<Dim> force = zeros<Vec<Dim>>();
-  Spin<Dim> moment = zeros<Spin<Dim>>();
-  for (std::uint32_t k = first_end_[b]; k < first_end_[b + 1]; ++k) {
-    const Reaction<Dim>& r = reactions_[ends_[k].contact];
-    // No branch: which end of a contact a body is cannot be foreseen.
-    force += ends_[k].sign() * r.force;
-    moment += r.moment[ends_[k].end];
-  }
-  return {force, moment};
-}
-
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::list(std::size_t body_count) {
-  reactions_.resize(size());
-  first_end_.assign(body_count + 1, 0);
-  each([this](const auto&, const auto& c) {
-    if (c.first == c.last) return;
-    ++first_end_[index(c.a) + 1];
-    ++first_end_[index(c.b) + 1];
-  });
-  for (std::size_t b = 0; b < body_count; ++b) first_end_[b + 1] += first_end_[b];
-  ends_.resize(first_end_.back());
-  std::vector<std::uint32_t> next(first_end_.begin(), first_end_.end() - 1);
-  std::uint32_t k = 0;
-  each([&](const auto&, const auto& c) {
-    const std::uint32_t contact = k++;
-    if (c.first == c.last) return;
-    ends_[next[index(c.a)]++] = {contact, 0};
-    ends_[next[index(c.b)]++] = {contact, 1};
-  });
-}
-
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-double ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::largest_row(
-    std::size_t b, const Bodies& bodies) const {
-  Stiffness sum = zeros<Stiffness>();
-  for (std::uint32_t e = first_end_[b]; e < first_end_[b + 1]; ++e) {
-    std::size_t before = 0;
-    each_group([&](const auto& group) {
-      const std::size_t k = ends_[e].contact - before;  // wraps where it is of a group before
-      if (k < group.size()) add_springs(group, k, ends_[e].end == 1, bodies, sum);
-      before += group.size();
-    });
-  }
-  double largest = 0;
-  for (int r = 0; r < dof; ++r) {
-    double absolute = 0;
-    for (int k = 0; k < dof; ++k) absolute += std::abs(sum(r, k));
-    largest = std::max(largest, absolute);
-  }
-  return largest;
-}
 
 }  // namespace voussoir

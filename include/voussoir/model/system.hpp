@@ -54,6 +54,7 @@ class System {
  public:
   using Detector = DetectorModel;
   using GeometryType = Geometry;
+  using InterfaceLawType = InterfaceLaw;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
   using Body = SystemBody<dim>;

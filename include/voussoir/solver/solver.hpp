@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +16,7 @@
 #include <voussoir/model/contact_update.hpp>
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
+#include <voussoir/model/detail/lining_installation.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -114,7 +114,13 @@ class ComposedSolver {
   /// The same with members of several sections: ribs and what joins them.
   void install_lining(const LiningFrame<Geometry>& frame,
                       const std::vector<LiningSection>& sections,
-                      const InterfaceLaw& interface_law);
+                      const InterfaceLaw& interface_law) {
+    detail::LiningInstallation<Lining, SystemType>(system_, in_situ_.gravity,
+                                                   1e3 * mass_->domain.tolerance())
+        .run(frame, sections, interface_law);
+    measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
+    started_ = true;
+  }
 
   /// Lets the rock and its supports find their equilibrium at a residual wall traction
   /// on the wall (relaxation before support: > 0; the final state: 0). Of several rounds each keeps
@@ -222,13 +228,6 @@ class ComposedSolver {
   /// Makes the next stage one that brings the walls to these parts of their traction.
   /// @return  the largest of them
   double aim_at(const std::vector<double>& wall_fractions);
-
-  /// Members between the nodes of a lining, and from these to some that stand.
-  void add_lining_members(const LiningFrame<Geometry>& frame,
-                          const std::vector<LiningSection>& sections, int first_node,
-                          const std::vector<int>& standing);
-  /// The node of a lining that was installed at a place; -1: there is none.
-  [[nodiscard]] int standing_node(const Vec<dim>& place) const;
 
   /// The intersections of a bar without the bodies that are detached.
   [[nodiscard]] std::vector<BlockIntersection> intersections_of_present_rock(
@@ -402,90 +401,6 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
   ++bolt_count_;
   started_ = true;
   return static_cast<int>(crossings.size());
-}
-
-template <class Models>
-void ComposedSolver<Models>::install_lining(const LiningFrame<Geometry>& wanted,
-                                            const std::vector<LiningSection>& sections,
-                                            const InterfaceLaw& interface_law) {
-  if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
-                   [this](const auto& c) { return system_.body(c.body).movable; }))
-    throw InvalidInput("lining: no rock touches it");
-  const LiningFrame<Geometry> beside =
-      with_shared_ends(wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
-  const int first_node = system_.body_count();
-  std::vector<int> standing;
-  const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
-    const int node = standing_node(beside.neighbours[m]);
-    if (node >= 0) standing.push_back(node);
-    return node >= 0;
-  });
-  const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
-  for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
-    const double weight = shares[k].mass * in_situ_.gravity;
-    const int node =
-        system_.add_body({frame.nodes[k], weight, std::max(shares[k].length, 1e-3), true, false});
-    system_.load[dof * node + dim - 1] = -weight;
-    measures_.push_back(0.0);
-  }
-  add_lining_members(frame, sections, first_node, standing);
-  for (std::size_t m = 0; m < standing.size(); ++m)
-    system_.load[dof * standing[m] + dim - 1] -=
-        shares[frame.nodes.size() + m].mass * in_situ_.gravity;
-  const int law = system_.interface.add_law(interface_law);
-  double thickness = 0;
-  for (const LiningSection& section : sections)
-    thickness = std::max(thickness, section.thickness());
-  system_.linings.push_back({first_node, law, is_pinned_lining<Lining>(), thickness,
-                             LiningSurface<Geometry>(
-                                 frame, thickness, [this](int b) { return system_.motion_of(b); },
-                                 [this](int b) { return !system_.body(b).movable; })});
-  const std::size_t before = system_.interface.contacts().size();
-  for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
-         return std::pair<int, int>(c.body, first_node + c.node);
-       })) {
-    const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
-    if (!system_.body(c.body).movable) continue;  // that block is detached
-    const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
-    const int node = first_node + c.node;
-    // A pin is pushed in its middle, wherever on its stretch the rock touches it.
-    Vec<dim> centre = system_.body(node).centre;
-    if constexpr (is_pinned_lining<Lining>()) centre = c.facet.centre();
-    system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1},
-                          law);
-  }
-  system_.interface.touch_at(system_.displacement.data(), before);
-  started_ = true;
-}
-
-template <class Models>
-void ComposedSolver<Models>::add_lining_members(const LiningFrame<Geometry>& frame,
-                                                const std::vector<LiningSection>& sections,
-                                                int first_node, const std::vector<int>& standing) {
-  std::vector<int> bodies(frame.nodes.size());
-  std::iota(bodies.begin(), bodies.end(), first_node);
-  bodies.insert(bodies.end(), standing.begin(), standing.end());
-  std::vector<Vec<dim>> places = frame.nodes;
-  places.insert(places.end(), frame.neighbours.begin(), frame.neighbours.end());
-  std::vector<FrameElement<Geometry>> own, joints;
-  for (FrameElement<Geometry>& e : lining_elements<Lining>(frame, sections, places, bodies)) {
-    const bool joins = e.i < first_node || e.j < first_node;
-    if (joins) e.install_at(system_.pose(e.i), system_.pose(e.j), system_.displacement.data());
-    (joins ? joints : own).push_back(e);
-  }
-  system_.supports.add(std::make_shared<LiningType>(std::move(own), first_node,
-                                                    static_cast<int>(frame.nodes.size())));
-  if (!joints.empty())
-    system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
-}
-
-template <class Models>
-int ComposedSolver<Models>::standing_node(const Vec<dim>& place) const {
-  const double near = 1e3 * mass_->domain.tolerance();
-  for (const LiningType* lining : linings())
-    for (int n = lining->first_node(); n < lining->first_node() + lining->node_count(); ++n)
-      if (system_.body(n).movable && (system_.body(n).centre - place).norm() < near) return n;
-  return -1;
 }
 
 template <class Models>

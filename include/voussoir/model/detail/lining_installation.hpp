@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/lining/frame_element.hpp>
+#include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/model/lining_members.hpp>
+#include <voussoir/model/lining_surface.hpp>
+#include <voussoir/model/reference_contact.hpp>
+#include <voussoir/model/system.hpp>
+
+namespace voussoir::detail {
+
+/// Puts nodes, members and contacts of a lining into a model at rest, on the wall in its present
+/// position, free of force. It joins the linings that stand.
+/// @tparam Lining  the model of its members
+template <class Lining, class System>
+class LiningInstallation {
+ public:
+  using Geometry = typename System::GeometryType;
+  using InterfaceLaw = typename System::InterfaceLawType;
+  static constexpr int dim = Geometry::dim;
+  static constexpr int dof = Geometry::dof;
+
+  /// @param system   must outlive this
+  /// @param gravity  [m/s^2]
+  /// @param near     nodes of two linings this near to each other are one [m]
+  LiningInstallation(System& system, double gravity, double near)
+      : system_(system), gravity_(gravity), near_(near) {}
+
+  /// @throws InvalidInput  a member has no length, or no rock touches the lining
+  void run(const LiningFrame<Geometry>& wanted, const std::vector<LiningSection>& sections,
+           const InterfaceLaw& interface_law) {
+    if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
+                     [this](const auto& c) { return system_.body(c.body).movable; }))
+      throw InvalidInput("lining: no rock touches it");
+    const LiningFrame<Geometry> beside = with_shared_ends(
+        wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
+    std::vector<int> standing;
+    const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
+      const int node = standing_node(beside.neighbours[m]);
+      if (node >= 0) standing.push_back(node);
+      return node >= 0;
+    });
+    first_node_ = system_.body_count();
+    add_nodes(frame, node_shares(frame, sections), standing);
+    add_members(frame, sections, standing);
+    add_surface(frame, sections, interface_law);
+  }
+
+ private:
+  /// The node of a lining that stands at a place; -1: there is none.
+  [[nodiscard]] int standing_node(const Vec<dim>& place) const {
+    for (const auto* lining : system_.supports.template all<LiningMembers<Geometry>>())
+      for (int n = lining->first_node(); n < lining->first_node() + lining->node_count(); ++n)
+        if (system_.body(n).movable && (system_.body(n).centre - place).norm() < near_) return n;
+    return -1;
+  }
+
+  /// @param shares    of the new nodes, then of those that stand
+  /// @param standing  nodes that the new members reach
+  void add_nodes(const LiningFrame<Geometry>& frame, const std::vector<LiningNodeShare>& shares,
+                 const std::vector<int>& standing) {
+    for (std::size_t k = 0; k < frame.nodes.size(); ++k) {
+      const double weight = shares[k].mass * gravity_;
+      const int node =
+          system_.add_body({frame.nodes[k], weight, std::max(shares[k].length, 1e-3), true, false});
+      system_.load[dof * node + dim - 1] = -weight;
+    }
+    for (std::size_t m = 0; m < standing.size(); ++m)
+      system_.load[dof * standing[m] + dim - 1] -= shares[frame.nodes.size() + m].mass * gravity_;
+  }
+
+  /// Members between the nodes, and from these to some that stand.
+  void add_members(const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
+                   const std::vector<int>& standing) {
+    std::vector<int> bodies(frame.nodes.size());
+    std::iota(bodies.begin(), bodies.end(), first_node_);
+    bodies.insert(bodies.end(), standing.begin(), standing.end());
+    std::vector<Vec<dim>> places = frame.nodes;
+    places.insert(places.end(), frame.neighbours.begin(), frame.neighbours.end());
+    std::vector<FrameElement<Geometry>> own, joints;
+    for (FrameElement<Geometry>& e : lining_elements<Lining>(frame, sections, places, bodies)) {
+      const bool joins = e.i < first_node_ || e.j < first_node_;
+      if (joins) e.install_at(system_.pose(e.i), system_.pose(e.j), system_.displacement.data());
+      (joins ? joints : own).push_back(e);
+    }
+    system_.supports.add(std::make_shared<LiningMembers<Geometry>>(
+        std::move(own), first_node_, static_cast<int>(frame.nodes.size())));
+    if (!joints.empty())
+      system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
+  }
+
+  /// What rock touches: here at a point for every piece of wall, in motion the surface.
+  void add_surface(const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
+                   const InterfaceLaw& interface_law) {
+    const int law = system_.interface.add_law(interface_law);
+    double thickness = 0;
+    for (const LiningSection& section : sections)
+      thickness = std::max(thickness, section.thickness());
+    system_.linings.push_back({first_node_, law, is_pinned_lining<Lining>(), thickness,
+                               LiningSurface<Geometry>(
+                                   frame, thickness, [this](int b) { return system_.motion_of(b); },
+                                   [this](int b) { return !system_.body(b).movable; })});
+    const std::size_t before = system_.interface.contacts().size();
+    for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
+           return std::pair<int, int>(c.body, first_node_ + c.node);
+         })) {
+      const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
+      if (!system_.body(c.body).movable) continue;  // that block is detached
+      const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
+      const int node = first_node_ + c.node;
+      // A pin is pushed in its middle, wherever on its stretch the rock touches it.
+      Vec<dim> centre = system_.body(node).centre;
+      if constexpr (is_pinned_lining<Lining>()) centre = c.facet.centre();
+      system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1},
+                            law);
+    }
+    system_.interface.touch_at(system_.displacement.data(), before);
+  }
+
+  System& system_;
+  double gravity_, near_;
+  int first_node_ = 0;
+};
+
+}  // namespace voussoir::detail
