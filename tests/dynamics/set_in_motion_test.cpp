@@ -20,53 +20,38 @@
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 
-#include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/small_tunnel.hpp"
 
 namespace set_in_motion_test {
 
 using namespace voussoir;
 using voussoir_test::degree;
+using voussoir_test::small_in_situ;
+using voussoir_test::small_opening;
+using voussoir_test::small_rock;
 
 namespace {
 
-const InSitu in_situ{.density = 2700, .k0 = 0.8, .surcharge = 3e5};
 const DynamicsSettings damped{.local_damping = 0.8, .points = ContactPoints::gauss};
-
-template <class Geometry>
-[[nodiscard]] RockMass<Geometry> rock() {
-  if constexpr (Geometry::dim == 2)
-    return voussoir_test::jointed_rock(domain_around(circular_opening(4, 24), 14, 5, 5), 3,
-                                       {0.25, 5});
-  else
-    return voussoir_test::jointed_mass({{-5, 0, -5}, {5, 3, 6}}, 1, 1.9,
-                                       {.min_inscribed_radius = 0.25});
-}
-template <class Geometry>
-[[nodiscard]] auto opening() {
-  if constexpr (Geometry::dim == 2)
-    return circular_opening(4, 24);
-  else
-    return PrismaticOpening(circular_opening(4, 24));
-}
 
 /// Relaxed to 0.6, bolted and lined, and in equilibrium at 0.
 /// @param stiff  times as stiff as usual are joints, bolts and lining
 template <class Geometry>
 [[nodiscard]] Solver<Geometry> supported(double friction, double stiff = 1) {
-  Solver<Geometry> tunnel(rock<Geometry>(), CoulombJoint({stiff * 5e9, stiff * 5e8, friction}),
-                          in_situ);
-  tunnel.excavate(opening<Geometry>(), 0.02);
+  Solver<Geometry> tunnel(small_rock<Geometry>(),
+                          CoulombJoint({stiff * 5e9, stiff * 5e8, friction}), small_in_situ);
+  tunnel.excavate(small_opening<Geometry>(), 0.02);
   REQUIRE(tunnel.equilibrium(0.6).verdict == Verdict::stable);
   const BoltPattern pattern{.length = 2, .angular_spacing = 30 * degree};
   std::vector<typename Geometry::Line> bars;
   std::vector<LiningSection> sections{LiningSection::rectangular(0.15, stiff * 25e9)};
   LiningFrame<Geometry> frame;
   if constexpr (Geometry::dim == 2) {
-    bars = bolt_bars(pattern, opening<Geometry>());
+    bars = bolt_bars(pattern, small_opening<Geometry>());
     frame = lining_frame(tunnel.mass(), {.nodes = 24});
   } else {
-    bars = bolt_bars(pattern, opening<Geometry>(), 1, 0, 3);
+    bars = bolt_bars(pattern, small_opening<Geometry>(), 1, 0, 3);
     frame = lining_frame(tunnel.mass(), LiningRibs{.ring = {.nodes = 24}, .spacing = 1});
     sections.assign(2, LiningSection::strip(0.15, 1, stiff * 25e9));
   }
@@ -159,10 +144,10 @@ TEST_SUITE("dynamics/set_in_motion") {
     // Without slip, and with points at the corners, so that a joint opens once its edge does. With
     // friction of 70 degrees or two points inside, one loose block at the wall comes to rest 0.04
     // to 0.17 mm from where the search leaves it, and stays there: it has several places to lie.
-    Solver<> moved(rock<Planar>(), CoulombJoint({5e9, 5e8, 89.9 * degree}), in_situ,
+    Solver<> moved(small_rock<Planar>(), CoulombJoint({5e9, 5e8, 89.9 * degree}), small_in_situ,
                    ContactPoints::corners),
         sought = moved;
-    for (Solver<>* tunnel : {&moved, &sought}) tunnel->excavate(opening<Planar>(), 0.02);
+    for (Solver<>* tunnel : {&moved, &sought}) tunnel->excavate(small_opening<Planar>(), 0.02);
     auto run = set_in_motion(moved, {.local_damping = 0.8, .points = ContactPoints::corners});
     CHECK(run.held() == 1);
     CHECK(run.unbalance_over_weight() < 1e-6);  // in-situ stress, all of the wall held
@@ -191,8 +176,8 @@ TEST_SUITE("dynamics/set_in_motion") {
   TEST_CASE("bodies without shape and linings without mass cannot move") {
     System<Planar, CoulombJoint> system(CoulombJoint({5e9, 5e8, 0.6}), 5e9);
     CHECK_THROWS_AS((void)set_in_motion(system, damped), InvalidInput);
-    Solver<> tunnel(rock<Planar>(), CoulombJoint({5e9, 5e8, 0.6}), in_situ);
-    tunnel.excavate(opening<Planar>(), 0.02);
+    Solver<> tunnel(small_rock<Planar>(), CoulombJoint({5e9, 5e8, 0.6}), small_in_situ);
+    tunnel.excavate(small_opening<Planar>(), 0.02);
     tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 24}),
                           LiningSection::rectangular(0.15, 25e9), CoulombJoint({5e9, 5e8, 0.6}));
     CHECK_THROWS_WITH_AS((void)set_in_motion(tunnel, damped), doctest::Contains("mass of a node"),

@@ -16,39 +16,32 @@
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
+#include "support/elastic_tunnel.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
 
 namespace construction_test {
 
 using namespace voussoir;
+using voussoir_test::box;
+using voussoir_test::deep;
 using voussoir_test::degree;
+using voussoir_test::difference;
+using voussoir_test::elastic;
 using voussoir_test::jointed_mass;
 using voussoir_test::jointed_rock;
+using voussoir_test::tight;
 
 namespace {
 
-/// Two searches to this error each are compared within 1e-6 of the largest displacement.
-const Acceptance tight{.error_estimate = 1e-8, .unbalance_over_weight = 1e-6};
-
-/// Joints that neither open nor slip.
-const MohrCoulombJoint elastic({.joint_normal_stiffness = 1e11,
-                                .joint_shear_stiffness = 4e10,
-                                .friction_angle = 60 * degree,
-                                .cohesion = 2e9,
-                                .tensile_strength = 1e9});
 template <class Geometry>
 using Elastic = Solver<Geometry, MohrCoulombJoint>;
-const InSitu deep{.density = 2700, .k0 = 0.9, .surcharge = 2e7};
 const CoulombJoint frictional({5e9, 5e8, 35 * degree});
 const InSitu shallow{.density = 2700, .k0 = 0.8, .surcharge = 5e5};
 
 const CoulombJoint elastic_coulomb({1e11, 4e10, 60 * degree});
 const LiningSection shell = LiningSection::rectangular(0.1, 20e9);
 
-SimplePolygon box(double x0, double y0, double x1, double y1) {
-  return SimplePolygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
-}
 const SimplePolygon whole = box(-3, -3, 3, 3), heading = box(-3, 0, 3, 3),
                     bench = box(-3, -3, 3, 0);
 const Domain<2> ground = domain_around(whole, 24, 8, 8);
@@ -58,32 +51,6 @@ void settle(Tunnel& tunnel, double wall_fraction = 0, const Acceptance& acceptan
   const EquilibriumReport report = tunnel.equilibrium(wall_fraction, {}, acceptance);
   INFO(report.reason);
   REQUIRE(report.verdict == Verdict::stable);
-}
-
-/// The largest difference of displacements of two tunnels in the same rock, over the largest
-/// displacement; blocks are matched by their centroids.
-template <class Tunnel>
-double difference(const Tunnel& x, const Tunnel& y) {
-  REQUIRE(x.mass().bodies.size() == y.mass().bodies.size());
-  double apart = 0, largest = 0;
-  for (std::size_t b = 0; b < x.mass().bodies.size(); ++b) {
-    const auto centre = x.mass().bodies[b].properties.centroid;
-    std::size_t same = 0;
-    double least = 1e300;
-    for (std::size_t k = 0; k < y.mass().bodies.size(); ++k) {
-      const double distance = (y.mass().bodies[k].properties.centroid - centre).norm();
-      if (distance < least) {
-        least = distance;
-        same = k;
-      }
-    }
-    REQUIRE(least < 1e-9);
-    const auto u = x.displacement_of(static_cast<int>(b), centre),
-               v = y.displacement_of(static_cast<int>(same), centre);
-    apart = std::max(apart, (u - v).norm());
-    largest = std::max(largest, u.norm());
-  }
-  return apart / largest;
 }
 
 /// The system is in balance where it is, all walls held as they are.

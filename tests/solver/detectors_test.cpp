@@ -14,37 +14,22 @@
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
-#include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/small_tunnel.hpp"
 
 namespace detectors_test {
 
 using namespace voussoir;
 using voussoir_test::degree;
+using voussoir_test::small_in_situ;
+using voussoir_test::small_opening;
+using voussoir_test::small_rock;
 
 namespace {
 
-const InSitu in_situ{.density = 2700, .k0 = 0.8, .surcharge = 3e5};
 const CoulombJoint joint({2e9, 5e8, 55 * degree});
 /// Blocks move by tenths of a millimetre: contacts are updated.
 const Acceptance often{.error_estimate = 1e-5, .refind_limit = 1e-4};
-
-template <class Geometry>
-[[nodiscard]] RockMass<Geometry> rock() {
-  if constexpr (Geometry::dim == 2)
-    return voussoir_test::jointed_rock(domain_around(circular_opening(4, 24), 14, 5, 5), 3,
-                                       {0.25, 5});
-  else
-    return voussoir_test::jointed_mass({{-5, 0, -5}, {5, 3, 6}}, 1, 1.9,
-                                       {.min_inscribed_radius = 0.25});
-}
-template <class Geometry>
-[[nodiscard]] typename Geometry::Opening opening() {
-  if constexpr (Geometry::dim == 2)
-    return circular_opening(4, 24);
-  else
-    return PrismaticOpening(circular_opening(4, 24));
-}
 
 /// Of the wall traction in the end: in 3-D half of it, for a bare wall there loses blocks.
 template <class Geometry>
@@ -52,8 +37,8 @@ constexpr double left = Geometry::dim == 2 ? 0 : 0.5;
 
 template <class Geometry, class Detector>
 [[nodiscard]] Eigen::VectorXd at_rest(int& updates) {
-  Solver<Geometry, Detector> tunnel(rock<Geometry>(), joint, in_situ);
-  tunnel.excavate(opening<Geometry>(), 0.02);
+  Solver<Geometry, Detector> tunnel(small_rock<Geometry>(), joint, small_in_situ);
+  tunnel.excavate(small_opening<Geometry>(), 0.02);
   const EquilibriumReport report = tunnel.equilibrium(left<Geometry>, {}, often);
   CAPTURE(report.reason);
   CHECK(report.verdict == Verdict::stable);
@@ -62,8 +47,8 @@ template <class Geometry, class Detector>
 }
 template <class Geometry, class Detector>
 [[nodiscard]] Eigen::VectorXd in_motion() {
-  Solver<Geometry, Detector> tunnel(rock<Geometry>(), joint, in_situ);
-  tunnel.excavate(opening<Geometry>(), 0.02);
+  Solver<Geometry, Detector> tunnel(small_rock<Geometry>(), joint, small_in_situ);
+  tunnel.excavate(small_opening<Geometry>(), 0.02);
   auto run =
       set_in_motion(tunnel, {.local_damping = 0.8, .points = ContactPoints::gauss, .reach = 1e-3});
   for (int k = 1; k <= 4; ++k) {

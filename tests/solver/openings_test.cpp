@@ -16,6 +16,7 @@
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
+#include "support/elastic_tunnel.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
 #include "support/transformed.hpp"
@@ -23,61 +24,30 @@
 namespace openings_test {
 
 using namespace voussoir;
+using voussoir_test::box;
+using voussoir_test::deep;
 using voussoir_test::degree;
+using voussoir_test::difference;
+using voussoir_test::elastic;
 using voussoir_test::jointed_mass;
 using voussoir_test::jointed_rock;
+using voussoir_test::tight;
 using voussoir_test::total_volume;
 using voussoir_test::Transform;
 
 namespace {
 
-const Acceptance tight{.error_estimate = 1e-8, .unbalance_over_weight = 1e-6};
-/// Joints that neither open nor slip.
-const MohrCoulombJoint elastic({.joint_normal_stiffness = 1e11,
-                                .joint_shear_stiffness = 4e10,
-                                .friction_angle = 60 * degree,
-                                .cohesion = 2e9,
-                                .tensile_strength = 1e9});
 using Rock = Solver<Spatial, MohrCoulombJoint>;
-const InSitu deep{.density = 2700, .k0 = 0.9, .surcharge = 2e7};
 const Domain<3> cube{{-6, -6, -6}, {6, 6, 6}};
 const BlockLimits limits{.min_inscribed_radius = 0.25};
 const std::vector ribs_sections{LiningSection::strip(0.15, 1, 25e9),
                                 LiningSection::strip(0.15, 0.5, 25e9)};
-
-SimplePolygon box(double x0, double y0, double x1, double y1) {
-  return SimplePolygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
-}
 
 template <class Tunnel>
 void settle(Tunnel& tunnel, double wall_fraction = 0) {
   const EquilibriumReport report = tunnel.equilibrium(wall_fraction, {}, tight);
   INFO(report.reason);
   REQUIRE(report.verdict == Verdict::stable);
-}
-
-/// The largest difference between the displacements of blocks and of their images, over the
-/// largest.
-template <class Tunnel, int Dim = Tunnel::dim>
-double difference(const Tunnel& x, const Tunnel& y, const Transform<Dim>& map = {}) {
-  REQUIRE(x.mass().bodies.size() == y.mass().bodies.size());
-  double apart = 0, largest = 0;
-  for (std::size_t b = 0; b < x.mass().bodies.size(); ++b) {
-    const Vec<Dim> centre = x.mass().bodies[b].properties.centroid, image = map(centre);
-    std::size_t same = 0;
-    double least = 1e300;
-    for (std::size_t k = 0; k < y.mass().bodies.size(); ++k)
-      if (const double d = (y.mass().bodies[k].properties.centroid - image).norm(); d < least) {
-        least = d;
-        same = k;
-      }
-    REQUIRE(least < 1e-9);
-    const Vec<Dim> u = map.turn * x.displacement_of(static_cast<int>(b), centre),
-                   v = y.displacement_of(static_cast<int>(same), image);
-    apart = std::max(apart, (u - v).norm());
-    largest = std::max(largest, u.norm());
-  }
-  return apart / largest;
 }
 
 template <class Call>
