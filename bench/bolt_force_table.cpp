@@ -58,7 +58,7 @@ void search(const std::string& what, const RockMass<Planar>& rock, const Method&
   for (const auto& bar : bolt_bars(pattern, opening)) tunnel.install_bolt(bar, bolt);
   // Overshoots of softer joints are no falls.
   const auto report =
-      tunnel.equilibrium(0, method, {.displacement_limit = 0.05, .refind_limit = 0.05});
+      tunnel.equilibrium(0, method, {.displacement_limit = 0.05, .contact_update_limit = 0.05});
   print(what, statistics(largest_bolt_forces(tunnel)), convergence(tunnel).crown,
         report.unbalance_over_weight, start);
 }

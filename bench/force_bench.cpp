@@ -46,7 +46,7 @@ Case<Model>& case_of(int size, bool is_updated, Make&& make) {
     if (is_updated) {
       auto& system = last.second->model.system();
       system.displacement = last.second->u;
-      find_contacts_again(system, 1e-3);
+      update_contacts(system, 1e-3);
       last.first = key;
     }
   }

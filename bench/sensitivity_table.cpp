@@ -173,10 +173,10 @@ struct Case {
 };
 
 template <class Tunnel>
-Case case_of(std::string name, const Tunnel& before, double refind_limit = 0) {
-  return {std::move(name), [before, refind_limit](Setting setting) {
-            if (refind_limit > 0) {
-              setting.acceptance.refind_limit = refind_limit;
+Case case_of(std::string name, const Tunnel& before, double contact_update_limit = 0) {
+  return {std::move(name), [before, contact_update_limit](Setting setting) {
+            if (contact_update_limit > 0) {
+              setting.acceptance.contact_update_limit = contact_update_limit;
               setting.acceptance.displacement_limit *= 5;
             }
             Tunnel tunnel = before;

@@ -79,7 +79,7 @@ Construction<Tunnel> construction_of(const Variant& variant) {
   acceptance.displacement_limit = variant.lining ? lined_fall_limit : fall_limit;
   // The overshoot of an explicit run is no fall.
   if (variant.way == Way::as_the_paper)
-    acceptance.displacement_limit = acceptance.refind_limit = 0.05;
+    acceptance.displacement_limit = acceptance.contact_update_limit = 0.05;
   if (variant.held_at_support < 1)
     construction.add_stage("before support", variant.held_at_support);
   auto& supported = construction.add_stage("supported", variant.held);

@@ -35,7 +35,7 @@ Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
   acceptance.displacement_limit = input.run.displacement_limit;
-  acceptance.refind_limit = input.run.refind_limit;
+  acceptance.contact_update_limit = input.run.contact_update_limit;
   acceptance.collapse_measure = collapse_measure_of(opening);
   return acceptance;
 }

@@ -325,11 +325,12 @@ void read_run(Section& s, RunInput& run) {
   s.number("tolerance", run.tolerance, tolerance_range, Need::optional);
   s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
              Need::optional);
-  std::optional<double> refind_limit;
-  s.quantity("refind_limit", refind_limit, dimension::length, above(0));
-  run.refind_limit = refind_limit.value_or(run.refind_limit);
-  if (refind_limit && run.refind_limit >= run.displacement_limit)
-    s.complain("refind_limit", "is never reached: a block that has moved so far is detached",
+  std::optional<double> contact_update_limit;
+  s.quantity("contact_update_limit", contact_update_limit, dimension::length, above(0));
+  run.contact_update_limit = contact_update_limit.value_or(run.contact_update_limit);
+  if (contact_update_limit && run.contact_update_limit >= run.displacement_limit)
+    s.complain("contact_update_limit",
+               "is never reached: a block that has moved so far is detached",
                "a length below displacement_limit");
   if (const auto value = s.find("max_steps", Need::optional))
     run.max_steps = value->as_integer(1, 2'000'000'000);

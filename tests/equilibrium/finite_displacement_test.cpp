@@ -52,13 +52,14 @@ class Scene {
     for (int b = 0; b < system.body_count(); ++b)
       system.load.segment<2>(3 * b) = system.body(b).weight * down;
     system.shapes = {rock_, &rock_->of_body};
-    find_contacts_again(system, 0.02);
+    update_contacts(system, 0.02);
   }
-  [[nodiscard]] SearchContext context(double displacement_limit, double refind_limit) const {
+  [[nodiscard]] SearchContext context(double displacement_limit,
+                                      double contact_update_limit) const {
     SearchContext given;
     given.measures = &measures;
     given.acceptance.displacement_limit = displacement_limit;
-    given.acceptance.refind_limit = refind_limit;
+    given.acceptance.contact_update_limit = contact_update_limit;
     given.acceptance.unbalance_over_weight = 1e-4;
     return given;
   }
@@ -162,7 +163,7 @@ TEST_SUITE("equilibrium/finite_displacement") {
     // A strain besides, so that bolt and frame have forces: 1 mm of the upper block and node.
     u.segment<3>(3) = Vec<3>(2e-4, 1e-3, 1e-4);
     u.segment<3>(3 * j) = Vec<3>(-3e-4, 1e-3, 2e-3);
-    find_contacts_again(system, 0.02);
+    update_contacts(system, 0.02);
     Eigen::VectorXd before, after;
     system.forces(u, before);
     REQUIRE(before.segment<3>(0).norm() > 1e5);
@@ -177,7 +178,7 @@ TEST_SUITE("equilibrium/finite_displacement") {
         u.segment<2>(3 * b) += turn * (at - pivot) + pivot - at;
         u[3 * b + 2] += step;
       }
-      find_contacts_again(system, 0.02);
+      update_contacts(system, 0.02);
     }
     system.forces(u, after);
     const Rotation<2> whole = rotation_by(Spin<2>(1.0));
@@ -194,8 +195,8 @@ TEST_SUITE("equilibrium/finite_displacement") {
   TEST_CASE("a system without shapes says so") {
     Plane system(CoulombJoint({kn, ks, 0.5}), kn, CoulombJoint({1, 1, 0}, any_units));
     system.add_body({Vec2::Zero(), 1, 1, true});
-    CHECK_THROWS_WITH_AS(find_contacts_again(system, 0.02),
-                         "find_contacts_again: the system does not know the shapes of its bodies",
+    CHECK_THROWS_WITH_AS(update_contacts(system, 0.02),
+                         "update_contacts: the system does not know the shapes of its bodies",
                          InvalidInput);
   }
 }

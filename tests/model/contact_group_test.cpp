@@ -77,9 +77,9 @@ void check_sum(Tunnel& tunnel) {
   auto& system = tunnel.system();
   const Eigen::VectorXd u = shaken(system);
   // Points with a height and a start of their own, as contact updates make them.
-  voussoir::find_contacts_again(system, 1e-3);
+  voussoir::update_contacts(system, 1e-3);
   system.displacement = u;
-  voussoir::find_contacts_again(system, 1e-3);
+  voussoir::update_contacts(system, 1e-3);
   const Eigen::VectorXd moved = 1.3 * u;
   const Eigen::VectorXd expected = point_by_point(system.joints, system, moved);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(expected.size());
@@ -106,7 +106,7 @@ TEST_SUITE("model/contact_group") {
     auto& system = tunnel.system();
     REQUIRE(system.interface.contacts().size() > 20);
     check_order(system);
-    find_contacts_again(system, 1e-3);
+    update_contacts(system, 1e-3);
     check_order(system);
     const std::size_t before = system.joints.contacts().size();
     system.remove({3, 700, 11});
@@ -115,7 +115,7 @@ TEST_SUITE("model/contact_group") {
     Solver<Spatial> rock = jointed_cube();
     REQUIRE(!in_order(CutContacts::find(rock.mass())));
     check_order(rock.system());
-    find_contacts_again(rock.system(), 1e-3);
+    update_contacts(rock.system(), 1e-3);
     check_order(rock.system());
   }
 
@@ -219,7 +219,7 @@ TEST_SUITE("model/contact_group") {
     CHECK(second.mass().bodies.size() == blocks);
     CHECK(second.mass().openings.empty());
     CHECK(mass_properties(second.mass().bodies[700].parts).measure == area);
-    find_contacts_again(second.system(), 1e-3);
+    update_contacts(second.system(), 1e-3);
     CHECK(in_order(second.system().joints.contacts()));
     second.excavate(opening);
     CHECK(second.mass().openings.size() == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What contacts hold goes on when they are found again: forces, moments, energy.
+// What contacts hold goes on when they are updated: forces, moments, energy.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ TEST_SUITE("model/contact_renewal") {
       }
   }
 
-  TEST_CASE_TEMPLATE("contacts that are found again between blocks in motion act as before", D,
+  TEST_CASE_TEMPLATE("contacts that are updated between blocks in motion act as before", D,
                      Dimensions<2>, Dimensions<3>) {
     constexpr int dim = D::dim;
     const auto mass = [] {

@@ -17,7 +17,7 @@
 namespace found_again_test {
 
 using namespace voussoir_test;
-using voussoir::find_contacts_again;
+using voussoir::update_contacts;
 
 namespace {
 
@@ -100,7 +100,7 @@ TEST_SUITE("model/contact_update") {
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
           const auto before = system.joints;
           shake(system, seed, 2e-3, turn);
-          find_contacts_again(system, 0.02);
+          update_contacts(system, 0.02);
           const OpenPoints open =
               open_points(system.joints, system.displacement, before, 0.02, 0.01 + 3 * turn);
           CAPTURE(seed);
@@ -119,12 +119,12 @@ TEST_SUITE("model/contact_update") {
     for (const double reach : {1e-6, 0.04}) {
       Solver<> tunnel = bolted_tunnel();
       const std::size_t before = tunnel.system().joints.contacts().size();
-      find_contacts_again(tunnel.system(), reach);
+      update_contacts(tunnel.system(), reach);
       CHECK(tunnel.system().joints.contacts().size() >= before);
       CHECK(unbalance(tunnel) <= 1e-7);
       Solver<Spatial> rock(jointed_mass({{-5, 0, -5}, {5, 4, 5}}, 1, 1.5),
                            CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700, .k0 = 1.2});
-      find_contacts_again(rock.system(), reach);
+      update_contacts(rock.system(), reach);
       CHECK(unbalance(rock) <= 5e-5);
     }
   }
@@ -133,8 +133,8 @@ TEST_SUITE("model/contact_update") {
     Solver<> tunnel = bolted_tunnel();
     CHECK(find(tunnel, TwoLevel{}).verdict == Verdict::stable);
     for (const double reach : {1e-3, 0.04}) {
-      find_contacts_again(tunnel.system(), reach);
-      CHECK(tunnel.system().has_found_again());
+      update_contacts(tunnel.system(), reach);
+      CHECK(tunnel.system().has_updated_contacts());
       CHECK(find(tunnel, TwoLevel{}).verdict == Verdict::stable);
       CHECK(error_of(tunnel) <= 1e-3);  // the error estimate of a search; measured 1.3e-4
     }
@@ -151,10 +151,10 @@ TEST_SUITE("model/contact_update") {
       const auto check = [&](auto& system, std::uint64_t seed) {
         CAPTURE(seed);
         shake(system, seed, 1e-3, turn);
-        find_contacts_again(system, 0.02);
+        update_contacts(system, 0.02);
         system.commit();
         shake(system, seed + 10, 2e-4, 0.01 * turn);
-        find_contacts_again(system, 0.02);
+        update_contacts(system, 0.02);
         system.commit();
         Eigen::VectorXd before, after;
         system.forces(system.displacement, before);
@@ -164,7 +164,7 @@ TEST_SUITE("model/contact_update") {
           force = std::max(force, std::abs(f.normal) + f.tangential.norm());
         });
         const double stored = stored_energy(system.joints, u);
-        const ContactUpdateReport report = find_contacts_again(system, 0.02);
+        const ContactUpdateReport report = update_contacts(system, 0.02);
         system.forces(system.displacement, after);
         const double jump = (after - before).cwiseAbs().maxCoeff() / force;
         worst = std::max(worst, jump);
@@ -192,7 +192,7 @@ TEST_SUITE("model/contact_update") {
       Eigen::VectorXd before, after;
       system.forces(system.displacement, before);
       const double stored = stored_energy(system.joints, system.displacement.data());
-      const ContactUpdateReport report = find_contacts_again(system, 0.02);
+      const ContactUpdateReport report = update_contacts(system, 0.02);
       system.forces(system.displacement, after);
       CHECK((after - before).norm() <= of_forces * before.norm());
       CHECK(std::abs(report.energy) <= of_energy * stored);
@@ -219,7 +219,7 @@ TEST_SUITE("model/contact_update") {
     system.displacement.setZero();
     system.forces(system.displacement, before);
     REQUIRE((before - in_situ).norm() > 1e5);
-    find_contacts_again(system, 1e-6);
+    update_contacts(system, 1e-6);
     system.forces(system.displacement, after);
     // Facets come from the detector, up to 1e-8 m off those of the cuts, which are 0.1 to 1 m long.
     CHECK((after - before).norm() <= 1e-7 * (before - in_situ).norm());
@@ -235,10 +235,9 @@ TEST_SUITE("model/contact_update") {
     const Solver<> before(slice({{0, 0}, {80, 80}}, joints, {}),
                           CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});
     Solver<> after = before;
-    CHECK_THROWS_AS(find_contacts_again(after.system(), 0.04, [](double) { return false; }),
-                    Stopped);
+    CHECK_THROWS_AS(update_contacts(after.system(), 0.04, [](double) { return false; }), Stopped);
     const auto &old = before.system(), &now = after.system();
-    CHECK(!now.has_found_again());
+    CHECK(!now.has_updated_contacts());
     CHECK(now.displacement == old.displacement);
     REQUIRE(now.joints.points().size() == old.joints.points().size());
     REQUIRE(now.joints.contacts().size() == old.joints.contacts().size());
@@ -247,15 +246,15 @@ TEST_SUITE("model/contact_update") {
       CHECK((x.a == y.a && x.b == y.b && x.first == y.first && x.count == y.count));
       CHECK(x.arm_a == y.arm_a);
     }
-    find_contacts_again(after.system(), 0.04, [](double) { return true; });
-    CHECK(now.has_found_again());
+    update_contacts(after.system(), 0.04, [](double) { return true; });
+    CHECK(now.has_updated_contacts());
   }
 
   TEST_CASE("limits out of range are refused") {
     Solver<> tunnel = bolted_tunnel();
     for (const Acceptance& bad :
          {Acceptance{.error_estimate = 0}, Acceptance{.unbalance_over_weight = -1},
-          Acceptance{.displacement_limit = 0}, Acceptance{.refind_limit = 0},
+          Acceptance{.displacement_limit = 0}, Acceptance{.contact_update_limit = 0},
           Acceptance{.collapse_measure = -1}})
       CHECK_THROWS_AS((void)tunnel.equilibrium(0, TwoLevel{}, bad), InvalidInput);
   }
@@ -264,7 +263,7 @@ TEST_SUITE("model/contact_update") {
     for (const double limit : {1e-3, 2e-4}) {
       CAPTURE(limit);
       Solver<> tunnel = bolted_tunnel();
-      const auto report = tunnel.equilibrium(0, TwoLevel{}, {.refind_limit = limit});
+      const auto report = tunnel.equilibrium(0, TwoLevel{}, {.contact_update_limit = limit});
       CHECK(report.verdict == Verdict::stable);
       CHECK(report.factorisations > 1);
       CHECK(error_of(tunnel) <= 1e-3);  // as above; measured 1.9e-4

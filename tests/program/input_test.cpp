@@ -244,7 +244,7 @@ TEST_SUITE("program/input") {
     CHECK(input.run.method == RunMethod::two_level);
     CHECK(input.run.tolerance == 1e-3);
     CHECK(input.run.displacement_limit == voussoir::Acceptance{}.displacement_limit);
-    CHECK(input.run.refind_limit == voussoir::Acceptance{}.refind_limit);
+    CHECK(input.run.contact_update_limit == voussoir::Acceptance{}.contact_update_limit);
 
     REQUIRE(input.diagram.has_value());
     const double spacings[] = {9, 11.25, 15, 18, 22.5};
@@ -332,10 +332,11 @@ TEST_SUITE("program/input") {
     CHECK(lining.interface_shear_stiffness == 0.3e9);
     CHECK(lining.interface_normal_stiffness == 1e9);
     CHECK(lining.arc.value().to == degrees(210));
-    const RunInput run = read(good, {"run.method=explicit", "run.damping=0.5", "run.ramp_steps=0",
-                                     "run.max_steps=100000", "run.tolerance=1e-4",
-                                     "run.displacement_limit=10 cm", "run.refind_limit=5 mm"})
-                             .run;
+    const RunInput run =
+        read(good, {"run.method=explicit", "run.damping=0.5", "run.ramp_steps=0",
+                    "run.max_steps=100000", "run.tolerance=1e-4", "run.displacement_limit=10 cm",
+                    "run.contact_update_limit=5 mm"})
+            .run;
     CHECK(run.method == RunMethod::explicit_);
     CHECK(run.damping == 0.5);
     CHECK(run.ramp_steps == 0);
@@ -345,7 +346,7 @@ TEST_SUITE("program/input") {
     CHECK(run.max_steps == 100000);
     CHECK(run.tolerance == 1e-4);
     CHECK(run.displacement_limit == 0.1);
-    CHECK(run.refind_limit == 0.005);
+    CHECK(run.contact_update_limit == 0.005);
     CHECK(read(good, {"run.method=relaxation"}).run.method == RunMethod::relaxation);
     CHECK(read(good, {"stage[0].name=top heading"}).stages.at(0).name == "top heading");
     const DiagramInput diagram =
@@ -519,9 +520,10 @@ TEST_SUITE("program/input") {
         {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-06 to 0.1"},
         {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
          "above 0"},
-        {"method = \"two-level\"", "refind_limit = \"20 mm\"", 38, "is never reached",
+        {"method = \"two-level\"", "contact_update_limit = \"20 mm\"", 38, "is never reached",
          "below displacement_limit"},
-        {"method = \"two-level\"", "refind_limit = \"0 mm\"", 38, "run.refind_limit", "above 0"},
+        {"method = \"two-level\"", "contact_update_limit = \"0 mm\"", 38,
+         "run.contact_update_limit", "above 0"},
         {"method = \"two-level\"", "method = \"explicit\"\nmax_steps = 2000", 39,
          "leaves no step after the ramp", "max_steps above ramp_steps"},
         {"method = \"two-level\"", "max_steps = 0", 38, "run.max_steps", "from 1 to 2000000000"},

@@ -244,14 +244,14 @@ TEST_SUITE("solver/construction") {
   }
 
   TEST_CASE("after contact updates, too, excavating alone moves nothing") {
-    const Acceptance updating{.refind_limit = 2e-4};
+    const Acceptance updating{.contact_update_limit = 2e-4};
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       CAPTURE(seed);
       Solver<> tunnel(jointed_rock(ground, seed), frictional, shallow);
       tunnel.excavate(heading);
       tunnel.install_bolt({{0, 3}, {0, 6}}, AxialBolt({.axial_stiffness = 2e8}));
       settle(tunnel, 0.2, updating);
-      REQUIRE(tunnel.system().has_found_again());
+      REQUIRE(tunnel.system().has_updated_contacts());
       const double largest = tunnel.system().largest_translation(tunnel.system().displacement);
       Solver<> next = tunnel;
       next.excavate(bench);

@@ -29,7 +29,7 @@ namespace {
 
 const CoulombJoint joint({2e9, 5e8, 55 * degree});
 /// Blocks move by tenths of a millimetre: contacts are updated.
-const Acceptance often{.error_estimate = 1e-5, .refind_limit = 1e-4};
+const Acceptance often{.error_estimate = 1e-5, .contact_update_limit = 1e-4};
 
 /// Of the wall traction in the end: in 3-D half of it, for a bare wall there loses blocks.
 template <class Geometry>

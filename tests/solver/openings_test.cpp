@@ -292,9 +292,9 @@ TEST_SUITE("solver/openings") {
     settle(tunnel, 0.6);
     tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 36, .from = 0, .to = 180 * degree}),
                           shell, interface);
-    const Acceptance updating{.refind_limit = 1e-4};
+    const Acceptance updating{.contact_update_limit = 1e-4};
     REQUIRE(tunnel.equilibrium(0.3, {}, updating).verdict == Verdict::stable);
-    REQUIRE(tunnel.system().has_found_again());
+    REQUIRE(tunnel.system().has_updated_contacts());
     const std::size_t arch = lining_members(tunnel).size();
     tunnel.install_lining(
         lining_frame(tunnel.mass(), {.nodes = 36, .from = 181 * degree, .to = 359 * degree}), shell,
@@ -319,7 +319,7 @@ TEST_SUITE("solver/openings") {
       CHECK(std::abs(members[k].thrust) < 0.01 * whole);
     report = tunnel.equilibrium(0.0, {}, updating);
     REQUIRE(report.verdict == Verdict::stable);
-    REQUIRE(tunnel.system().has_found_again());
+    REQUIRE(tunnel.system().has_updated_contacts());
     members = lining_members(tunnel);
     for (std::size_t k = members.size() - 2; k < members.size(); ++k) {
       CHECK(members[k].thrust > 0.01 * whole);

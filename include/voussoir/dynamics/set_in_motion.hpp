@@ -98,7 +98,7 @@ class Handover {
 
   void carry_contacts(Run& run) const {
     const std::vector<Pose<dim>> frames = frames_of(run);
-    const double* u = system_.has_found_again() ? system_.found_at().data() : nullptr;
+    const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     const auto former = [&](const auto& group) {
       using State = typename std::decay_t<decltype(group)>::State;
       return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
@@ -110,7 +110,7 @@ class Handover {
 
   void carry_supports(Run& run) const {
     const std::vector<Pose<dim>> frames = frames_of(run);
-    const double* u = system_.has_found_again() ? system_.found_at().data() : nullptr;
+    const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     SupportSet<dim> supports = system_.supports;
     for (const auto& support : supports) {
       support->to_frames(frames, u);
@@ -140,7 +140,7 @@ class Handover {
     for (const auto& support : system.supports) support->from_frames(frames, u.data());
     system.displacement = std::move(u);
     system.wall_fraction = run.held();
-    system.set_found(system.displacement, std::move(turned));
+    system.set_updated(system.displacement, std::move(turned));
   }
 
  private:
@@ -149,7 +149,7 @@ class Handover {
     std::vector<Pose<dim>> frames;
     for (int b = 0; b < system_.body_count(); ++b) {
       Pose<dim> frame = run.body(b).pose;
-      const Pose<dim> now = system_.pose(b), then = system_.pose_when_found(b);
+      const Pose<dim> now = system_.pose(b), then = system_.pose_at_update(b);
       frame.position += then.position - now.position;
       frame.rotation = then.rotation * transposed_product(now.rotation, frame.rotation);
       frames.push_back(frame);
@@ -192,7 +192,7 @@ class Handover {
 /// A lining is touched there by rock that lands on it, too: its nodes have tiles as thick as its
 /// section (`LiningSection::thickness`), and its mass must be given. Contacts are found anew where
 /// bodies are, as a contact update does; with `ContactPoints::gauss` forces and moments are those
-/// at rest, to second order of the displacements since contacts were last found.
+/// at rest, to second order of the displacements since contacts were last updated.
 /// @param settings  gravity as that of the weights
 /// @throws InvalidInput  a body without shape; a lining without mass or thickness
 template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>

@@ -46,11 +46,11 @@ struct Acceptance {
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
   /// A body that moved further is detached [m]. Beyond some centimetres answers depend on the path.
   double displacement_limit = 0.02;
-  /// Contacts are updated when a block has moved so far since they were last found [m]: as far
+  /// Contacts are updated when a block has moved so far since they were last updated [m]: as far
   /// as contacts and levers are good for blocks of half a metre; a quarter of it is better where
   /// blocks turn. Without effect unless below the displacement limit. A block that has lost all
   /// contacts within twice this is detached.
-  double refind_limit = 0.02;
+  double contact_update_limit = 0.02;
   /// More detached rock than this is a collapse, per metre of tunnel: the area lost in the section
   /// [m^2], in 3-D as in 2-D (see `SearchContext::open_length`).
   double collapse_measure = 20;
@@ -60,7 +60,7 @@ struct Acceptance {
     require(error_estimate > 0, "error_estimate", error_estimate, "> 0");
     require(unbalance_over_weight > 0, "unbalance_over_weight", unbalance_over_weight, "> 0");
     require(displacement_limit > 0, "displacement_limit", displacement_limit, "> 0 m");
-    require(refind_limit > 0, "refind_limit", refind_limit, "> 0 m");
+    require(contact_update_limit > 0, "contact_update_limit", contact_update_limit, "> 0 m");
     require(collapse_measure >= 0, "collapse_measure", collapse_measure, ">= 0");
   }
 };

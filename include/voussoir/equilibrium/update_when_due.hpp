@@ -12,8 +12,9 @@ namespace detail {
 /// no shorter than the one beyond which a block is detached, they never are.
 template <class System>
 [[nodiscard]] bool is_due(const System& system, const Acceptance& acceptance, double share = 1) {
-  return system.shapes != nullptr && acceptance.refind_limit < acceptance.displacement_limit &&
-         system.moved_since_found() > share * acceptance.refind_limit;
+  return system.shapes != nullptr &&
+         acceptance.contact_update_limit < acceptance.displacement_limit &&
+         system.moved_since_update() > share * acceptance.contact_update_limit;
 }
 
 /// Updates contacts if it is due.
@@ -28,10 +29,10 @@ template <class System>
 bool find_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
                    bool at_rest = false) {
   const Acceptance& acceptance = context.acceptance;
-  const bool near_by = at_rest && system.has_found_again();
+  const bool near_by = at_rest && system.has_updated_contacts();
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
   report.contact_updates.add(
-      find_contacts_again(system, 2 * acceptance.refind_limit, context.progress));
+      update_contacts(system, 2 * acceptance.contact_update_limit, context.progress));
   return true;
 }
 

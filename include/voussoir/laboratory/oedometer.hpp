@@ -180,7 +180,8 @@ template <class Detector = CutContacts, class Geometry, class JointLaw, class Me
   detail::check_press(mass, params);
   detail::Press<Geometry, JointLaw> press(mass, joint_law, params, Detector{});
   Acceptance acceptance;
-  acceptance.displacement_limit = acceptance.refind_limit = press.length;  // nothing falls here
+  acceptance.displacement_limit = acceptance.contact_update_limit =
+      press.length;                        // nothing falls here
   acceptance.unbalance_over_weight = 0.1;  // of 10 kPa in blocks of a metre: next to nothing
   std::vector<OedometerResult> path;
   for (const double motion : motions) {

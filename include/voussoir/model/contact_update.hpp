@@ -26,15 +26,15 @@ class FoundAgain {
 
   FoundAgain(System& system, double reach)
       : system_(system),
-        update_(reach, system.displacement, system.found_at(), system.law_of_cut.get()) {
+        update_(reach, system.displacement, system.updated_at(), system.law_of_cut.get()) {
     // Positions are kept near 0, whatever the site's coordinates.
     const auto near = [origin = system.body(0).centre](Pose<dim> pose) {
       pose.position -= origin;
       return pose;
     };
     for (int b = 0; b < system.body_count(); ++b)
-      update_.add_body(near(system.pose_when_found(b)), near(system.pose(b)),
-                       system.body(b).movable, system.body(b).is_block);
+      update_.add_body(near(system.pose_at_update(b)), near(system.pose(b)), system.body(b).movable,
+                       system.body(b).is_block);
     for (int b = 0; b < static_cast<int>(system.shapes->size()); ++b) {
       if (system.body(b).is_gone) continue;
       for (const auto& part : (*system.shapes)[static_cast<std::size_t>(b)])
@@ -54,7 +54,7 @@ class FoundAgain {
     replace(system_.joints, joints);
     replace(system_.boundary, boundary);
     replace(system_.interface, interface);
-    system_.set_found();
+    system_.set_updated();
     report.energy += stored_energy();
     system_.forces(system_.displacement, after);
     report.largest_jump = system_.unbalance_over_weight(after - before);
@@ -177,9 +177,10 @@ class FoundAgain {
       then.push_back(update_.then(b));
       now.push_back(update_.now(b));
     }
-    const double* found_at = system_.has_found_again() ? system_.found_at().data() : nullptr;
+    const double* updated_at =
+        system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     for (const auto& support : system_.supports) {
-      support->to_frames(then, found_at);
+      support->to_frames(then, updated_at);
       support->from_frames(now, system_.displacement.data());
     }
   }
@@ -203,10 +204,9 @@ class FoundAgain {
 /// @throws Stopped       the system is as it was
 /// @cost   about 3 microseconds a contact
 template <class System>
-ContactUpdateReport find_contacts_again(System& system, double reach,
-                                        const Progress& progress = {}) {
+ContactUpdateReport update_contacts(System& system, double reach, const Progress& progress = {}) {
   if (system.shapes == nullptr)
-    throw InvalidInput("find_contacts_again: the system does not know the shapes of its bodies");
+    throw InvalidInput("update_contacts: the system does not know the shapes of its bodies");
   return detail::FoundAgain<System>(system, reach).run(progress);
 }
 

@@ -47,7 +47,7 @@ struct KeptTangents<3> {
 }  // namespace detail
 
 /// What body a shares with body b on one plane, in the reference configuration: where the bodies
-/// were when contacts were found.
+/// were when contacts were last updated.
 ///
 /// Forces read all of it, so it is as small as it can be: 64 bytes in 2-D, 136 in 3-D.
 template <int Dim>

@@ -101,40 +101,40 @@ class System {
     motion.position -= motion.rotation * body(b).centre;
     return motion;
   }
-  /// The same when contacts were last found.
-  [[nodiscard]] Pose<dim> pose_when_found(int b) const;
-  /// The lever of a point that was there in the in-situ state, when contacts were last found [m].
+  /// The same when contacts were last updated.
+  [[nodiscard]] Pose<dim> pose_at_update(int b) const;
+  /// The lever of a point that was there in the in-situ state, when contacts were last updated [m].
   [[nodiscard]] Vec<dim> arm(int b, const Vec<dim>& point) const {
     const Vec<dim> arm = point - body(b).centre;
-    return has_found_again() ? Vec<dim>(turned_[static_cast<std::size_t>(b)] * arm) : arm;
+    return has_updated_contacts() ? Vec<dim>(turned_[static_cast<std::size_t>(b)] * arm) : arm;
   }
   /// Where a body was in the in-situ state, in the axes that are the world's in the reference
   /// configuration.
   [[nodiscard]] Pose<dim> frame_at_start(int b) const {
     Pose<dim> frame;
     frame.position = body(b).centre;
-    if (has_found_again()) frame.rotation = transposed(turned_[static_cast<std::size_t>(b)]);
+    if (has_updated_contacts()) frame.rotation = transposed(turned_[static_cast<std::size_t>(b)]);
     return frame;
   }
   /// Whether contacts have been updated since the in-situ state.
-  [[nodiscard]] bool has_found_again() const { return found_at_.size() > 0; }
+  [[nodiscard]] bool has_updated_contacts() const { return updated_at_.size() > 0; }
   /// The displacement at which they were; empty if never.
-  [[nodiscard]] const Eigen::VectorXd& found_at() const { return found_at_; }
+  [[nodiscard]] const Eigen::VectorXd& updated_at() const { return updated_at_; }
   /// Takes note that contacts and supports are now those of the present displacement.
-  void set_found() {
+  void set_updated() {
     std::vector<Rotation<dim>> turned;
     for (int b = 0; b < body_count(); ++b) turned.push_back(pose(b).rotation);
-    set_found(displacement, std::move(turned));
+    set_updated(displacement, std::move(turned));
   }
   /// The same of another displacement.
   /// @param turned  how every body lay there
-  void set_found(Eigen::VectorXd found_at, std::vector<Rotation<dim>> turned) {
+  void set_updated(Eigen::VectorXd updated_at, std::vector<Rotation<dim>> turned) {
     turned_ = std::move(turned);
-    found_at_ = std::move(found_at);
+    updated_at_ = std::move(updated_at);
   }
-  /// How far the block that has moved most has done so since contacts were found; turning counts at
-  /// the radius of gyration [m].
-  [[nodiscard]] double moved_since_found() const;
+  /// How far the block that has moved most has done so since contacts were last updated; turning
+  /// counts at the radius of gyration [m].
+  [[nodiscard]] double moved_since_update() const;
 
   [[nodiscard]] std::vector<int> movable_bodies() const {
     std::vector<int> movable;
@@ -143,10 +143,10 @@ class System {
     return movable;
   }
 
-  /// Of all bodies, where contacts were last found [m].
+  /// Of all bodies, where contacts were last updated [m].
   [[nodiscard]] std::vector<Vec<dim>> centres() const {
     std::vector<Vec<dim>> all;
-    for (int b = 0; b < body_count(); ++b) all.push_back(pose_when_found(b).position);
+    for (int b = 0; b < body_count(); ++b) all.push_back(pose_at_update(b).position);
     return all;
   }
 
@@ -273,7 +273,7 @@ class System {
   }
 
   std::vector<Body> bodies_;
-  Eigen::VectorXd found_at_;           ///< displacement at which contacts were updated
+  Eigen::VectorXd updated_at_;         ///< displacement at which contacts were updated
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
 
@@ -285,8 +285,8 @@ int System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::add_bodies(
   const auto size = static_cast<Eigen::Index>(dof * bodies_.size());
   grow(displacement, size);
   grow(load, size);
-  if (has_found_again()) {
-    grow(found_at_, size);
+  if (has_updated_contacts()) {
+    grow(updated_at_, size);
     turned_.resize(bodies_.size(), diagonal_of<dim>(1));
   }
   grow(wall_load, size);
@@ -296,34 +296,34 @@ int System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::add_bodies(
 
 template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
 auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::pose(int b) const -> Pose<dim> {
-  Pose<dim> at = pose_when_found(b);
+  Pose<dim> at = pose_at_update(b);
   if (!body(b).movable) return at;
   at.position = body(b).centre + part<dim>(displacement, dof * b);
   Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
-  if (has_found_again()) turn -= part<dof - dim>(found_at_, dof * b + dim);
+  if (has_updated_contacts()) turn -= part<dof - dim>(updated_at_, dof * b + dim);
   at.rotation = rotation_by(turn) * at.rotation;
   return at;
 }
 
 template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::pose_when_found(int b) const
+auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::pose_at_update(int b) const
     -> Pose<dim> {
   Pose<dim> at;
   at.position = body(b).centre;
   if (static_cast<std::size_t>(b) < turned_.size()) {
-    at.position += part<dim>(found_at_, dof * b);
+    at.position += part<dim>(updated_at_, dof * b);
     at.rotation = turned_[static_cast<std::size_t>(b)];
   }
   return at;
 }
 
 template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-double System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::moved_since_found() const {
+double System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::moved_since_update() const {
   double farthest = 0;
   for (int b = 0; b < body_count(); ++b) {
     if (!body(b).movable || !body(b).is_block) continue;
     Fixed<dof, 1> u = part<dof>(displacement, dof * b);
-    if (has_found_again()) u -= part<dof>(found_at_, dof * b);
+    if (has_updated_contacts()) u -= part<dof>(updated_at_, dof * b);
     farthest = std::max(farthest,
                         part<dim>(u, 0).norm() + body(b).gyration * part<dof - dim>(u, dim).norm());
   }

@@ -16,7 +16,7 @@
 #include <voussoir/model/contact_update.hpp>
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
-#include <voussoir/model/detail/lining_installation.hpp>
+#include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -115,8 +115,8 @@ class ComposedSolver {
   void install_lining(const LiningFrame<Geometry>& frame,
                       const std::vector<LiningSection>& sections,
                       const InterfaceLaw& interface_law) {
-    detail::LiningInstallation<Lining, SystemType>(system_, in_situ_.gravity,
-                                                   1e3 * mass_->domain.tolerance())
+    detail::LiningAssembly<Lining, SystemType>(system_, in_situ_.gravity,
+                                               1e3 * mass_->domain.tolerance())
         .run(frame, sections, interface_law);
     measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
     started_ = true;
@@ -242,7 +242,7 @@ class ComposedSolver {
   WallTractions walls_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
-  double update_limit_ = Acceptance{}.refind_limit;  ///< of the last search
+  double update_limit_ = Acceptance{}.contact_update_limit;  ///< of the last search
   int bolt_count_ = 0;
   bool started_ = false;
 };
@@ -334,8 +334,8 @@ void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
   detail::CarryOver<SystemType> carry(system_, mass->origins, next, mass->domain.tolerance(),
                                       opening);
   carry.run();
-  if (system_.has_found_again())
-    find_contacts_again(next, 2 * update_limit_, progress);
+  if (system_.has_updated_contacts())
+    update_contacts(next, 2 * update_limit_, progress);
   else
     model.set_initial_stress();
   // From here on nothing throws.
@@ -422,7 +422,7 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   acceptance.check();
   const double to = aim_at(wall_fractions);
   started_ = true;
-  update_limit_ = acceptance.refind_limit;
+  update_limit_ = acceptance.contact_update_limit;
   const SearchContext context{acceptance, &measures_, to, progress, open_length(*mass_)};
   EquilibriumReport report = method.find(system_, context);
   walls_.reach(system_.wall_fraction);
@@ -433,7 +433,7 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
 template <class Models>
 auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) const -> Vec<dim> {
   const Vec<dim> arm = point - system_.body(body).centre;
-  if (system_.has_found_again()) {
+  if (system_.has_updated_contacts()) {
     const Pose<dim> now = system_.pose(body);
     return now(arm) - point;
   }

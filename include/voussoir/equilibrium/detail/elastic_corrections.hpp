@@ -26,8 +26,8 @@ class ElasticCorrections {
                const Progress& progress, EquilibriumReport& report) {
     std::vector<int> bodies = system.movable_bodies();
     std::vector<bool> broken = system.supports.broken();
-    const Eigen::VectorXd& found_at = system.found_at();
-    const bool same_place = found_at.size() == found_at_.size() && found_at == found_at_;
+    const Eigen::VectorXd& updated_at = system.updated_at();
+    const bool same_place = updated_at.size() == updated_at_.size() && updated_at == updated_at_;
     if (solver_ && bodies == bodies_ && broken == broken_ && same_place) return;
     // Not two of them at a time; without one it is made anew, whatever stops this.
     if (solver_) add_report(before_, solver_->report());
@@ -37,7 +37,7 @@ class ElasticCorrections {
     solver_.emplace(std::move(stiffness), system.centres(), linear, progress, system.patterns);
     bodies_ = std::move(bodies);
     broken_ = std::move(broken);
-    found_at_ = found_at;
+    updated_at_ = updated_at;
     ++report.factorisations;
   }
   /// d = K^-1 f, in place.
@@ -64,10 +64,10 @@ class ElasticCorrections {
  private:
   std::optional<ElasticSolver<System::dof>> solver_;
   std::optional<Fire> fire_;
-  LinearReport before_;       ///< of solvers that are gone
-  std::vector<int> bodies_;   ///< that could move when it was made
-  std::vector<bool> broken_;  ///< supports then
-  Eigen::VectorXd found_at_;  ///< the displacement at which contacts had been found
+  LinearReport before_;         ///< of solvers that are gone
+  std::vector<int> bodies_;     ///< that could move when it was made
+  std::vector<bool> broken_;    ///< supports then
+  Eigen::VectorXd updated_at_;  ///< the displacement at which contacts had been found
 };
 
 }  // namespace voussoir::detail

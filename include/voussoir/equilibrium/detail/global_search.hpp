@@ -46,9 +46,9 @@ class GlobalSearch {
         report_(report),
         local_(system, effort.local, effort_.local_tuning, context) {
     const Acceptance& accept = context.acceptance;
-    may_find_ =
-        effort.restart.updates + static_cast<int>(effort.restart.updates_on_the_way *
-                                                  accept.displacement_limit / accept.refind_limit);
+    may_find_ = effort.restart.updates +
+                static_cast<int>(effort.restart.updates_on_the_way * accept.displacement_limit /
+                                 accept.contact_update_limit);
   }
 
   /// @throws NumericalFault, Stopped, FreeBody, NotEnoughMemory

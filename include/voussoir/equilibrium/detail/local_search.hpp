@@ -19,7 +19,7 @@ namespace voussoir::detail {
 
 /// Nobody goes further at a time.
 [[nodiscard]] inline double longest_move(const Acceptance& accept) {
-  return std::min(accept.displacement_limit, accept.refind_limit);
+  return std::min(accept.displacement_limit, accept.contact_update_limit);
 }
 
 /// How much a local search may do.

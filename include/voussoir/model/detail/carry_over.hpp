@@ -58,7 +58,7 @@ class CarryOver {
   void run() {
     add_nodes();
     carry_displacement();
-    if (old_.has_found_again()) {
+    if (old_.has_updated_contacts()) {
       move_contacts(old_.joints, next_.joints);
       move_contacts(old_.boundary, next_.boundary);
     } else {
@@ -143,17 +143,18 @@ class CarryOver {
   }
 
   void carry_displacement() {
-    const bool updated = old_.has_found_again();
-    Eigen::VectorXd found_at;
+    const bool updated = old_.has_updated_contacts();
+    Eigen::VectorXd updated_at;
     std::vector<Rotation<dim>> turned;
     if (updated) {
-      found_at = Eigen::VectorXd::Zero(next_.displacement.size());
+      updated_at = Eigen::VectorXd::Zero(next_.displacement.size());
       turned.assign(index(next_.body_count()), diagonal_of<dim>(1));
     }
     for (int next = 0; next < next_.body_count(); ++next) {
       const int b = next < ground_ ? origin(next) : next - ground_ + old_ground_;
       Fixed<dof, 1> u = part<dof>(old_.displacement, dof * b);
-      Fixed<dof, 1> found = updated ? part<dof>(old_.found_at(), dof * b) : zeros<Fixed<dof, 1>>();
+      Fixed<dof, 1> found =
+          updated ? part<dof>(old_.updated_at(), dof * b) : zeros<Fixed<dof, 1>>();
       if (next < ground_ && !is_unchanged(b)) {
         const Vec<dim> apart = next_.body(next).centre - old_.body(b).centre;
         const Vec<dim> arm = old_.arm(b, next_.body(next).centre);
@@ -166,15 +167,16 @@ class CarryOver {
       }
       set_part<dof>(next_.displacement, dof * next, u);
       if (!updated) continue;
-      set_part<dof>(found_at, dof * next, found);
-      turned[index(next)] = old_.pose_when_found(b).rotation;
+      set_part<dof>(updated_at, dof * next, found);
+      turned[index(next)] = old_.pose_at_update(b).rotation;
     }
-    if (updated) next_.set_found(std::move(found_at), std::move(turned));
+    if (updated) next_.set_updated(std::move(updated_at), std::move(turned));
   }
 
-  /// What has become of a point of a body, at a lever from its centre when contacts were found.
+  /// What has become of a point of a body, at a lever from its centre when contacts were last
+  /// updated.
   [[nodiscard]] Heir<dim> heir(int b, const Vec<dim>& arm) const {
-    const Pose<dim> pose = old_.pose_when_found(b);
+    const Pose<dim> pose = old_.pose_at_update(b);
     const Vec<dim> place = old_.body(b).centre + Vec<dim>(transposed_product(pose.rotation, arm));
     if (b >= old_ground_) return {number(b), false, arm, place};
     const int piece = piece_at(b, place);
@@ -307,7 +309,7 @@ class CarryOver {
     }
     to = std::move(moved);
   }
-  /// From the centre of a body to that of its piece, when contacts were found.
+  /// From the centre of a body to that of its piece, when contacts were last updated.
   [[nodiscard]] Vec<dim> moved_centre(int old, int next) const {
     return old < old_ground_ && !is_unchanged(old) ? old_.arm(old, next_.body(next).centre)
                                                    : zeros<Vec<dim>>();

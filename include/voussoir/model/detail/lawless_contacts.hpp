@@ -53,13 +53,13 @@ class ContactUpdate {
 
   /// @param reach         contacts may be so far open [m]
   /// @param displacement  present, `dof` values a body
-  /// @param found_at      that of the reference configuration so far; empty: the in-situ state
+  /// @param updated_at      that of the reference configuration so far; empty: the in-situ state
   /// @param law_of_cut    for every label of a face the index of the joint law; null: the first
   /// @pre the vectors outlive this, and do not change
-  ContactUpdate(double reach, const Eigen::VectorXd& displacement, const Eigen::VectorXd& found_at,
-                const std::vector<int>* law_of_cut)
+  ContactUpdate(double reach, const Eigen::VectorXd& displacement,
+                const Eigen::VectorXd& updated_at, const std::vector<int>* law_of_cut)
       : displacement_(displacement),
-        found_at_(found_at),
+        updated_at_(updated_at),
         law_of_cut_(law_of_cut),
         tracker_(reach, 0, 4 * reach) {}
 
@@ -78,7 +78,7 @@ class ContactUpdate {
 
   [[nodiscard]] const Pose<Dim>& now(int b) const { return bodies_[index(b)].pose; }
   [[nodiscard]] const Pose<Dim>& then(int b) const { return then_[index(b)]; }
-  /// How a body has turned since contacts were found.
+  /// How a body has turned since contacts were last updated.
   [[nodiscard]] Rotation<Dim> turn_of(int b) const {
     return now(b).rotation * transposed(then(b).rotation);
   }
@@ -103,7 +103,8 @@ class ContactUpdate {
   }
 
   [[nodiscard]] Former former(const Contacts& group) const {
-    return {group.contacts, group.points, then_, found_at_.size() > 0 ? found_at_.data() : nullptr,
+    return {group.contacts, group.points, then_,
+            updated_at_.size() > 0 ? updated_at_.data() : nullptr,
             [](int k) { return FormerPoint{k}; }};
   }
   /// Marks bodies that no chain of contacts, of `Dim` points at least, joins to a fixed one.
@@ -133,11 +134,11 @@ class ContactUpdate {
     for (const Point& p : points) to.former.push_back(p.state);
   }
 
-  const Eigen::VectorXd &displacement_, &found_at_;
+  const Eigen::VectorXd &displacement_, &updated_at_;
   const std::vector<int>* law_of_cut_;
   Tracker tracker_;
   std::vector<MovingBody<Dim>> bodies_;  ///< where they are
-  std::vector<Pose<Dim>> then_;          ///< when contacts were found
+  std::vector<Pose<Dim>> then_;          ///< when contacts were last updated
   std::vector<bool> is_block_;
   std::vector<const Shape*> parts_;  ///< in the order of the tracker's shapes
 };

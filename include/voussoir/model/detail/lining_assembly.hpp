@@ -24,7 +24,7 @@ namespace voussoir::detail {
 /// position, free of force. It joins the linings that stand.
 /// @tparam Lining  the model of its members
 template <class Lining, class System>
-class LiningInstallation {
+class LiningAssembly {
  public:
   using Geometry = typename System::GeometryType;
   using InterfaceLaw = typename System::InterfaceLawType;
@@ -34,7 +34,7 @@ class LiningInstallation {
   /// @param system   must outlive this
   /// @param gravity  [m/s^2]
   /// @param near     nodes of two linings this near to each other are one [m]
-  LiningInstallation(System& system, double gravity, double near)
+  LiningAssembly(System& system, double gravity, double near)
       : system_(system), gravity_(gravity), near_(near) {}
 
   /// @throws InvalidInput  a member has no length, or no rock touches the lining
