@@ -160,7 +160,7 @@ std::string draw(const Profile& profile, double nu, double radius) {
   canvas.text(map({0, 0.93}) + Vec2(-6, 0), "face", {.anchor = TextAnchor::end, .fill = "#666"});
   canvas.text({frame.centre().x(), frame.high.y() + 44}, "distance behind the face / radius",
               {.anchor = TextAnchor::middle});
-  canvas.text({36, frame.centre().y()}, "convergence / that far behind the face",
+  canvas.text({36, frame.centre().y()}, "u / u_max",
               {.anchor = TextAnchor::middle, .rotation = -90});
   const SvgStyle of_elastic{.stroke = "#2c5f8a", .stroke_width = 2.5},
       of_plastic{.stroke = "#c8102e", .stroke_width = 2, .dash = "8 5"};

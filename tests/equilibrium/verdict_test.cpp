@@ -294,6 +294,37 @@ TEST_SUITE("equilibrium/verdict") {
     check(Explicit());
   }
 
+  TEST_CASE("a block that can turn about its only contact point is held by nothing, and falls") {
+    const auto lost = [](double limit, const auto& method) {
+      System<Planar, CoulombJoint> system(joints(30 * degree), 5e9, joints(30 * degree));
+      for (const double x : {0.0, 1.0}) system.add_body({Vec2(x, 0), 26e3, 0.4, true});
+      const int ground = system.add_body({Vec2(0, -1), 0, 1, false});
+      const Segment base(Vec2(-0.5, -0.5), Vec2(0.5, -0.5)), side(Vec2(0.5, -0.5), Vec2(0.5, 0.5));
+      const auto below = base.gauss_points();
+      system.boundary.add(0, ground, base, system.body(0).centre, system.body(ground).centre,
+                          below);
+      system.joints.add(0, ground, base, system.body(0).centre, system.body(ground).centre, below);
+      const FacetPoint<2> middle{Vec2(0, 0), 1};
+      system.joints.add(0, 1, side, system.body(0).centre, system.body(1).centre, {&middle, 1});
+      for (int b = 0; b < 2; ++b) system.load[3 * b + 1] = -26e3;
+      const std::vector<double> areas{1, 1, 0};
+      SearchContext context;
+      context.acceptance.collapse_measure = limit;
+      context.measures = &areas;
+      return method.find(system, context);
+    };
+    const auto check = [&](const auto& method) {
+      const EquilibriumReport one = lost(3, method);
+      CHECK(one.verdict == Verdict::stable);
+      CHECK(one.fallen == std::vector<int>{1});
+      CHECK(one.fallen_measure == 1);
+      CHECK(lost(0.5, method).verdict == Verdict::collapsing);
+    };
+    check(TwoLevel());
+    check(Relaxation());
+    check(Explicit());
+  }
+
   TEST_CASE("a dowel installed in rock that has moved is free of force") {
     const auto opening = circular_opening(4, 36);
     Solver<AxialShearBolt> tunnel(jointed_rock(domain_around(opening, 22, 7, 7), 5),

@@ -108,16 +108,23 @@ class CoulombJoint {
   template <int Dim>
   [[nodiscard]] Vec<Dim - 1> elastic_shear(const PointLoad<Dim>& load,
                                            const State<Dim>& state) const {
-    return load.initial.tangential -
-           params_.joint_shear_stiffness * load.weight * (load.motion.slip - state.plastic_slip);
+    // Number by number: g++ 12 loads as a pair what was just stored as two, and waits for it.
+    const double stiffness = params_.joint_shear_stiffness * load.weight;
+    Vec<Dim - 1> shear;
+    for (int k = 0; k < Dim - 1; ++k)
+      shear.data()[k] = load.initial.tangential.data()[k] -
+                        stiffness * (load.motion.slip.data()[k] - state.plastic_slip.data()[k]);
+    return shear;
   }
 
   [[nodiscard]] static Vec<1> shortened(const Vec<1>& shear, double limit) {
     return Vec<1>(std::clamp(shear[0], -limit, limit));
   }
   [[nodiscard]] static Vec<2> shortened(const Vec<2>& shear, double limit) {
-    const double length = length_of(shear);
-    return length > limit ? Vec<2>(shear * (limit / length)) : shear;
+    const double s = shear.data()[0], t = shear.data()[1], squared = s * s + t * t;
+    if (!(squared > limit * limit)) return shear;
+    const double part = limit / std::sqrt(squared);
+    return Vec<2>(part * s, part * t);
   }
 
   Params params_;

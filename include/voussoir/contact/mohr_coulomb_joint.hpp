@@ -83,12 +83,15 @@ class MohrCoulombJoint {
         "residual_friction_angle", p_.residual_friction_angle, ">= 0 and <= friction_angle");
     require(p_.residual_cohesion >= 0 && p_.residual_cohesion <= p_.cohesion, "residual_cohesion",
             p_.residual_cohesion, ">= 0 and <= cohesion");
+    friction_coefficient_ = std::tan(p_.friction_angle);
+    residual_friction_coefficient_ = std::tan(p_.residual_friction_angle);
     tan_dilation_ = p_.dilation_limit > 0 ? std::tan(p_.dilation_angle) : 0;
   }
 
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    return respond(load, state).force;
+    const PointForce<Dim> trial = elastic_force(load, state);
+    return holds(trial, load.weight, state.failed) ? trial : respond(load, state).force;
   }
 
   /// @return  work of slip less what dilation stores, and what breaking in tension sets free [J]
@@ -149,26 +152,47 @@ class MohrCoulombJoint {
     return tan_dilation_ * std::min(path, p_.dilation_limit);
   }
 
+  /// Without new slip and opening.
+  template <int Dim>
+  [[nodiscard]] PointForce<Dim> elastic_force(const PointLoad<Dim>& load,
+                                              const State<Dim>& state) const {
+    const double w = load.weight;
+    return {load.initial.normal -
+                p_.joint_normal_stiffness * w * (load.motion.opening - dilation(state.path)),
+            load.initial.tangential -
+                p_.joint_shear_stiffness * w * (load.motion.slip - state.plastic_slip)};
+  }
+  [[nodiscard]] double tensile_strength(double weight, bool failed) const {
+    return failed ? 0.0 : weight * p_.tensile_strength;
+  }
+  [[nodiscard]] double friction_coefficient(bool failed) const {
+    return failed ? residual_friction_coefficient_ : friction_coefficient_;
+  }
+  [[nodiscard]] double shear_strength(double normal, double weight, bool failed) const {
+    const double cohesion = weight * (failed ? p_.residual_cohesion : p_.cohesion);
+    return std::max(0.0, cohesion + friction_coefficient(failed) * normal);
+  }
+  /// True where a force is within both strengths: nearly everywhere, and without a root.
+  template <int Dim>
+  [[nodiscard]] bool holds(const PointForce<Dim>& force, double weight, bool failed) const {
+    const double strength = shear_strength(force.normal, weight, failed);
+    return force.normal >= -tensile_strength(weight, failed) &&
+           force.tangential.squaredNorm() <= strength * strength;
+  }
+
   template <int Dim>
   [[nodiscard]] Response<Dim> respond(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const double w = load.weight, kn = p_.joint_normal_stiffness * w,
-                 ks = p_.joint_shear_stiffness * w;
-    const double mu = std::tan(state.failed ? p_.residual_friction_angle : p_.friction_angle);
-    const double cohesion = w * (state.failed ? p_.residual_cohesion : p_.cohesion);
-    const double tension = state.failed ? 0.0 : w * p_.tensile_strength;
+                 ks = p_.joint_shear_stiffness * w, mu = friction_coefficient(state.failed);
     Response<Dim> r;
-    r.force.normal = load.initial.normal - kn * (load.motion.opening - dilation(state.path));
-    r.force.tangential = load.initial.tangential - ks * (load.motion.slip - state.plastic_slip);
-    if (r.force.normal < -tension) {
+    r.force = elastic_force(load, state);
+    if (r.force.normal < -tensile_strength(w, state.failed)) {
       r.force = {};
       r.opens = true;
       return r;
     }
     const double shear = r.force.tangential.norm();
-    const auto excess = [&](double normal) {
-      return shear - std::max(0.0, cohesion + mu * normal);
-    };
-    double over = excess(r.force.normal);
+    const double over = shear - shear_strength(r.force.normal, w, state.failed);
     if (!(over > 0)) return r;
     // |T| - k_s dq = c + mu (N + k_n tan(psi) dq), as long as there is dilation left; then without.
     const double left = std::max(0.0, p_.dilation_limit - state.path);
@@ -185,6 +209,7 @@ class MohrCoulombJoint {
     return r;
   }
   Params p_;
+  double friction_coefficient_ = 0, residual_friction_coefficient_ = 0;
   double tan_dilation_ = 0;
 };
 

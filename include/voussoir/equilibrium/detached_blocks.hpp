@@ -6,13 +6,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
+#include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/small_algebra.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/linear/conjugate_gradients.hpp>
+#include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/linear/free_body.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
@@ -89,17 +92,23 @@ template <class System>
                       system.largest_translation(system.displacement)};
 }
 
-/// u = K^-1 f, in place, once.
+/// u = K^-1 f, in place, once. A body that nothing holds is dropped first, and has u = 0.
 /// @return  estimate of its largest error [m]
 template <class System>
-double solve_elastically(const System& system, const LinearSettings& settings,
-                         const SolveTolerance& tolerance, const Progress& progress,
+double solve_elastically(System& system, const SearchContext& context,
+                         const LinearSettings& settings, const SolveTolerance& tolerance,
                          Eigen::VectorXd& f, EquilibriumReport& report) {
-  auto solver = system.elastic_solver(settings, progress);
-  const double error = solver.solve_in_place(f, tolerance, progress);
+  std::optional<ElasticSolver<System::dof>> solver;
+  prepare_without_free_bodies(system, context, report, [&] {
+    solver.emplace(system.elastic_solver(settings, context.progress));
+  });
+  for (int b = 0; b < system.body_count(); ++b)
+    if (!system.body(b).movable)
+      set_part<System::dof>(f, System::dof * b, zeros<Fixed<System::dof, 1>>());
+  const double error = solver->solve_in_place(f, tolerance, context.progress);
   ++report.factorisations;
   ++report.elastic_solves;
-  add_report(report.linear, solver.report());
+  add_report(report.linear, solver->report());
   return error;
 }
 

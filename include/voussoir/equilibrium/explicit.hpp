@@ -98,17 +98,27 @@ void Explicit::step_on(System& system, const SearchContext& context,
   const Acceptance& accept = context.acceptance;
   detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
-    return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
-                                     report);
+    return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);
   };
   if (detail::has_collapsed<System::dim>(report, context)) return;
   if (detail::moves_too_far(system, context, solve, report)) return;
+  if (detail::has_collapsed<System::dim>(report, context)) return;  // by what nothing holds
   const double from = system.wall_fraction, to = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
   Eigen::VectorXd velocity = zeros(u.size()), f;
   Eigen::VectorXd mass = masses(system), inverse_mass = inverses(mass);
   double step = stable_step(system, mass);
   double next_estimate = 1e300;  // look again only once the force ratio is well below
+  const auto goes_on_without_the_fallen = [&] {
+    for (int b = 0; b < system.body_count(); ++b)
+      if (!system.body(b).movable) set_part<dof>(velocity, dof * b, zeros<Fixed<dof, 1>>());
+    report.largest_displacement = system.largest_translation(u);
+    if (detail::has_collapsed<System::dim>(report, context)) return false;
+    mass = masses(system);
+    inverse_mass = inverses(mass);
+    step = stable_step(system, mass);
+    return true;
+  };
   StopCheck stop(context.progress, 1);
   while (report.steps < params_.max_steps) {
     const bool ramping = report.steps < params_.ramp_steps;
@@ -136,13 +146,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
     const bool found = detail::find_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
-      for (int b = 0; b < system.body_count(); ++b)
-        if (!system.body(b).movable) set_part<dof>(velocity, dof * b, zeros<Fixed<dof, 1>>());
-      report.largest_displacement = system.largest_translation(u);
-      if (detail::has_collapsed<System::dim>(report, context)) break;
-      mass = masses(system);
-      inverse_mass = inverses(mass);
-      step = stable_step(system, mass);
+      if (!goes_on_without_the_fallen()) break;
       continue;
     }
     if (ramping) continue;
@@ -151,9 +155,12 @@ void Explicit::step_on(System& system, const SearchContext& context,
         report.unbalance_over_weight > next_estimate)
       continue;
     Eigen::VectorXd d = f;
-    const double inexact = detail::solve_elastically(
-        system, params_.linear, detail::tolerance_of_correction(system, accept), context.progress,
-        d, report);
+    const std::size_t fallen_before = report.fallen.size();
+    const double inexact = solve(d, detail::tolerance_of_correction(system, accept));
+    if (report.fallen.size() > fallen_before) {  // nothing has held them
+      if (!goes_on_without_the_fallen()) break;
+      continue;
+    }
     report.error_estimate = system.relative_correction(d, u, inexact);
     if (report.error_estimate < accept.error_estimate) {
       if (detail::find_when_due(system, context, report, true)) continue;

@@ -76,12 +76,12 @@ EquilibriumReport Relaxation::find(System& system, const SearchContext& context)
   EquilibriumReport report;
   detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
-    return detail::solve_elastically(system, params_.linear, tolerance, context.progress, f,
-                                     report);
+    return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);
   };
   detail::until_stopped(report, [&] {
     if (!detail::has_collapsed<System::dim>(report, context) &&
-        !detail::moves_too_far(system, context, solve, report, params_.detachment))
+        !detail::moves_too_far(system, context, solve, report, params_.detachment) &&
+        !detail::has_collapsed<System::dim>(report, context))  // by what nothing holds
       follow(system, context, report);
   });
   return report;

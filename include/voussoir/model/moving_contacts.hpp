@@ -110,31 +110,10 @@ class MovingContacts {
     const Contact& c = contacts_[k];
     const auto &a = bodies[static_cast<std::size_t>(c.a)],
                &b = bodies[static_cast<std::size_t>(c.b)];
-    if constexpr (Dim == 2) return react_in_plane(c, a, b, lost);
-    const Rotation<Dim> frame = a.pose.rotation * c.frame;
-    const Vec<Dim> arm = b.pose.position - a.pose.position;
-    const typename Contact::Place at{transposed_product(b.pose.rotation, frame),
-                                     transposed_product(frame, arm)};
-    Vec<Dim> force = zeros<Vec<Dim>>();     // frame of b
-    Spin<Dim> moment = zeros<Spin<Dim>>();  // about the centre of b, frame of b
-    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i) {
-      Point& p = points_[i];
-      const PointLoad<Dim> load = p.load(at);
-      const PointForce<Dim> f = law_of(c).force(load, p.state);
-      lost.friction += law_of(c).commit(load, p.state);
-      Vec<Dim> components;
-      components << f.normal, f.tangential;
-      if (c.viscosity > 0 && f.normal > 0)
-        components[0] += damping_force(c, p, a, b, frame, arm, f.normal, lost);
-      const Vec<Dim> on_b = at.frame_b * components;
-      force += on_b;
-      moment += moment_of(p.place, on_b);
-    }
-    Reaction<Dim> r;
-    r.force = b.pose.rotation * force;
-    r.moment[1] = to_world(b.pose.rotation, moment);
-    r.moment[0] = -(r.moment[1] + moment_of(arm, r.force));
-    return r;
+    if constexpr (Dim == 2)
+      return react_in_plane(c, a, b, lost);
+    else
+      return react_in_space(c, a, b, lost);
   }
 
   /// Energy that the springs of contact `k` hold [J].
@@ -150,15 +129,8 @@ class MovingContacts {
   }
 
  private:
-  [[nodiscard]] static Spin<Dim> to_world(const Rotation<Dim>& rotation, const Spin<Dim>& moment) {
-    if constexpr (Dim == 2)
-      return moment;
-    else
-      return rotation * moment;
-  }
-
-  /// The same in 2-D, number by number: Eigen's two-vectors are carried through memory by
-  /// g++ 12 when they are put together from parts, which doubles the time.
+  /// Number by number: small vectors are carried through memory by g++ 12 when they are put
+  /// together from parts, which doubles the time. So in 3-D.
   template <class Body>
   [[nodiscard]] Reaction<Dim> react_in_plane(const Contact& c, const Body& a, const Body& b,
                                              Dissipation& lost) requires(Dim == 2) {
@@ -200,6 +172,53 @@ class MovingContacts {
     r.force << x, y;
     r.moment[1][0] = moment;
     r.moment[0][0] = -(moment + dx * y - dy * x);
+    return r;
+  }
+
+  template <class Body>
+  [[nodiscard]] Reaction<Dim> react_in_space(const Contact& c, const Body& a, const Body& b,
+                                             Dissipation& lost) requires(Dim == 3) {
+    const Rotation<Dim> frame = a.pose.rotation * c.frame;
+    const Vec<Dim> arm = b.pose.position - a.pose.position;
+    const typename Contact::Place at{transposed_product(b.pose.rotation, frame),
+                                     transposed_product(frame, arm)};
+    const Law& law = law_of(c);
+    const double *n = at.frame_b.data(), *s = n + 3, *t = n + 6, *base = at.base.data();
+    double x = 0, y = 0, z = 0;     // force on b, along its axes
+    double mx = 0, my = 0, mz = 0;  // moment about its centre
+    const Point* const end = points_.data() + c.last;
+    for (Point* p = points_.data() + c.first; p != end; ++p) {
+      const double px = p->place.data()[0], py = p->place.data()[1], pz = p->place.data()[2];
+      PointLoad<Dim> load;
+      load.weight = p->weight;
+      load.initial.normal = p->initial.normal;
+      for (int k = 0; k < 2; ++k)
+        load.initial.tangential.data()[k] = p->initial.tangential.data()[k];
+      load.motion.opening = base[0] + (n[0] * px + n[1] * py + n[2] * pz) - p->zero.data()[0];
+      load.motion.slip.data()[0] =
+          base[1] + (s[0] * px + s[1] * py + s[2] * pz) - p->zero.data()[1];
+      load.motion.slip.data()[1] =
+          base[2] + (t[0] * px + t[1] * py + t[2] * pz) - p->zero.data()[2];
+      const PointForce<Dim> f = law.force(load, p->state);
+      lost.friction += law.commit(load, p->state);
+      double normal = f.normal;
+      const double along_s = f.tangential.data()[0], along_t = f.tangential.data()[1];
+      if (c.viscosity > 0 && normal > 0)
+        normal += damping_force(c, *p, a, b, frame, arm, f.normal, lost);
+      const double fx = n[0] * normal + s[0] * along_s + t[0] * along_t,
+                   fy = n[1] * normal + s[1] * along_s + t[1] * along_t,
+                   fz = n[2] * normal + s[2] * along_s + t[2] * along_t;
+      x += fx;
+      y += fy;
+      z += fz;
+      mx += py * fz - pz * fy;
+      my += pz * fx - px * fz;
+      mz += px * fy - py * fx;
+    }
+    Reaction<Dim> r;
+    r.force = b.pose.rotation * Vec<3>(x, y, z);
+    r.moment[1] = b.pose.rotation * Spin<3>(mx, my, mz);
+    r.moment[0] = -(r.moment[1] + moment_of(arm, r.force));
     return r;
   }
 
