@@ -119,10 +119,11 @@ requires(Rows > 0 && Inner > 0 && Cols > 0) [[nodiscard]] inline Fixed<Rows, Col
   return product;
 }
 /// Of two rotations in 2-D; g++ 12 would call a function for these four sums.
-[[nodiscard, gnu::always_inline]] inline Fixed<2, 2> operator*(const Fixed<2, 2>& a,
-                                                               const Fixed<2, 2>& b) {
+template <int Size>
+requires(Size == 2) [[nodiscard, gnu::always_inline]] inline Fixed<Size, Size> operator*(
+    const Fixed<Size, Size>& a, const Fixed<Size, Size>& b) {
   const double *l = a.data(), *r = b.data();
-  Fixed<2, 2> product;
+  Fixed<Size, Size> product;
   product.data()[0] = l[0] * r[0] + l[2] * r[1];
   product.data()[1] = l[1] * r[0] + l[3] * r[1];
   product.data()[2] = l[0] * r[2] + l[2] * r[3];

@@ -435,7 +435,7 @@ class ContactNetwork {
   /// Lists every body's contacts; those without points are on no list.
   void list(std::size_t body_count) {
     sums_.list(body_count, size(), [this](auto&& visit) {
-      each([&](const auto&, const auto& c) { visit(c.a, c.b, c.first < c.last); });
+      this->each([&](const auto&, const auto& c) { visit(c.a, c.b, c.first < c.last); });
     });
   }
   /// Drops what is no longer used, and puts contacts in the order of the pairs.
