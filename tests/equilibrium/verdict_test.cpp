@@ -299,7 +299,7 @@ TEST_SUITE("equilibrium/verdict") {
       System<Planar, CoulombJoint> system(joints(30 * degree), 5e9, joints(30 * degree));
       for (const double x : {0.0, 1.0}) system.add_body({Vec2(x, 0), 26e3, 0.4, true});
       const int ground = system.add_body({Vec2(0, -1), 0, 1, false});
-      const Segment base(Vec2(-0.5, -0.5), Vec2(0.5, -0.5)), side(Vec2(0.5, -0.5), Vec2(0.5, 0.5));
+      const Segment base{Vec2(-0.5, -0.5), Vec2(0.5, -0.5)}, side{Vec2(0.5, -0.5), Vec2(0.5, 0.5)};
       const auto below = base.gauss_points();
       system.boundary.add(0, ground, base, system.body(0).centre, system.body(ground).centre,
                           below);
