@@ -3,6 +3,7 @@
 // opening, bolts, lining and stress go with it; the answer must.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -183,6 +184,36 @@ TEST_SUITE("solver/mirrored") {
     const auto images = images_in_space();
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
       check_in_space(seed, images[seed % 4], bound, lined_drift);
+  }
+
+  // The figures of docs/decisions.md; some minutes: --no-skip -tc='table of*'
+  TEST_CASE("table of chambers and drifts in 3-D: all images, three frictions" * doctest::skip()) {
+    struct Row {
+      double friction;
+      std::uint64_t seeds;
+    };
+    for (const Row& row : {Row{30, 57}, Row{22, 30}, Row{40, 20}}) {
+      int images = 0, with_fallen = 0;
+      double worst = 0;
+      const auto compare = [&](std::uint64_t seed, const auto& make) {
+        const Solver<Spatial> one = make(seed, row.friction, Transform<3>{});
+        with_fallen += one.fallen().empty() ? 0 : 1;
+        for (const Transform<3>& map : images_in_space()) {
+          const Disagreement found = disagreement(one, make(seed, row.friction, map), map);
+          CHECK(found.same_blocks);
+          CHECK(found.same_fallen);
+          worst = std::max(worst, found.difference);
+          ++images;
+        }
+      };
+      for (std::uint64_t seed = 1; seed <= row.seeds; ++seed) {
+        compare(seed, chamber);
+        compare(seed, lined_drift);
+      }
+      CHECK(worst <= bound);
+      MESSAGE(row.friction << " degrees: " << images << " images, blocks detach in " << with_fallen
+                           << " tunnels, worst difference " << worst);
+    }
   }
 }
 

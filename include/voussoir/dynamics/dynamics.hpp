@@ -20,6 +20,7 @@
 #include <voussoir/dynamics/run_diagnostics.hpp>
 #include <voussoir/dynamics/run_sizes.hpp>
 #include <voussoir/dynamics/stepping.hpp>
+#include <voussoir/dynamics/time_step.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/model/contact_network.hpp>
 #include <voussoir/model/contact_tracker.hpp>
@@ -190,12 +191,7 @@ class Dynamics : public MovingBodies<Dim> {
   }
 
   /// The largest step that is stable for the contacts there are, damping included [s]; infinite
-  /// without contacts.
-  ///
-  /// The highest frequency is bounded body by body: omega^2 <= 2 max eigenvalue of M_b^-1 K_bb, for
-  /// a contact's energy is at most twice that of its bodies moving alone. Local damping makes an
-  /// unknown behave as if (1 + alpha) times as stiff; a dashpot of ratio zeta takes the factor
-  /// sqrt(1 + zeta^2) - zeta.
+  /// without contacts (`detail::stable_time_step`).
   [[nodiscard]] double stable_step() {
     begin();
     return longest_step();
@@ -260,10 +256,7 @@ class Dynamics : public MovingBodies<Dim> {
   [[nodiscard]] double longest_step() {
     std::vector<double> sums = network_.stiffness_over_mass(bodies_);
     supports_.add_stiffness_over_mass(bodies_, sums);
-    const double largest = *std::max_element(sums.begin(), sums.end());
-    const double zeta = settings_.viscous_damping;
-    return 2 / std::sqrt(2 * largest * (1 + settings_.local_damping)) *
-           (std::sqrt(1 + zeta * zeta) - zeta);
+    return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()), settings_);
   }
   [[nodiscard]] double choose_step();
   [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces() {
@@ -413,26 +406,11 @@ double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   take_in();
   if (!sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
-  if (settings_.time_step > stable_step_)
-    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": the time step of " +
-                         message_number(settings_.time_step, 3) +
-                         " s that was asked for is longer than the stable one of " +
-                         message_number(stable_step_, 3) +
-                         " s; leave time_step at 0 to have it chosen");
-  step_ = settings_.time_step > 0 ? settings_.time_step : settings_.safety * stable_step_;
-  if (!std::isfinite(step_)) step_ = 1e-3;  // nothing touches
+  step_ = detail::chosen_time_step(settings_, stable_step_, steps_);
   if (!settings_.find_contacts || shapes_.size() < 2) return step_;
-  // Within one step nothing is looked for: what is apart must not come to overlap in it.
   begin();
-  const double longest = sizes_.longest_step(bodies_, stepping_.acting());
-  if (settings_.time_step > longest)
-    throw NumericalFault("dynamics: step " + std::to_string(steps_) + ": in the time step of " +
-                         message_number(settings_.time_step, 3) +
-                         " s that was asked for a body moves more than a quarter of the reach of " +
-                         "contacts of " + message_number(sizes_.reach, 3) +
-                         " m, and may pass into another unseen; leave time_step at 0, or give " +
-                         "<= " + message_number(longest, 3) + " s");
-  if (longest > 0) step_ = std::min(step_, longest);
+  step_ = detail::watched_time_step(step_, sizes_.longest_step(bodies_, stepping_.acting()),
+                                    sizes_.reach, settings_, steps_);
   return step_;
 }
 

@@ -143,7 +143,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
                                     report.steps, "; lower the safety factor of the step"}));
     detail::ask_to_go_on(context, ramping ? done : -1.0);
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-    const bool found = detail::find_when_due(system, context, report);
+    const bool found = detail::update_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       if (!goes_on_without_the_fallen()) break;
@@ -163,7 +163,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
     }
     report.error_estimate = system.relative_correction(d, u, inexact);
     if (report.error_estimate < accept.error_estimate) {
-      if (detail::find_when_due(system, context, report, true)) continue;
+      if (detail::update_when_due(system, context, report, true)) continue;
       report.verdict = Verdict::stable;
       report.reason =
           "error estimate, out-of-balance force ratio and displacements are within their limits";

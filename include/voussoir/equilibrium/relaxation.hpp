@@ -117,7 +117,7 @@ void Relaxation::step_on(System& system, const SearchContext& context,
     if (!is_finite(f))
       throw NumericalFault(message({"relaxation: forces are not finite at step ", report.steps}));
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
-    const bool found = detail::find_when_due(system, context, report);
+    const bool found = detail::update_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
       if (detail::has_collapsed<System::dim>(report, context)) break;
@@ -126,7 +126,7 @@ void Relaxation::step_on(System& system, const SearchContext& context,
     }
     report.unbalance_over_weight = system.unbalance_over_weight(f);
     if (report.unbalance_over_weight < accept.unbalance_over_weight) {
-      if (detail::find_when_due(system, context, report, true)) continue;
+      if (detail::update_when_due(system, context, report, true)) continue;
       report.verdict = Verdict::stable;
       report.reason = "every block is in equilibrium within the out-of-balance force ratio limit";
       break;

@@ -26,8 +26,8 @@ template <class System>
 /// @return  true if it has
 /// @throws Stopped  the system is as it was
 template <class System>
-bool find_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
-                   bool at_rest = false) {
+bool update_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
+                     bool at_rest = false) {
   const Acceptance& acceptance = context.acceptance;
   const bool near_by = at_rest && system.has_updated_contacts();
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -22,6 +21,7 @@
 #include <voussoir/model/detail/contact_springs.hpp>
 #include <voussoir/model/detail/contact_sums.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
+#include <voussoir/model/detail/kept_shear.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -344,7 +344,9 @@ class ContactNetwork {
       contact.law = law_of(update.cut_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal)));
     else if (kind == 2)
       contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
-    if (renewal.keeps_history()) keep_shear(group, *old, old_points, contact, bodies, points);
+    if (renewal.keeps_history())
+      detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
+                              !known, contact, bodies, points);
     if (viscous_damping_ > 0)
       contact.viscosity = viscosity(
           bodies[index(a)], bodies[index(b)],
@@ -354,32 +356,19 @@ class ContactNetwork {
 
   /// Puts a contact in the place of the pair's old one, or behind all others.
   template <class U, class Group>
-  bool put(U& update, Group& group, Pair& pair, typename Group::Contact& contact,
+  bool put(U& update, Group& group, Pair& pair, const typename Group::Contact& contact,
            const std::vector<typename Group::Point>& points) {
     const Bodies& bodies = update.bodies;
     const bool known = pair.contact >= 0;
     const typename Group::Contact* const old =
         known ? &group.contacts()[index(pair.contact)] : nullptr;
-    const auto count = static_cast<std::int32_t>(points.size());
-    const bool in_place = known && contact.a == old->a && count == old->last - old->first;
+    const bool same_side = known && contact.a == old->a;
     if (known) update.gained -= group.stored_energy(index(pair.contact), bodies);
-    if (in_place) {
-      contact.first = old->first;
-      std::copy(points.begin(), points.end(), group.points().begin() + contact.first);
-    } else {
-      if (known) ++unused_;
-      contact.first = static_cast<std::int32_t>(group.points().size());
-      group.points().insert(group.points().end(), points.begin(), points.end());
-    }
-    contact.last = contact.first + count;
-    if (!known) {
-      pair.contact = static_cast<std::int32_t>(group.size());
-      group.contacts().emplace_back();
-    }
-    group.contacts()[index(pair.contact)] = contact;
+    const bool fits = group.put(pair.contact, contact, points);
+    if (known && !fits) ++unused_;
     update.gained += group.stored_energy(index(pair.contact), bodies);
     is_stale_[index(contact.a)] = is_stale_[index(contact.b)] = 1;
-    return in_place;
+    return same_side && fits;
   }
 
   /// Of a joint: the index of its law.
@@ -396,32 +385,6 @@ class ContactNetwork {
     Vec<Dim> sum = zeros<Vec<Dim>>();
     for (const Vec<Dim>& p : found.polygon) sum += p;
     return sum / static_cast<double>(found.polygon.size());
-  }
-
-  /// Gives the new points of a contact the shear force of the old ones, or of what they share of a
-  /// contact that was common to several pairs the part that their area is of it.
-  template <class Group>
-  static void keep_shear(const Group& group, const typename Group::Contact& old,
-                         const std::vector<typename Group::Point>& old_points,
-                         const typename Group::Contact& contact, const Bodies& bodies,
-                         std::vector<typename Group::Point>& points) {
-    const auto area_of = [](const auto& of) {
-      double sum = 0;
-      for (const auto& p : of) sum += p.weight;
-      return sum;
-    };
-    const auto before_points =
-        std::span(old_points).subspan(index(old.first), index(old.last) - index(old.first));
-    const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
-      const auto at = c.place(bodies[index(c.a)].pose, bodies[index(c.b)].pose);
-      Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
-      for (const auto& p : of) sum += group.law_of(c).force(p.load(at), p.state).tangential;
-      return sum;
-    };
-    Vec<Dim - 1> before = shear_of(old, before_points);
-    if (&old_points != &group.points())
-      before *= std::min(1.0, area_of(points) / area_of(before_points));
-    detail::match_shear<Dim>(before, points, [&] { return shear_of(contact, points); });
   }
 
   /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the
@@ -443,29 +406,13 @@ class ContactNetwork {
   void tidy(Tracker& tracker, KindOf&& kind_of) {
     std::size_t kind = 0;
     each_group([&](auto& group) {
-      tidy(group, tracker, [&](const auto& pair) { return kind_of(pair) == kind; });
+      group.keep([&](auto&& visit) {
+        for (Pair& pair : tracker.pairs())
+          if (pair.contact >= 0 && kind_of(pair) == kind) visit(pair.contact);
+      });
       ++kind;
     });
     unused_ = 0;
-  }
-  template <class Group, class Belongs>
-  static void tidy(Group& group, Tracker& tracker, Belongs&& belongs) {
-    std::vector<typename Group::Contact> contacts;
-    std::vector<typename Group::Point> points;
-    contacts.reserve(group.size());
-    points.reserve(group.points().size());
-    for (auto& pair : tracker.pairs()) {
-      if (pair.contact < 0 || !belongs(pair)) continue;
-      typename Group::Contact c = group.contacts()[index(pair.contact)];
-      const auto first = group.points().begin() + c.first, last = group.points().begin() + c.last;
-      c.first = static_cast<std::int32_t>(points.size());
-      points.insert(points.end(), first, last);
-      c.last = static_cast<std::int32_t>(points.size());
-      pair.contact = static_cast<std::int32_t>(contacts.size());
-      contacts.push_back(c);
-    }
-    group.contacts().swap(contacts);
-    group.points().swap(points);
   }
 
   /// Stiffness over mass of a body, all others fixed, its contacts closed and sticking.

@@ -20,26 +20,6 @@
 
 namespace voussoir::detail {
 
-/// Adds to the initial shear forces of points what is missing of a whole, each its share by weight.
-/// Nothing is added where friction would not let it act.
-/// @param shear_now  shear_now() is the sum of the points' shear forces [N]
-template <int Dim, class Points, class ShearNow>
-void match_shear(const Vec<Dim - 1>& wanted, Points& points, ShearNow&& shear_now) {
-  const Vec<Dim - 1> missing = wanted - shear_now();
-  const double least = 1e-12 * wanted.norm();
-  if (points.empty() || !(missing.norm() > least)) return;
-  double weight = 0;
-  for (const auto& p : points) weight += p.weight;
-  std::vector<Vec<Dim - 1>> before;
-  for (auto& p : points) {
-    before.push_back(p.initial.tangential);
-    p.initial.tangential += (p.weight / weight) * missing;
-  }
-  if ((wanted - shear_now()).norm() <= 1e-6 * missing.norm() + least) return;
-  auto initial = before.begin();
-  for (auto& p : points) p.initial.tangential = *initial++;
-}
-
 /// Makes the springs of a contact from what the detector has found, with the history of the contact
 /// as it was before.
 ///

@@ -11,6 +11,7 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/contact_update_report.hpp>
+#include <voussoir/model/detail/kept_shear.hpp>
 #include <voussoir/model/detail/lawless_contacts.hpp>
 #include <voussoir/model/system.hpp>
 
@@ -20,11 +21,11 @@ namespace detail {
 
 /// Makes a system small-displacement again at the place where its bodies are.
 template <class System>
-class FoundAgain {
+class SystemUpdate {
  public:
   static constexpr int dim = System::dim;
 
-  FoundAgain(System& system, double reach)
+  SystemUpdate(System& system, double reach)
       : system_(system),
         update_(reach, system.displacement, system.updated_at(), system.law_of_cut.get()) {
     // Positions are kept near 0, whatever the site's coordinates.
@@ -191,7 +192,7 @@ class FoundAgain {
 
 }  // namespace detail
 
-/// Finds the contacts of a system again where its bodies are now, history carried over, and turns
+/// Updates the contacts of a system to where its bodies are now, history carried over, and turns
 /// supports with them: displacements from here on are small against this state.
 ///
 /// A lining keeps its contacts with the rock, which turn with it; blocks that leave their place do
@@ -207,7 +208,7 @@ template <class System>
 ContactUpdateReport update_contacts(System& system, double reach, const Progress& progress = {}) {
   if (system.shapes == nullptr)
     throw InvalidInput("update_contacts: the system does not know the shapes of its bodies");
-  return detail::FoundAgain<System>(system, reach).run(progress);
+  return detail::SystemUpdate<System>(system, reach).run(progress);
 }
 
 }  // namespace voussoir

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -103,6 +104,52 @@ class MovingContacts {
   [[nodiscard]] std::vector<Point>& points() { return points_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] std::size_t size() const { return contacts_.size(); }
+  [[nodiscard]] std::span<const Point> points_of(const Contact& c) const {
+    return {points_.data() + c.first, static_cast<std::size_t>(c.last - c.first)};
+  }
+
+  /// Puts a contact with its points in the place of another, or behind all.
+  /// @param number  of the other, which leaves its points behind if they are fewer or more; -1:
+  ///                none. The number of the new one afterwards
+  /// @return  true if its points lie where those of the other did
+  bool put(std::int32_t& number, Contact contact, const std::vector<Point>& points) {
+    const auto count = static_cast<std::int32_t>(points.size());
+    const bool is_new = number < 0;
+    if (is_new) {
+      number = static_cast<std::int32_t>(contacts_.size());
+      contacts_.emplace_back();
+    }
+    Contact& place = contacts_[static_cast<std::size_t>(number)];
+    const bool fits = !is_new && place.last - place.first == count;
+    contact.first = fits ? place.first : static_cast<std::int32_t>(points_.size());
+    contact.last = contact.first + count;
+    if (fits)
+      std::copy(points.begin(), points.end(), points_.begin() + contact.first);
+    else
+      points_.insert(points_.end(), points.begin(), points.end());
+    place = contact;
+    return fits;
+  }
+  /// Keeps these contacts and their points alone, in this order, and numbers them anew.
+  /// @param each  each(visit) calls visit(number) for every one, to be changed
+  template <class Each>
+  void keep(Each&& each) {
+    std::vector<Contact> contacts;
+    std::vector<Point> points;
+    contacts.reserve(contacts_.size());
+    points.reserve(points_.size());
+    each([&](std::int32_t& number) {
+      Contact c = contacts_[static_cast<std::size_t>(number)];
+      const std::span<const Point> own = points_of(c);
+      c.first = static_cast<std::int32_t>(points.size());
+      points.insert(points.end(), own.begin(), own.end());
+      c.last = static_cast<std::int32_t>(points.size());
+      number = static_cast<std::int32_t>(contacts.size());
+      contacts.push_back(c);
+    });
+    contacts_.swap(contacts);
+    points_.swap(points);
+  }
 
   /// Forces of contact `k` with the bodies at these poses, history brought up to date.
   template <class Bodies>

@@ -10,17 +10,16 @@
 #include <vector>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
-#include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_update.hpp>
+#include <voussoir/model/detail/bolt_assembly.hpp>
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
-#include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/in_situ.hpp>
@@ -229,10 +228,6 @@ class ComposedSolver {
   /// @return  the largest of them
   double aim_at(const std::vector<double>& wall_fractions);
 
-  /// The intersections of a bar without the bodies that are detached.
-  [[nodiscard]] std::vector<BlockIntersection> intersections_of_present_rock(
-      const typename Geometry::Line& bar) const;
-
   /// Copies of the solver share it, and so do its shapes; `excavate` alone changes it, or a copy.
   std::shared_ptr<RockMass<Geometry>> mass_;
   LawsBySet<JointLaw> joint_laws_;
@@ -385,22 +380,11 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
         message({"bolt: its tip at ", text_of<dim>(bar.end),
                  " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
                  text_of<dim>(domain.high), " m"}));
-  const Vec<dim> axis = (bar.end - bar.start) / length;
-  auto* bolts = system_.supports.template first<BoltsType>();
-  if (bolts == nullptr) {
-    system_.supports.add(std::make_shared<BoltsType>());
-    bolts = system_.supports.template first<BoltsType>();
-  }
-  const int law_index = bolts->add_law(law);
-  const auto crossings =
-      bolt_crossings(intersections_of_present_rock(bar), bar, anchors, domain.tolerance());
-  bolts->install(
-      crossings, axis, bolt_count_, law_index, dim == 2 ? 1 / spacing : 1,
-      [this](int b) { return system_.frame_at_start(b); },
-      [this](const auto& spring) { return spring.span_at(system_.displacement.data()); });
+  const int crossed =
+      detail::install_bolt(system_, *mass_, bar, law, spacing, anchors, bolt_count_);
   ++bolt_count_;
   started_ = true;
-  return static_cast<int>(crossings.size());
+  return crossed;
 }
 
 template <class Models>
@@ -444,15 +428,6 @@ template <class Models>
 void ComposedSolver<Models>::build(const Progress& progress) {
   detail::InitialModel<Detector, SystemType> model(*mass_, in_situ_, points_, system_, progress);
   model.run(mass_, joint_laws_, measures_);
-}
-
-template <class Models>
-std::vector<BlockIntersection> ComposedSolver<Models>::intersections_of_present_rock(
-    const typename Geometry::Line& bar) const {
-  std::vector<BlockIntersection> intersections = block_intersections(*mass_, bar);
-  std::erase_if(intersections,
-                [this](const BlockIntersection& p) { return !system_.body(p.body).movable; });
-  return intersections;
 }
 
 }  // namespace voussoir

@@ -112,7 +112,7 @@ class GlobalSearch {
     const double limit = context_.acceptance.displacement_limit;
     const bool falls = system_.largest_translation(system_.displacement) > limit;
     if (falls) drop(system_, fallen_bodies(system_, limit), context_, report_);
-    const bool found = find_when_due(system_, context_, report_);
+    const bool found = update_when_due(system_, context_, report_);
     if (found) drop(system_, {}, context_, report_);
     if (found && --may_find_ < 0) return Change::too_often;
     if (!falls && !found) return Change::none;
@@ -145,7 +145,7 @@ class GlobalSearch {
   /// Commits what has slipped. @return  false: a bolt broke, a joint failed, or contacts are
   /// elsewhere, and one has to look again
   bool rests() {
-    if (system_.commit() > 0 || find_when_due(system_, context_, report_, true)) {
+    if (system_.commit() > 0 || update_when_due(system_, context_, report_, true)) {
       prepare();
       return false;
     }
