@@ -70,7 +70,7 @@ void explicit_stepping(benchmark::State& state, double bolt_spacing, double thic
     tunnel = before;
     state.ResumeTiming();
     report = Explicit({.damping = 0.7, .ramp_steps = 2000, .max_steps = 60000})
-                 .find(tunnel.system(), voussoir::SearchContext{});
+                 .find(voussoir::detail::SystemOf::in(tunnel), voussoir::SearchContext{});
   }
   report_on(state, tunnel, report);
   // With the estimates, and the factors that these need.
@@ -93,8 +93,9 @@ void explicit_steps(benchmark::State& state, double scale) {
     state.PauseTiming();
     tunnel = before;
     state.ResumeTiming();
-    const auto report = Explicit({.damping = 0.7, .ramp_steps = steps, .max_steps = steps + 1})
-                            .find(tunnel.system(), voussoir::SearchContext{});
+    const auto report =
+        Explicit({.damping = 0.7, .ramp_steps = steps, .max_steps = steps + 1})
+            .find(voussoir::detail::SystemOf::in(tunnel), voussoir::SearchContext{});
     if (report.steps <= steps) state.SkipWithError("it ended before");
   }
   const double contacts = static_cast<double>(tunnel.system().joints.contacts().size());
@@ -110,7 +111,7 @@ BENCHMARK_CAPTURE(explicit_steps, 16k_contacts, 1)->Unit(benchmark::kMillisecond
 void force_evaluation(benchmark::State& state) {
   Tunnel tunnel = design_case(15, 0.1);
   equilibrium(tunnel);
-  auto& system = tunnel.system();
+  auto& system = voussoir::detail::SystemOf::in(tunnel);
   Eigen::VectorXd f;
   for (auto _ : state) {
     system.forces(system.displacement, f);

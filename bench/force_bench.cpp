@@ -44,7 +44,7 @@ Case<Model>& case_of(int size, bool is_updated, Make&& make) {
     if (last.first != size) last = {size, std::make_unique<Case<Model>>(make(size))};
     // Points get a height and a start of their own.
     if (is_updated) {
-      auto& system = last.second->model.system();
+      auto& system = voussoir::detail::SystemOf::in(last.second->model);
       system.displacement = last.second->u;
       update_contacts(system, 1e-3);
       last.first = key;
@@ -61,7 +61,7 @@ Case<Cavern>& spatial(int spacing, bool is_updated) {
 
 template <class History, class Of>
 void forces(benchmark::State& state, Of& of) {
-  auto& joints = of.model.system().joints;
+  auto& joints = voussoir::detail::SystemOf::in(of.model).joints;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(of.u.size());
   for (auto _ : state) {
     joints.template add_forces<History>(of.u.data(), f.data());
@@ -78,7 +78,7 @@ void forces(benchmark::State& state, Of& of) {
 /// A fifth of the contacts, by number: what local searches ask for.
 template <class Of>
 void forces_of_some(benchmark::State& state, Of& of) {
-  auto& joints = of.model.system().joints;
+  auto& joints = voussoir::detail::SystemOf::in(of.model).joints;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(of.u.size());
   std::vector<int> some;
   for (int k = 0; k < static_cast<int>(joints.contacts().size()); ++k)

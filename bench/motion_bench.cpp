@@ -79,7 +79,7 @@ void space(benchmark::State& state) {
 /// The floor: forces of the same joints, history brought up to date, nothing moves.
 void forces(benchmark::State& state) {
   Tunnel tunnel = excavated();
-  auto& system = tunnel.system();
+  auto& system = voussoir::detail::SystemOf::in(tunnel);
   Eigen::VectorXd f;
   for (auto _ : state) {
     system.forces<Committing>(system.displacement, f);

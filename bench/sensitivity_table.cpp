@@ -40,6 +40,12 @@ struct Knob {
 
 int whole(double value) { return static_cast<int>(std::lround(value)); }
 
+/// Of a number that counts something.
+Knob counted(Knob made) {
+  made.low = whole(made.low);
+  return made;
+}
+
 /// Halved and doubled, within a range.
 template <class Set>
 Knob knob(const char* group, const char* name, double usual, Set set, double least = 0,
@@ -50,9 +56,9 @@ Knob knob(const char* group, const char* name, double usual, Set set, double lea
 void add_two_level(std::vector<Knob>& all) {
   const TwoLevel::Params p;
   const auto add = [&](const char* name, int TwoLevel::Params::*member, int least) {
-    all.push_back(knob(
+    all.push_back(counted(knob(
         "TwoLevel", name, p.*member, [=](Setting& s, double x) { s.params.*member = whole(x); },
-        least));
+        least)));
   };
   add("burst_steps", &TwoLevel::Params::burst_steps, 1);
   add("newton_steps", &TwoLevel::Params::newton_steps, 0);
@@ -79,9 +85,9 @@ struct Members {
   }
   void add(const char* name, int Part::*member, int least = 0) const {
     const auto p = part;
-    all.push_back(knob(
+    all.push_back(counted(knob(
         group, name, Part{}.*member, [=](Setting& s, double x) { s.params.*p.*member = whole(x); },
-        least));
+        least)));
   }
   /// A number near 1: its distance from 1 is halved and doubled.
   void add_distance(const char* name, double Part::*member) const {
@@ -243,7 +249,9 @@ struct Summary {
       return;  // other states are not compared
     }
     crown = std::max(crown, change(answer.crown, usual.crown));
-    fallen = std::max(fallen, std::abs(answer.fallen - usual.fallen));
+    if (const double change = std::abs(answer.fallen - usual.fallen);
+        change > 1e-9)  // of adding up
+      fallen = std::max(fallen, change);
     bolt = std::max(bolt, change(answer.bolt, usual.bolt));
   }
   void print(const Knob& k) const {

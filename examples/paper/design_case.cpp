@@ -108,7 +108,7 @@ InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle, 
   const auto mass = sliced_rock(mass_a, seed);
   Tunnel tunnel(mass, CoulombJoint({normal_stiffness, shear_stiffness, friction_angle}),
                 {.density = density, .k0 = k0, .surcharge = surcharge, .gravity = gravity});
-  auto& system = tunnel.system();
+  const auto& system = tunnel.system();
   // The stress in a block is the sum of (place of a contact force) x (force) over its area.
   std::vector<Stress<2>> stress(mass.bodies.size(), Stress<2>::Zero());
   const auto collect = [&](const auto& group) {
@@ -140,9 +140,7 @@ InSituState in_situ_state(std::uint64_t seed, double k0, double friction_angle, 
   state.vertical = middle(1, 1);
   state.horizontal = middle(0, 0);
   state.gradient = (mean_around(Vec2(0, -5), 4)(1, 1) - mean_around(Vec2(0, 5), 4)(1, 1)) / 10;
-  Eigen::VectorXd f;
-  system.forces(system.displacement, f);
-  state.unbalance = system.unbalance_over_weight(f);
+  state.unbalance = tunnel.out_of_balance_ratio();
   (void)tunnel.equilibrium(1.0);
   state.drift = system.largest_translation(system.displacement);
   return state;

@@ -74,9 +74,7 @@ Excavated excavate(const Input& input, const Report& report) {
                  .surcharge = input.stress.surcharge,
                  .gravity = input.model.gravity},
                 ContactPoints::gauss, progress);
-  Eigen::VectorXd f;
-  tunnel.system().forces(tunnel.system().displacement, f);
-  const double unbalance = tunnel.system().unbalance_over_weight(f);
+  const double unbalance = tunnel.out_of_balance_ratio();
   tunnel.excavate(opening, input.blocks.min_wall_area, progress);
   return {std::move(tunnel), opening, unbalance, std::move(rock.warnings)};
 }

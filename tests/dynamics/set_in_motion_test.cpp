@@ -67,9 +67,7 @@ template <class Geometry>
 
 template <class Tunnel>
 [[nodiscard]] double unbalance(Tunnel& tunnel) {
-  Eigen::VectorXd f;
-  tunnel.system().forces(tunnel.system().displacement, f);
-  return tunnel.system().unbalance_over_weight(f);
+  return tunnel.out_of_balance_ratio();
 }
 template <class Tunnel>
 [[nodiscard]] double farthest(const Tunnel& tunnel, const Eigen::VectorXd& from) {

@@ -185,7 +185,7 @@ TEST_SUITE("equilibrium/verdict") {
       const auto taken = [&, asked = 0](double) mutable { return asked++ < allowed; };
       const Progress progress = taken;
       typename Method::Params params;
-      auto& system = tunnel.system();
+      auto& system = detail::SystemOf::in(tunnel);
       std::vector<double> measures(static_cast<std::size_t>(system.body_count()), 1.0);
       const EquilibriumReport report =
           Method(params).find(system, SearchContext{{}, &measures, 0.0, progress});
@@ -207,7 +207,7 @@ TEST_SUITE("equilibrium/verdict") {
     const EquilibriumReport report = tunnel.equilibrium();
     REQUIRE(report.verdict == Verdict::stable);
     Eigen::VectorXd f;
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     system.forces(system.displacement, f);
     CHECK(report.error_estimate < 1e-3);
     CHECK(report.unbalance_over_weight < 1e-2);
@@ -229,7 +229,7 @@ TEST_SUITE("equilibrium/verdict") {
     REQUIRE(report.verdict == Verdict::stable);
     REQUIRE(!report.fallen.empty());
     CHECK(report.factorisations > 1);
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     Eigen::VectorXd d;
     system.forces(system.displacement, d);
     BlockCholesky<3>(system.elastic_stiffness()).solve_in_place(d);
@@ -248,8 +248,8 @@ TEST_SUITE("equilibrium/verdict") {
     Solver<> again = soft;
     const EquilibriumReport report = soft.equilibrium();
     CHECK(soft.system().wall_fraction == 1);  // as it was
-    for (const EquilibriumReport& other :
-         {Relaxation().find(soft.system(), {}), Explicit().find(soft.system(), {})}) {
+    for (const EquilibriumReport& other : {Relaxation().find(detail::SystemOf::in(soft), {}),
+                                           Explicit().find(detail::SystemOf::in(soft), {})}) {
       CHECK(other.verdict == Verdict::undecided);
       CHECK(other.reason == report.reason);
     }
@@ -332,7 +332,7 @@ TEST_SUITE("equilibrium/verdict") {
     tunnel.excavate(opening);
     (void)tunnel.equilibrium(0.4);
     Eigen::VectorXd before, after;
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     system.forces(system.displacement, before);
     const AxialShearBolt law(
         {.axial = {.axial_stiffness = 2e8, .carries_compression = true}, .shear_stiffness = 3e8});
@@ -373,8 +373,8 @@ TEST_SUITE("equilibrium/verdict") {
     CHECK(tunnel.composition().find(FaultyJoint::name) != std::string::npos);
     Solver<FaultyJoint> second = tunnel, third = tunnel;
     CHECK_THROWS_AS((void)tunnel.equilibrium(), NumericalFault);
-    CHECK_THROWS_AS((void)Relaxation().find(second.system(), {}), NumericalFault);
-    CHECK_THROWS_AS((void)Explicit().find(third.system(), {}), NumericalFault);
+    CHECK_THROWS_AS((void)Relaxation().find(detail::SystemOf::in(second), {}), NumericalFault);
+    CHECK_THROWS_AS((void)Explicit().find(detail::SystemOf::in(third), {}), NumericalFault);
   }
 
   TEST_CASE("with the whole wall traction nothing moves") {
@@ -431,7 +431,7 @@ TEST_SUITE("equilibrium/verdict") {
     }
     CHECK(broken == report.broken_bolts);
     Eigen::VectorXd f;
-    tunnel.system().forces(tunnel.system().displacement, f);
+    detail::SystemOf::in(tunnel).forces(tunnel.system().displacement, f);
     CHECK(tunnel.system().unbalance_over_weight(f) < 1e-2);  // without the broken springs
   }
 

@@ -74,7 +74,7 @@ Eigen::VectorXd point_by_point(const Group& group, const System& system, const E
 
 template <class Tunnel>
 void check_sum(Tunnel& tunnel) {
-  auto& system = tunnel.system();
+  auto& system = detail::SystemOf::in(tunnel);
   const Eigen::VectorXd u = shaken(system);
   // Points with a height and a start of their own, as contact updates make them.
   voussoir::update_contacts(system, 1e-3);
@@ -103,7 +103,7 @@ TEST_SUITE("model/contact_group") {
     REQUIRE(!in_order(CutContacts::find(tunnel.mass())));  // as they are found they are not
     tunnel.install_lining(lining_frame(tunnel.mass(), {}), LiningSection::rectangular(0.1, 25e9),
                           CoulombJoint({1e9, 1e9, 30 * degree}));
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     REQUIRE(system.interface.contacts().size() > 20);
     check_order(system);
     update_contacts(system, 1e-3);
@@ -115,7 +115,7 @@ TEST_SUITE("model/contact_group") {
     Solver<Spatial> rock = jointed_cube();
     REQUIRE(!in_order(CutContacts::find(rock.mass())));
     check_order(rock.system());
-    update_contacts(rock.system(), 1e-3);
+    update_contacts(detail::SystemOf::in(rock), 1e-3);
     check_order(rock.system());
   }
 
@@ -129,7 +129,7 @@ TEST_SUITE("model/contact_group") {
 
   TEST_CASE("contacts that are left keep their points and what these remember") {
     Solver<> tunnel = bolted_tunnel();
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     system.displacement = 20 * shaken(system);
     system.commit();
     const auto before = system.joints;
@@ -219,7 +219,7 @@ TEST_SUITE("model/contact_group") {
     CHECK(second.mass().bodies.size() == blocks);
     CHECK(second.mass().openings.empty());
     CHECK(mass_properties(second.mass().bodies[700].parts).measure == area);
-    update_contacts(second.system(), 1e-3);
+    update_contacts(detail::SystemOf::in(second), 1e-3);
     CHECK(in_order(second.system().joints.contacts()));
     second.excavate(opening);
     CHECK(second.mass().openings.size() == 1);

@@ -89,7 +89,7 @@ TEST_SUITE("solver/composition") {
                                             Welded{},
                                             {.density = 2700, .k0 = 0.5, .surcharge = 1e6});
     tunnel.excavate(opening);
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     Eigen::VectorXd load;
     system.wall_fraction = left;
     system.forces(system.displacement, load);

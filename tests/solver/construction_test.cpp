@@ -56,9 +56,7 @@ void settle(Tunnel& tunnel, double wall_fraction = 0, const Acceptance& acceptan
 /// The system is in balance where it is, all walls held as they are.
 template <class Tunnel>
 double unbalance(Tunnel& tunnel) {
-  Eigen::VectorXd f;
-  tunnel.system().forces(tunnel.system().displacement, f);
-  return tunnel.system().unbalance_over_weight(f);
+  return tunnel.out_of_balance_ratio();
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Unbalance {
 };
 
 Unbalance unbalance(Solver<>& solver) {
-  auto& system = solver.system();
+  auto& system = detail::SystemOf::in(solver);
   Eigen::VectorXd f;
   system.forces(system.displacement, f);
   Unbalance worst;

@@ -63,7 +63,7 @@ void check_laws() {
   REQUIRE(joints.contacts().size() > 50);
   REQUIRE(joints.laws().size() == 2);
   CHECK(mistaken(joints.contacts(), of_system) == 0);
-  update_contacts(rock.system(), 1e-4);
+  update_contacts(detail::SystemOf::in(rock), 1e-4);
   CHECK(mistaken(joints.contacts(), of_system) == 0);
 }
 
@@ -101,7 +101,7 @@ TEST_SUITE("solver/laws_by_set") {
     for (int b = 1; b < 3; ++b)
       if (stack.system().body(b).centre.y() > stack.system().body(top).centre.y()) top = b;
     const double more = 1e5;
-    stack.system().load[3 * top + 1] -= more;
+    detail::SystemOf::in(stack).load[3 * top + 1] -= more;
     CHECK(stack.equilibrium().verdict == Verdict::stable);
     // The edge of the domain is as stiff as the stiffest joint; 8 m of each. The error estimate.
     const double closure = more / 8 * (1 / 1e9 + 1 / 4e9 + 1 / 4e9);

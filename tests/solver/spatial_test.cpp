@@ -119,7 +119,7 @@ struct Rounding {
     Cavern cavern(std::move(rock.mass), CoulombJoint({5e9, 5e8, 75 * degree}), rock.in_situ);
     const auto& system = cavern.system();
     Eigen::VectorXd f;
-    cavern.system().forces(system.displacement, f);
+    detail::SystemOf::in(cavern).forces(system.displacement, f);
     fewest = std::min(fewest, cavern.mass().bodies.size());
     most = std::max(most, cavern.mass().bodies.size());
     for (int b = 0; b < cavern.ground(); ++b) {
@@ -150,7 +150,7 @@ TEST_SUITE("solver/spatial") {
           InSitu{.density = 2700, .k0 = 0.7, .surcharge = 1e5, .k0_y = 1.4, .k0_xy = 0.3}}) {
       Cavern cavern(blocks(cube, 1.5), joint, in_situ);
       Eigen::VectorXd f;
-      cavern.system().forces(cavern.system().displacement, f);
+      detail::SystemOf::in(cavern).forces(cavern.system().displacement, f);
       CHECK(cavern.system().unbalance_over_weight(f) < 2e-11);
     }
   }
@@ -235,7 +235,7 @@ TEST_SUITE("solver/spatial") {
     const InSitu in_situ = InSitu{.density = 2700, .k0 = 0.8}.with_measured(measured, 200);
     Cavern cavern(blocks(cube, 1.5), CoulombJoint({5e9, 5e8, 60 * degree}), in_situ);
     Eigen::VectorXd f;
-    cavern.system().forces(cavern.system().displacement, f);
+    detail::SystemOf::in(cavern).forces(cavern.system().displacement, f);
     // 2.6 MPa on blocks of a few kN: 1e3 times the weight, rounded as above.
     CHECK(cavern.system().unbalance_over_weight(f) < 2e-10);
     // In motion nothing is left to be held where nothing was excavated.
@@ -308,7 +308,7 @@ TEST_SUITE("solver/spatial") {
     // piece; 1e-9 covers the digits of the cuts.
     const auto move = [](auto& tunnel, auto&& at) {
       for (int b = 0; b + 1 < tunnel.system().body_count(); ++b)
-        at(tunnel.system().displacement, b, tunnel.system().body(b).centre);
+        at(detail::SystemOf::in(tunnel).displacement, b, tunnel.system().body(b).centre);
     };
     move(flat, [](Eigen::VectorXd& u, int b, const Vec2& c) {
       u.segment<2>(3 * b) = -1e-3 * Vec2(2 + c.x() / 10, 1 + c.y() / 20).cwiseProduct(c) / 5;
@@ -418,13 +418,13 @@ TEST_SUITE("solver/spatial") {
     };
     // Elastic: the same to rounding, for the points of a contact have the same moments.
     Eigen::VectorXd u, v;
-    flat.system().wall_fraction = deep.system().wall_fraction = 0;
-    flat.system().forces(flat.system().displacement, u);
-    deep.system().forces(deep.system().displacement, v);
+    detail::SystemOf::in(flat).wall_fraction = detail::SystemOf::in(deep).wall_fraction = 0;
+    detail::SystemOf::in(flat).forces(flat.system().displacement, u);
+    detail::SystemOf::in(deep).forces(deep.system().displacement, v);
     BlockCholesky<3>(flat.system().elastic_stiffness()).solve_in_place(u);
     BlockCholesky<6>(deep.system().elastic_stiffness()).solve_in_place(v);
     CHECK(difference(u, v) < 1e-9);
-    flat.system().wall_fraction = deep.system().wall_fraction = 1;
+    detail::SystemOf::in(flat).wall_fraction = detail::SystemOf::in(deep).wall_fraction = 1;
     // With slip and opening not quite: four points on a rectangle, two of them in its middle, let
     // go one after the other at other places than two points on a line do.
     const auto first = flat.equilibrium(), second = deep.equilibrium();

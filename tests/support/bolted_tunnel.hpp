@@ -72,7 +72,7 @@ EquilibriumReport find(Solver<>& tunnel, const Method& method, double wall_fract
   SearchContext context;
   context.measures = &measures;
   context.wall_fraction = wall_fraction;
-  return method.find(tunnel.system(), context);
+  return method.find(detail::SystemOf::in(tunnel), context);
 }
 
 }  // namespace voussoir_test

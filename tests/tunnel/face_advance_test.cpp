@@ -134,7 +134,7 @@ TEST_SUITE("tunnel/outline_convergence") {
     const PrismaticOpening whole = drift(3, -1, 13);
     tunnel.excavate(whole, 0);
     const OutlineSampling one{.from = 1, .to = 11, .stretches = 1, .around = 240, .along = 40};
-    auto& system = tunnel.system();
+    auto& system = detail::SystemOf::in(tunnel);
     for (int b = 0; b < tunnel.ground(); ++b) system.displacement.segment<3>(6 * b) << 3, -2, 1;
     // Normals of points evenly spaced on a regular polygon add up to nothing.
     for (const double u : outline_convergence(tunnel, whole, {.from = 1, .to = 11, .stretches = 5}))

@@ -34,7 +34,7 @@ Solver<> tunnel_in_rock() {
 
 /// Moves all rock as one rigid body: by `shift`, and by `spin` about the tunnel axis.
 void move_rock(Solver<>& tunnel, const Vec2& shift, double spin) {
-  auto& system = tunnel.system();
+  auto& system = detail::SystemOf::in(tunnel);
   for (int b = 0; b < tunnel.ground(); ++b)
     system.displacement.segment<3>(3 * b) << shift + turned(Spin<2>(spin), system.body(b).centre),
         spin;
@@ -80,7 +80,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
     const int gone = pieces.front().body;
     std::size_t lost = 0;
     for (const auto& piece : pieces) lost += piece.body == gone;
-    tunnel.system().remove({gone});
+    detail::SystemOf::in(tunnel).remove({gone});
     CHECK(wall_motion(tunnel).size() == pieces.size() - lost);
   }
 
@@ -97,7 +97,7 @@ TEST_SUITE("tunnel/supported_tunnel") {
     (void)tunnel.install_bolt({{0, 2.5}, {0, 2.5001}}, AxialBolt({.axial_stiffness = 2e8}));
     REQUIRE(tunnel.bolt_count() == static_cast<int>(bars.size()) + 1);
     (void)tunnel.equilibrium();
-    sparse.system().displacement = tunnel.system().displacement;
+    detail::SystemOf::in(sparse).displacement = tunnel.system().displacement;
     const auto forces = bolt_forces(tunnel), halved = bolt_forces(sparse);
     std::vector<int> seen(bars.size() + 1, 0);
     std::vector<double> largest(bars.size() + 1, 0.0);

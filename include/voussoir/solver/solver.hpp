@@ -26,6 +26,7 @@
 #include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/solver/composition.hpp>
+#include <voussoir/solver/detail/system_of.hpp>
 
 namespace voussoir {
 
@@ -181,8 +182,15 @@ class ComposedSolver {
 
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
+  /// What the bodies, contacts and supports are and where they stand; only the solver changes it.
   [[nodiscard]] const SystemType& system() const { return system_; }
-  [[nodiscard]] SystemType& system() { return system_; }
+  /// Largest out-of-balance force of a body, over its weight, where the bodies are now [-].
+  /// @cost  one evaluation of all forces
+  [[nodiscard]] double out_of_balance_ratio() {
+    Eigen::VectorXd f;
+    system_.forces(system_.displacement, f);
+    return system_.unbalance_over_weight(f);
+  }
   /// The bolts installed so far; null if there are none.
   [[nodiscard]] const BoltsType* bolts() const {
     return system_.supports.template first<BoltsType>();
@@ -212,6 +220,8 @@ class ComposedSolver {
   [[nodiscard]] Vec<dim> displacement_of(int body, const Vec<dim>& point) const;
 
  private:
+  friend struct detail::SystemOf;
+
   /// Takes what there is, and checks it; `build` makes the model of it.
   struct Unbuilt {};
   ComposedSolver(Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# What a page links to in the project exists.
+#   cmake -DROOT=<project> -P links.cmake
+cmake_minimum_required(VERSION 3.25)
+file(GLOB_RECURSE pages "${ROOT}/docs/*.md" "${ROOT}/bench/*.md" "${ROOT}/examples/*.md" "${ROOT}/*.md")
+list(FILTER pages EXCLUDE REGEX "^${ROOT}/(build|results)")
+list(REMOVE_DUPLICATES pages)
+set(found 0)
+set(missing "")
+foreach(page IN LISTS pages)
+  file(READ "${page}" text)
+  # Brackets would keep CMake from splitting the list of matches.
+  string(REPLACE "](" "\nlink:" text "${text}")
+  string(REGEX MATCHALL "\nlink:[^)# \n]+" links "${text}")
+  cmake_path(GET page PARENT_PATH folder)
+  foreach(link IN LISTS links)
+    string(REPLACE "\nlink:" "" link "${link}")
+    if(link MATCHES ":") # an address elsewhere, or code
+      continue()
+    endif()
+    math(EXPR found "${found} + 1")
+    if(NOT EXISTS "${folder}/${link}")
+      string(APPEND missing "\n  ${page}: ${link}")
+    endif()
+  endforeach()
+endforeach()
+if(found EQUAL 0)
+  message(FATAL_ERROR "no page links to a file: this rule looks at nothing")
+endif()
+if(missing)
+  message(FATAL_ERROR "links to what is not there:${missing}")
+endif()
