@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <numbers>
 #include <string>
 #include <vector>
 #include <voussoir/core/parallel.hpp>
@@ -157,7 +158,7 @@ void print_head() {
 void print(const FailureCase& from, std::size_t blocks, const std::vector<Answer>& answers) {
   std::printf("%d,%s,%.2f,%.1f,%.2f,%zu,%.2f,%d,%.1f,%zu", from.number, from.shape.c_str(),
               from.span, from.cover, from.k0, from.sets.size(), from.spacing, from.persistent,
-              from.joint.friction_angle * 57.29578, blocks);
+              from.joint.friction_angle * 180 / std::numbers::pi, blocks);
   for (const Answer& a : answers)
     std::printf(",%s,%.4g,%d,%.3g", a.verdict.c_str(), a.fallen, a.count, a.seconds);
   std::printf("\n");
