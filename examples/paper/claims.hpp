@@ -27,6 +27,13 @@ struct Claim {
 };
 [[nodiscard]] const std::vector<Claim>& claims();
 
+/// Whether a claim states what the paper has put in or how it was carried out: a program that does
+/// the same agrees with it by its make, and can differ only by a fault.
+[[nodiscard]] inline bool restates_the_input(const Claim& claim) {
+  return claim.kind == ClaimKind::input || claim.kind == ClaimKind::procedure ||
+         claim.kind == ClaimKind::derived;
+}
+
 /// Claims first, ..., last of the list, counted from 1.
 struct ClaimChapter {
   const char* title;

@@ -51,8 +51,8 @@ std::string page_of(const Section& section) {
   if (section.findings.empty()) return page;
   std::vector<std::vector<std::string>> rows;
   for (const Finding& f : section.findings)
-    rows.push_back({f.claim, claim_of(f).statement, f.measured, second_column(f),
-                    to_string(f.agreement), cause(f)});
+    rows.push_back(
+        {f.claim, claim_of(f).statement, f.measured, second_column(f), verdict_word(f), cause(f)});
   return page + "## Against the paper\n\n" +
          markdown_table({"claim", "the paper", "measured", "as the paper ran it", "", "cause"},
                         rows);
@@ -68,8 +68,9 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
       "jointed rock masses via the DEM*, Rock Mech. Rock Eng. 48, 603-632 (2015), and what became "
       "of 104 of its statements: " +
       std::to_string(board.back().agrees) + " agree, " + std::to_string(board.back().differs) +
-      " differ, " + std::to_string(board.back().not_testable) +
-      " cannot be tested. Realisations of the rock: " + samples + ". " +
+      " differ, " + std::to_string(board.back().not_testable) + " cannot be tested, " +
+      std::to_string(board.back().restated) +
+      " restate what was put in. Realisations of the rock: " + samples + ". " +
       std::to_string(study.tunnels_solved()) + " supported tunnels and " +
       std::to_string(24 * study.samples()) + " collapses in " + fixed_text(seconds, 0) +
       " s. This page and those it leads to are written by the last of these commands, the report "
@@ -88,8 +89,9 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
   std::vector<std::vector<std::string>> rows;
   for (const Score& s : board)
     rows.push_back({s.chapter, std::to_string(s.agrees), std::to_string(s.differs),
-                    std::to_string(s.not_testable)});
-  page += markdown_table({"claims", "agrees", "differs", "not testable"}, rows);
+                    std::to_string(s.not_testable), std::to_string(s.restated)});
+  page += markdown_table({"claims", "agrees", "differs", "not testable", "as put in"}, rows);
+  page += restated_text() + "\n\n";
   page += second_column_text(sections) + "\n\n## Analyses\n\n";
   for (const Section& s : sections)
     page +=

@@ -66,7 +66,7 @@ int run_program(int argc, char** argv, const char* name, Analysis analysis) {
       std::cout << "\n";
     }
     for (const Finding& f : section.findings) {
-      std::cout << f.claim << "  " << to_string(f.agreement) << "\n";
+      std::cout << f.claim << "  " << verdict_word(f) << "\n";
       std::cout << "  paper:    " << claim_of(f).statement << "\n";
       std::cout << "  measured: " << f.measured << "\n";
       if (!f.as_the_paper.empty()) std::cout << "  explicit: " << second_column(f) << "\n";

@@ -27,8 +27,10 @@ std::string css_class(Agreement agreement) {
 std::string element(const std::string& tag, const std::string& text) {
   return "<" + tag + ">" + xml_escaped(text) + "</" + tag + ">";
 }
-std::string verdict_cell(Agreement agreement) {
-  return "<td class=\"" + css_class(agreement) + "\">" + to_string(agreement) + "</td>";
+std::string verdict_cell(const Finding& f) {
+  const std::string word = verdict_word(f);
+  return "<td class=\"" + (word == "as put in" ? "open" : css_class(f.agreement)) + "\">" + word +
+         "</td>";
 }
 
 /// An SVG document as part of a page: without its head, its ids its own.
@@ -122,12 +124,14 @@ std::string report_html(const std::vector<Section>& sections, const Drawings& dr
   for (const std::string& line : assumptions()) html += element("li", line) + "\n";
   html +=
       "</ul>\n<h3>Scoreboard</h3>\n<table><tr><th>claims</th><th>agrees</th><th>differs</th>"
-      "<th>not testable</th></tr>\n";
+      "<th>not testable</th><th>as put in</th></tr>\n";
   for (const Score& s : scores(sections))
     html += "<tr>" + element("td", s.chapter) + "<td class=\"agrees\">" + std::to_string(s.agrees) +
             "</td><td class=\"differs\">" + std::to_string(s.differs) + "</td><td class=\"open\">" +
-            std::to_string(s.not_testable) + "</td></tr>\n";
-  html += "</table>\n" + element("p", second_column_text(sections)) + "\n<h3>Analyses</h3>\n<ol>\n";
+            std::to_string(s.not_testable) + "</td><td class=\"open\">" +
+            std::to_string(s.restated) + "</td></tr>\n";
+  html += "</table>\n" + element("p", restated_text()) +
+          element("p", second_column_text(sections)) + "\n<h3>Analyses</h3>\n<ol>\n";
   for (const Section& section : sections)
     html += "<li><a href=\"#" + section.name + "\">" + xml_escaped(section.title) +
             "</a> <span class=\"where\">" + xml_escaped(section.paper) + "</span></li>\n";
@@ -160,8 +164,8 @@ std::string report_html(const std::vector<Section>& sections, const Drawings& dr
         "</th><th></th></tr>\n";
     for (const Finding& f : section.findings) {
       html += "<tr>" + element("td", f.claim) + element("td", claim_of(f).statement) +
-              element("td", f.measured) + element("td", second_column(f)) +
-              verdict_cell(f.agreement) + "</tr>\n";
+              element("td", f.measured) + element("td", second_column(f)) + verdict_cell(f) +
+              "</tr>\n";
     }
     html += "</table>\n";
   }
@@ -173,8 +177,7 @@ std::string report_html(const std::vector<Section>& sections, const Drawings& dr
     const Finding& f = *found.at(claim.id);
     html += "<tr>" + element("td", claim.id) + element("td", claim.where) +
             element("td", claim.statement) + element("td", claim.test) + element("td", f.measured) +
-            element("td", second_column(f)) + verdict_cell(f.agreement) + element("td", cause(f)) +
-            "</tr>\n";
+            element("td", second_column(f)) + verdict_cell(f) + element("td", cause(f)) + "</tr>\n";
   }
   return html + "</table>\n</body></html>\n";
 }

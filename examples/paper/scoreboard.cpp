@@ -10,8 +10,9 @@ namespace voussoir::paper {
 
 namespace {
 
-void count(Score& score, Agreement agreement) {
-  score.agrees += agreement == Agreement::agrees;
+void count(Score& score, Agreement agreement, bool restates = false) {
+  score.agrees += agreement == Agreement::agrees && !restates;
+  score.restated += agreement == Agreement::agrees && restates;
   score.differs += agreement == Agreement::differs;
   score.not_testable += agreement == Agreement::not_testable;
 }
@@ -34,6 +35,11 @@ std::map<std::string, const Finding*> findings_by_claim(const std::vector<Sectio
   return found;
 }
 
+std::string verdict_word(const Finding& f) {
+  const bool restated = f.agreement == Agreement::agrees && restates_the_input(claim_of(f));
+  return restated ? "as put in" : to_string(f.agreement);
+}
+
 std::string second_column(const Finding& f) {
   if (!f.agreement_as_the_paper) return f.as_the_paper;
   return std::string(to_string(*f.agreement_as_the_paper)) + ": " + f.as_the_paper;
@@ -54,14 +60,21 @@ std::vector<Score> scores(const std::vector<Section>& sections) {
   for (const ClaimChapter& chapter : claim_chapters()) {
     Score score{chapter.title};
     for (int k = chapter.first; k <= chapter.last; ++k) {
-      const Agreement a = found.at(claims()[static_cast<std::size_t>(k - 1)].id)->agreement;
-      count(score, a);
-      count(all, a);
+      const Claim& claim = claims()[static_cast<std::size_t>(k - 1)];
+      const Agreement a = found.at(claim.id)->agreement;
+      count(score, a, restates_the_input(claim));
+      count(all, a, restates_the_input(claim));
     }
     result.push_back(score);
   }
   result.push_back(all);
   return result;
+}
+
+std::string restated_text() {
+  return "As put in: statements of what the paper has put in or how it went about it. A program that "
+         "does the same cannot differ but by a fault, so they are no evidence and are not counted "
+         "among those that agree.";
 }
 
 std::string second_column_text(const std::vector<Section>& sections) {
@@ -83,12 +96,12 @@ std::string second_column_text(const std::vector<Section>& sections) {
 std::string score_text(const std::vector<Score>& scores) {
   std::string text;
   char line[160];
-  std::snprintf(line, sizeof line, "%-36s %7s %8s %13s\n", "claims", "agrees", "differs",
-                "not testable");
+  std::snprintf(line, sizeof line, "%-36s %7s %8s %13s %10s\n", "claims", "agrees", "differs",
+                "not testable", "as put in");
   text += line;
   for (const Score& s : scores) {
-    std::snprintf(line, sizeof line, "%-36s %7d %8d %13d\n", s.chapter.c_str(), s.agrees, s.differs,
-                  s.not_testable);
+    std::snprintf(line, sizeof line, "%-36s %7d %8d %13d %10d\n", s.chapter.c_str(), s.agrees,
+                  s.differs, s.not_testable, s.restated);
     text += line;
   }
   return text;
@@ -102,8 +115,7 @@ std::string scoreboard_csv(const std::vector<Section>& sections) {
     const Finding& f = *found.at(claim.id);
     table.add_row(std::string(claim.id), std::string(claim.where),
                   std::string(to_string(claim.kind)), std::string(claim.statement),
-                  std::string(claim.test), std::string(to_string(f.agreement)), f.measured,
-                  second_column(f), cause(f));
+                  std::string(claim.test), verdict_word(f), f.measured, second_column(f), cause(f));
   }
   return table.text();
 }

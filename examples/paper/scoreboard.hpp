@@ -24,14 +24,19 @@ namespace voussoir::paper {
 /// Why the answer is not the paper's; empty where it agrees.
 [[nodiscard]] std::string cause(const Finding& finding);
 
-/// How many claims agree, differ and cannot be tested, by chapter.
+/// How many claims agree, differ and cannot be tested, by chapter; apart from them those that are
+/// met because they restate the input (`restates_the_input`).
 struct Score {
   std::string chapter;
-  int agrees = 0, differs = 0, not_testable = 0;
+  int agrees = 0, differs = 0, not_testable = 0, restated = 0;
 };
+/// The verdict of a finding as a word: "agrees", "as put in", "differs", "not testable".
+[[nodiscard]] std::string verdict_word(const Finding& finding);
 /// The last entry is the sum of all.
 /// @throws std::logic_error  see `findings_by_claim`
 [[nodiscard]] std::vector<Score> scores(const std::vector<Section>& sections);
+/// What "as put in" means, as a sentence.
+[[nodiscard]] std::string restated_text();
 /// Of the claims whose answer depends on the solution procedure: what the paper's own way says, as
 /// a sentence.
 [[nodiscard]] std::string second_column_text(const std::vector<Section>& sections);

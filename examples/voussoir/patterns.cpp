@@ -221,6 +221,26 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
   result.time = run.time() - options.unloading;
   result.imbalance = run.energy().relative_imbalance();
 
+  // ---- how evenly the wall moves: by eighths of the circle ----
+  std::array<double, 8> moved{}, area{};
+  const auto eighth_of = [](const Vec2& place) {
+    const double direction = std::atan2(place.y(), place.x()) + 2 * std::numbers::pi;
+    return static_cast<std::size_t>(direction / (0.25 * std::numbers::pi)) % 8;
+  };
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& body = mass.bodies[b].properties;
+    if (body.centroid.norm() > 0.75 * diameter) continue;
+    moved[eighth_of(body.centroid)] += body.measure * displacement(b).norm();
+    area[eighth_of(body.centroid)] += body.measure;
+  }
+  double sum_of_means = 0, largest_mean = 0;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const double mean = area[k] > 0 ? moved[k] / area[k] : 0.0;
+    sum_of_means += mean;
+    largest_mean = std::max(largest_mean, mean);
+  }
+  if (sum_of_means > 0) result.wall_unevenness = 8 * largest_mean / sum_of_means;
+
   // ---- what has been lost, and how ----
   std::vector<char> lost(count, 0);
   const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
@@ -228,10 +248,7 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
     const auto& body = mass.bodies[b].properties;
     const Place place = place_of(body.centroid);
     if (!(displacement(b).norm() > lost_at)) continue;
-    const double direction =
-        std::atan2(body.centroid.y(), body.centroid.x()) + 2 * std::numbers::pi;
-    result.by_direction[static_cast<std::size_t>(direction / (0.25 * std::numbers::pi)) % 8] +=
-        body.measure;
+    result.by_direction[eighth_of(body.centroid)] += body.measure;
     if (place == Place::elsewhere) continue;
     lost[b] = place == Place::roof;
     const Release& r = releases[b];

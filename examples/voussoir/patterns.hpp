@@ -54,6 +54,9 @@ struct PatternResult {
   /// Lost rock by the direction it was in from the centre, in eighths of the circle from the
   /// right-hand springing [m^2].
   std::array<double, 8> by_direction{};
+  /// Largest displacement of blocks within half a radius of the wall over its mean, both weighted
+  /// by area; 1 where the opening closes evenly [-].
+  double wall_unevenness = 0;
   std::array<int, 2> widest_pair{};  ///< sets of the largest acute angle
   RoofFall roof = RoofFall::none;
   WallFailure wall = WallFailure::none;
