@@ -37,8 +37,8 @@ class MohrCoulombJoint {
     double friction_angle;                ///< phi [rad], 0 <= phi < pi/2
     double cohesion = 0;                  ///< c [Pa], 0 or >= 100
     double tensile_strength = 0;          ///< sigma_t [Pa], 0 or >= 100, <= c / tan(phi)
-    double dilation_angle = 0;            ///< psi [rad], 0 <= psi <= phi
-    double dilation_limit = 0;            ///< Q_max, slip after which it ends [m], >= 0
+    double dilation_angle = 0;            ///< psi [rad], 0 <= psi <= phi, and <= the residual phi
+    double dilation_limit = 0;            ///< Q_max, slip after which it ends [m]; 0: no dilation
     double residual_friction_angle = -1;  ///< after failure [rad], 0 to phi; -1: phi
     double residual_cohesion = 0;         ///< after failure [Pa], 0 to c
   };
@@ -76,11 +76,20 @@ class MohrCoulombJoint {
             "tensile_strength", p_.tensile_strength, ">= 0 Pa and <= cohesion / tan(phi)");
     require_angle(p_.dilation_angle >= 0 && p_.dilation_angle <= p_.friction_angle,
                   "dilation_angle", p_.dilation_angle, ">= 0 and <= friction_angle");
+    if (p_.dilation_angle > 0)
+      require(
+          p_.dilation_limit > 0 && p_.dilation_limit <= 1, "dilation_limit", p_.dilation_limit,
+          "> 0 and <= 1 m where there is a dilation_angle: the teeth of a joint are sheared off "
+          "after millimetres to centimetres, and one that lifts without end carries any load");
     require(p_.dilation_limit >= 0 && std::isfinite(p_.dilation_limit), "dilation_limit",
             p_.dilation_limit, ">= 0 m");
     require_angle(
         p_.residual_friction_angle >= 0 && p_.residual_friction_angle <= p_.friction_angle,
         "residual_friction_angle", p_.residual_friction_angle, ">= 0 and <= friction_angle");
+    require_angle(p_.dilation_angle <= p_.residual_friction_angle, "dilation_angle",
+                  p_.dilation_angle,
+                  "<= residual_friction_angle: a joint that lifts more steeply than it rubs makes "
+                  "energy as it slips");
     require(p_.residual_cohesion >= 0 && p_.residual_cohesion <= p_.cohesion, "residual_cohesion",
             p_.residual_cohesion, ">= 0 and <= cohesion");
     friction_coefficient_ = std::tan(p_.friction_angle);
@@ -111,8 +120,11 @@ class MohrCoulombJoint {
     if (now.opens && !state.failed)
       lost +=
           0.5 * load.weight * p_.tensile_strength * p_.tensile_strength / p_.joint_normal_stiffness;
-    state.failed = state.failed || now.opens || now.slip > 0;
-    return lost;
+    if (state.failed || !(now.opens || now.slip > 0)) return lost;
+    state.failed = true;
+    // It slips on at once to what it still carries: a spring left at the peak would come back to it
+    // as soon as the joint is pressed, with energy from nowhere.
+    return lost + commit(load, state);
   }
 
   /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
