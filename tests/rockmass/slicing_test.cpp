@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/random.hpp>
 #include <voussoir/rockmass/block_intersections.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/statistics.hpp>
@@ -329,6 +330,19 @@ TEST_SUITE("rockmass/slicing") {
           static_cast<std::size_t>(std::count(used.begin(), used.end(), false)));
     CHECK(mass.slicing.refused_too_small > 0);
     CHECK(mass.slicing.refused_too_long > 0);
+    // One by one: used is what the cuts name, outside what a box test says.
+    REQUIRE(mass.slicing.fates.size() == mass.joints.size());
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      CHECK((mass.slicing.fates[k] == JointFate::used) == used[k]);
+      const Segment& trace = mass.joints[k].trace;
+      const bool beside = std::max(trace.start.x(), trace.end.x()) < -35 ||
+                          std::min(trace.start.x(), trace.end.x()) > 35 ||
+                          std::max(trace.start.y(), trace.end.y()) < -35 ||
+                          std::min(trace.start.y(), trace.end.y()) > 25;
+      if (beside) CHECK(mass.slicing.fates[k] == JointFate::outside);
+    }
+    CHECK(static_cast<std::size_t>(std::count(mass.slicing.fates.begin(), mass.slicing.fates.end(),
+                                              JointFate::outside)) == mass.slicing.outside_joints);
 
     const auto free = jointed_rock({{0, 0}, {10, 10}}, 1, {0, inf});
     CHECK(free.slicing.refused_too_small == 0);
@@ -518,6 +532,37 @@ TEST_SUITE("rockmass/slicing") {
         const ConvexPolygon& block = body.parts[0];
         REQUIRE(block.diameter() <= 10 * inscribed_ball(block).radius * (1 + 1e-13));
       }
+    }
+  }
+
+  TEST_CASE(
+      "domains of 1:1 to 1:20, lying and standing, in sets that nobody picked: as many blocks") {
+    Random random(20, 7);
+    for (int n = 0; n < 4; ++n) {
+      CAPTURE(n);
+      std::vector<JointSet> sets;
+      for (int k = 0; k < 3; ++k) {
+        JointSet& set = sets.emplace_back();
+        set.name = "J" + std::to_string(k);
+        set.dip = (10 + 25 * k + 20 * random.uniform()) * degree;
+        set.dip_direction = random.below(2) == 0 ? DipDirection::east : DipDirection::west;
+        set.dip_deviation = 3 * degree;
+        set.spacing = 0.6 + 0.8 * random.uniform();
+        set.extent = (3 + 5 * random.uniform()) * set.spacing;
+      }
+      double least = inf, most = 0;
+      for (const double ratio : {1.0, 3.0, 10.0, 20.0})
+        for (const bool stands : {false, true}) {
+          const double across = std::sqrt(12000 / ratio);  // 24 m at 1:20
+          const Vec2 size = stands ? Vec2(across, ratio * across) : Vec2(ratio * across, across);
+          const Domain<2> ground{-0.5 * size, 0.5 * size};
+          const auto mass = slice(ground, joint_network(sets, ground, 5), {0.15, 5});
+          const double density = static_cast<double>(mass.bodies.size()) / ground.measure();
+          least = std::min(least, density);
+          most = std::max(most, density);
+        }
+      // Blocks at the edge are parts of blocks, and 1:20 has 2.3 times as much edge as 1:1.
+      CHECK(std::sqrt(most / least) < 1.05);  // of the spacing
     }
   }
 

@@ -30,6 +30,13 @@ struct Body {
   MassProperties<Geometry::dim> properties;  ///< of unit density
 };
 
+/// What became of a joint that was offered.
+enum class JointFate : char {
+  used,     ///< it cuts a block at least
+  outside,  ///< it does not reach the domain
+  refused,  ///< every cut was: a part too small or too long, or a joint is there already
+};
+
 /// What slicing did, for the report: nothing is dropped silently.
 struct SlicingReport {
   std::size_t joints = 0;          ///< joints offered
@@ -41,6 +48,7 @@ struct SlicingReport {
   std::size_t refused_too_small = 0;  ///< cuts refused: a child's inscribed radius
   std::size_t refused_too_long = 0;   ///< cuts refused: a child's elongation
   std::size_t blocks_too_long = 0;    ///< blocks beyond the elongation limit: the domain is, too
+  std::vector<JointFate> fates = {};  ///< of every joint offered, in their order
   std::size_t vanished_faces = 0;     ///< faces shorter (narrower) than the tolerance, welded away
 
   /// Times that a joint went into a block, whatever became of it.

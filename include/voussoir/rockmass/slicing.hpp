@@ -149,7 +149,8 @@ class Slicer {
     std::optional<Trace> inside = bounded(joint.trace, domain_);
     for (const auto& side : sides_)
       if (inside) inside = voussoir::split(std::move(*inside), side, tolerance_).below;
-    if (!inside) ++report_.outside_joints;
+    const bool reaches_domain = inside.has_value();
+    if (!reaches_domain) ++report_.outside_joints;
     if (is_zero(plane.normal)) inside.reset();  // a trace whose ends are one point
     pending_.clear();
     if (inside) pending_.emplace_back(0, std::move(*inside));
@@ -167,6 +168,9 @@ class Slicer {
       }
     }
     if (!used) ++report_.unused_joints;
+    report_.fates.push_back(used             ? JointFate::used
+                            : reaches_domain ? JointFate::refused
+                                             : JointFate::outside);
   }
 
   [[nodiscard]] RockMass<Geometry> finish(const std::vector<JointOf<Geometry::dim>>& joints) {
