@@ -145,6 +145,18 @@ void add_parts(std::vector<Knob>& all) {
   restart.add("updates", &R::updates);
   restart.add("updates_on_the_way", &R::updates_on_the_way);
 
+  const Members<MotionTuning> motion{all, "MotionTuning", &TwoLevel::Params::motion};
+  using M = MotionTuning;
+  motion.add("local_damping", &M::local_damping, 0, 0.9);
+  motion.add("safety", &M::safety, 0, 1);
+  motion.add("inert_share", &M::inert_share, 0, 0.9);
+  motion.add("ramp", &M::ramp);
+  motion.add("rest_ratio", &M::rest_ratio);
+  motion.add("patience", &M::patience);
+  motion.add("longest", &M::longest);
+  motion.add("looks_in_ramp", &M::looks_in_ramp, 1);
+  motion.add("check_every", &M::check_every, 1);
+
   const Members<Relaxation::Params> fallback{all, "Relaxation", &TwoLevel::Params::fallback};
   using F = Relaxation::Params;
   fallback.add("max_steps", &F::max_steps);
@@ -157,13 +169,15 @@ void add_parts(std::vector<Knob>& all) {
 
 /// What is wanted of an answer, for comparison: these are meant to matter.
 void add_acceptance(std::vector<Knob>& all) {
-  const auto add = [&](const char* name, double Acceptance::*member) {
-    all.push_back(knob("Acceptance", name, Acceptance{}.*member,
-                       [=](Setting& s, double x) { s.acceptance.*member = x; }));
+  const auto add = [&](const char* name, double Acceptance::*member, double usual) {
+    all.push_back(
+        knob("Acceptance", name, usual, [=](Setting& s, double x) { s.acceptance.*member = x; }));
   };
-  add("error_estimate", &Acceptance::error_estimate);
-  add("unbalance_over_weight", &Acceptance::unbalance_over_weight);
-  add("displacement_limit", &Acceptance::displacement_limit);
+  const Acceptance usual;
+  add("error_estimate", &Acceptance::error_estimate, usual.error_estimate);
+  add("unbalance_over_weight", &Acceptance::unbalance_over_weight, usual.unbalance_over_weight);
+  // A fifth of a block of these tunnels, which is what the rock chooses.
+  add("displacement_limit", &Acceptance::displacement_limit, 0.12);
 }
 
 struct Answer {
@@ -183,7 +197,6 @@ Case case_of(std::string name, const Tunnel& before, double contact_update_limit
   return {std::move(name), [before, contact_update_limit](Setting setting) {
             if (contact_update_limit > 0) {
               setting.acceptance.contact_update_limit = contact_update_limit;
-              setting.acceptance.displacement_limit *= 5;
             }
             Tunnel tunnel = before;
             const std::clock_t start = std::clock();

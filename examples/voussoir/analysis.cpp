@@ -2,6 +2,7 @@
 #include "analysis.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <system_error>
 #include <thread>
 #include <voussoir/core/memory.hpp>
+#include <voussoir/core/parallel.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
@@ -59,6 +61,7 @@ LawsBySet<CoulombJoint> laws_of(const Input& input) {
 /// The rock of an input, excavated but not yet moved.
 struct Excavated {
   Tunnel tunnel;
+  std::vector<JointSource> joints;
   SimplePolygon opening;
   double in_situ_unbalance;
   std::vector<std::string> warnings;
@@ -76,7 +79,7 @@ Excavated excavate(const Input& input, const Report& report) {
                 ContactPoints::gauss, progress);
   const double unbalance = tunnel.out_of_balance_ratio();
   tunnel.excavate(opening, input.blocks.min_wall_area, progress);
-  return {std::move(tunnel), opening, unbalance, std::move(rock.warnings)};
+  return {std::move(tunnel), std::move(rock.joints), opening, unbalance, std::move(rock.warnings)};
 }
 
 std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
@@ -218,6 +221,33 @@ void check_slicing(const Input& input, const SlicingReport& slicing,
         number(input.blocks.max_elongation) + ", as the domain is: no joint cut them shorter");
 }
 
+/// Of every source, what became of its joints. @throws InvalidInput  none of one is used
+std::vector<JointSource> sources_of(const Input& input, std::size_t mapped,
+                                    const RockMass<Planar>& mass) {
+  std::vector<JointSource> sources;
+  if (mapped > 0) sources.push_back({"joints.file"});
+  const std::size_t first_set = sources.size();
+  for (const JointSetInput& set : input.joint_sets) sources.push_back({"set " + set.name});
+  for (std::size_t k = 0; k < mass.joints.size(); ++k) {
+    JointSource& source =
+        sources[k < mapped ? 0 : first_set + static_cast<std::size_t>(mass.joints[k].set)];
+    const JointFate fate = mass.slicing.fates[k];
+    ++source.asked;
+    source.used += fate == JointFate::used;
+    source.outside += fate == JointFate::outside;
+    source.refused += fate == JointFate::refused;
+  }
+  for (const JointSource& source : sources)
+    if (source.asked > 0 && source.used == 0 && source.refused > 0)
+      throw InvalidInput(source.name + ": none of its " + counted(source.asked, "joint") +
+                         " cuts the rock: " + std::to_string(source.outside) +
+                         " outside the domain, " + std::to_string(source.refused) +
+                         " refused for parts too small or too long, or where a joint was already" +
+                         "\n   = accepted: limits in [blocks] that let them cut, or a source of "
+                         "joints that are not there yet");
+  return sources;
+}
+
 std::vector<std::string> warnings_of_undecided(const Input& input) {
   std::vector<std::string> warnings = unusual_values(input);
   for (std::string& warning : warnings) warning = "undecided, and " + warning;
@@ -289,6 +319,7 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   std::vector<Joint> joints;
   // Mapped joints come first: what was seen takes precedence over what was drawn at random.
   if (!input.joints_file.empty()) joints = mapped_joints(input, domain, progress, rock.warnings);
+  const std::size_t mapped = joints.size();
   const auto random = joint_network(sets, domain, input.model.seed, progress);
   joints.insert(joints.end(), random.begin(), random.end());
   const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
@@ -304,6 +335,7 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   }
   rock.mass = slice(domain, joints, limits, progress);
   check_slicing(input, rock.mass.slicing, rock.warnings);
+  rock.joints = sources_of(input, mapped, rock.mass);
   return rock;
 }
 
@@ -321,13 +353,47 @@ auto naming_unusual_values(const Input& input, Compute&& compute) {
   }
 }
 
+/// The run once more in three other ways, where rock has come off.
+RockfallRange rockfall_range(const Tunnel& excavated, const RunResult& run,
+                             const Construction<Tunnel>& as_asked, const Input& input,
+                             const LinearSettings& linear, const Report& report) {
+  RockfallRange range{run.fallen_measure(), run.fallen_measure()};
+  range.scale = run.verdict() == Verdict::collapse ? std::numeric_limits<double>::infinity()
+                                                   : block_sizes(run.tunnel.mass()).mean;
+  const double limit = run.last().displacement_limit;
+  MotionTuning slow;
+  slow.ramp *= 2;
+  std::mutex guard;
+  std::atomic<bool> go_on{true};
+  parallel_for(3, std::max(1U, std::thread::hardware_concurrency()), [&](std::size_t k) {
+    Construction<Tunnel> other = as_asked;
+    if (k == 2)
+      other.method = method_of(input, linear, slow);
+    else
+      other.acceptance.displacement_limit = k == 0 ? 0.5 * limit : 2 * limit;
+    Tunnel tunnel = excavated;
+    const auto built = construct(tunnel, other, [&](const std::string& stage, double fraction) {
+      const std::scoped_lock lock(guard);
+      if (!report(stage + ", once more to see how much hangs on it", fraction)) go_on = false;
+      return go_on.load();
+    });
+    const std::scoped_lock lock(guard);
+    range.low = std::min(range.low, built.fallen_measure());
+    range.high = std::max(range.high, built.fallen_measure());
+    range.has_other_verdict = range.has_other_verdict || built.verdict() != run.verdict();
+  });
+  if (!go_on) throw Stopped();
+  return range;
+}
+
 RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
   Excavated excavated = excavate(input, report);
   RunResult run{std::move(excavated.tunnel), excavated.opening};
-  run.warnings = std::move(excavated.warnings);
+  run.warnings = run.rock_warnings = std::move(excavated.warnings);
+  run.joints = std::move(excavated.joints);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
@@ -335,11 +401,13 @@ RunResult computed_run(const Input& input, const Report& report) {
       input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  run.built = construct(run.tunnel,
-                        construction_of(input, run.opening, spacing,
-                                        input.lining ? input.lining->thickness : 0.0, linear),
-                        report);
+  const Construction<Tunnel> construction = construction_of(
+      input, run.opening, spacing, input.lining ? input.lining->thickness : 0.0, linear);
+  const Tunnel before = run.tunnel;
+  run.built = construct(run.tunnel, construction, report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
+  if (run.fallen_measure() > 0)
+    run.rockfall = rockfall_range(before, run, construction, input, linear, report);
   run.equilibrium_seconds = seconds_since(search);
   run.warnings = warnings_of(input, run);
   return run;

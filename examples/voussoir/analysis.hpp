@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 #include <voussoir/tunnel/construction.hpp>
@@ -11,14 +13,41 @@
 /// From a checked input to results: the analyses behind the verbs of the program.
 namespace voussoir::program {
 
+/// What became of the joints of one source: a set, or the file of traces.
+struct JointSource {
+  std::string name;
+  std::size_t asked = 0;    ///< joints
+  std::size_t used = 0;     ///< that cut a block
+  std::size_t outside = 0;  ///< that do not reach the domain
+  std::size_t refused = 0;  ///< for parts too small or too long, or where a joint was already
+};
+
+/// How much rock comes off with half and twice the displacement limit, and with the walls unloaded
+/// at half the rate, besides what the run itself has: where these differ the rock is marginal by
+/// nature, and no single figure is its answer.
+struct RockfallRange {
+  double low = 0, high = 0;        ///< detached [m^2], over the four runs
+  bool has_other_verdict = false;  ///< one of them stands and another does not, or is undecided
+  /// A difference below it says nothing [m^2]: a mean block. Of a collapse none does, which ends at
+  /// whatever moment its limit is passed.
+  double scale = 0;
+
+  [[nodiscard]] bool is_marginal() const {
+    return has_other_verdict || high - low > std::max(0.1 * high, scale);
+  }
+};
+
 /// A finished run.
 struct RunResult {
   Tunnel tunnel;
   SimplePolygon opening;
   ConstructionResult<Planar> built = {};
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
+  std::vector<JointSource> joints = {};
+  std::vector<std::string> rock_warnings = {};  ///< of `warnings`, those that the picture shows too
   std::vector<std::string> warnings = {};
   double generation_seconds = 0, equilibrium_seconds = 0;
+  std::optional<RockfallRange> rockfall = {};  ///< where rock has come off
 
   [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
   /// In words: `to_string(verdict(), fallen_measure())`.
@@ -44,12 +73,13 @@ using Report = StageProgress;
 /// Rock, and what its maker must be told about it.
 struct GeneratedRock {
   RockMass<Planar> mass;
+  std::vector<JointSource> joints;
   std::vector<std::string> warnings;
 };
 
 /// Slices the rock of an input: random sets and mapped traces, together.
 /// @throws InvalidInput  the file of traces cannot be read or used, it makes too many blocks, or no
-///                       joint of those asked for cuts the rock
+///                       joint of those asked for, or of one source of them, cuts the rock
 /// @throws Stopped       `progress` said so
 [[nodiscard]] GeneratedRock rock_of(const Input& input, const Progress& progress = {});
 

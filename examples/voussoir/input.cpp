@@ -323,12 +323,12 @@ void read_run(Section& s, RunInput& run) {
                           {"iterative", LinearMethod::iterative}},
                          Need::optional);
   s.number("tolerance", run.tolerance, tolerance_range, Need::optional);
-  s.quantity("displacement_limit", run.displacement_limit, dimension::length, above(0),
-             Need::optional);
-  std::optional<double> contact_update_limit;
+  std::optional<double> displacement_limit, contact_update_limit;
+  s.quantity("displacement_limit", displacement_limit, dimension::length, above(0));
+  run.displacement_limit = displacement_limit.value_or(run.displacement_limit);
   s.quantity("contact_update_limit", contact_update_limit, dimension::length, above(0));
   run.contact_update_limit = contact_update_limit.value_or(run.contact_update_limit);
-  if (contact_update_limit && run.contact_update_limit >= run.displacement_limit)
+  if (contact_update_limit && displacement_limit && *contact_update_limit >= *displacement_limit)
     s.complain("contact_update_limit",
                "is never reached: a block that has moved so far is detached",
                "a length below displacement_limit");

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
@@ -147,10 +148,12 @@ struct StageInput {
 struct RunInput {
   RunMethod method = RunMethod::two_level;
   LinearMethod linear_solver = LinearMethod::automatic;  ///< of elastic equations
-  double tolerance = 1e-3;             ///< accepted error estimate [-], 1e-6 to 0.1
-  double displacement_limit = 0.02;    ///< a block that moved further is detached [m], > 0
-  double contact_update_limit = 0.02;  ///< moved so far, contacts are updated [m], > 0
-  double damping = 0.7;                ///< local damping, explicit only [-], 0 to 0.95
+  double tolerance = 1e-3;  ///< accepted error estimate [-], 1e-6 to 0.1
+  /// A block that moved further has come off [m], > 0; left out: chosen by the rock.
+  double displacement_limit = by_the_rock;
+  /// Moved so far, contacts are updated [m], > 0; left out: chosen by the rock.
+  double contact_update_limit = by_the_rock;
+  double damping = 0.7;   ///< local damping, explicit only [-], 0 to 0.95
   int ramp_steps = 2000;  ///< steps over which the wall is unloaded, explicit only; 0 = at once
   std::optional<std::int64_t> max_steps;  ///< > 0
 };

@@ -48,6 +48,19 @@ void now_doing(const std::string& what, const std::string& otherwise) {
   work.doing = what == "blocks" ? "cutting the rock into blocks" : otherwise;
 }
 
+/// One for every verdict, so that a script reads it as a person does.
+ExitStatus status_of(const RunResult& run) {
+  switch (run.verdict()) {
+    case voussoir::Verdict::undecided:
+      return not_decided;
+    case voussoir::Verdict::collapse:
+      return collapsed;
+    case voussoir::Verdict::stable:
+      return run.fallen_measure() > 0 ? stands_after_rockfall : finished;
+  }
+  return not_decided;
+}
+
 int run_verb(const Options& options) {
   work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(options.file, options.overrides);
@@ -68,7 +81,7 @@ int run_verb(const Options& options) {
   outputs.add("blocks.svg", blocks_svg(input, run), id);
   if (!options.quiet) std::cout << run_summary(input, run);
   publish(outputs, options, "run.json, bolts.csv, lining.csv, blocks.svg");
-  return run.verdict() == voussoir::Verdict::undecided ? not_decided : finished;
+  return status_of(run);
 }
 
 int diagram_verb(const Options& options) {
@@ -175,10 +188,10 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("voussoir ") + VOUSSOIR_VERSION_STRING);
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 finished (stable, stable after rockfall or collapsing: see run.json),\n"
-      "1 results cannot be written or memory is exhausted, 2 error in the input or the command\n"
-      "line, 3 undecided, 4 numerical fault, 5 a check of verify fails, 130 interrupted (nothing\n"
-      "written).");
+      "Exit status: 0 finished, and the tunnel of run is stable; 1 results cannot be written or\n"
+      "memory is exhausted, 2 error in the input or the command line, 3 undecided (of diagram: one\n"
+      "of its tunnels), 4 numerical fault, 5 a check of verify fails, 6 the tunnel of run is stable\n"
+      "after rockfall, 7 it collapses, 130 interrupted (nothing written).");
   Options options;
   const auto add_out = [&options](CLI::App* verb) {
     verb->add_option("-o,--out", options.folder, "folder for the results, made if missing")

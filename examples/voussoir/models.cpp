@@ -34,25 +34,28 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
-ChosenMethod method_of(const Input& input, LinearSettings linear) {
+ChosenMethod method_of(const Input& input, LinearSettings linear, const MotionTuning& motion) {
   const RunInput& run = input.run;
   linear.method = run.linear_solver;
   switch (run.method) {
     case RunMethod::two_level: {
       TwoLevel::Params params;
       params.linear = linear;
+      params.motion = motion;
       if (run.max_steps) params.fallback.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(TwoLevel(params));
     }
     case RunMethod::relaxation: {
       Relaxation::Params params;
       params.linear = linear;
+      params.motion = motion;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
       return ChosenMethod(Relaxation(params));
     }
     case RunMethod::explicit_: {
       Explicit::Params params;
       params.linear = linear;
+      params.motion = motion;
       params.damping = run.damping;
       params.ramp_steps = run.ramp_steps;
       if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);

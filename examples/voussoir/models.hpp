@@ -57,7 +57,9 @@ using Tunnel =
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
 /// @param linear  what the computer has for elastic equations; how they are solved is the file's
 /// choice
-[[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear);
+/// @param motion  how a stage is followed in which rock fails
+[[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear,
+                                     const MotionTuning& motion = {});
 
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
@@ -60,6 +63,80 @@ nlohmann::json report_json(const EquilibriumReport& report) {
           {"broken_bolt_springs", report.broken_bolts}};
 }
 
+/// Where at the opening a block was.
+const char* place_of(const RunResult& run, const Vec2& centre) {
+  const std::vector<Vec2>& wall = run.opening.vertices();
+  double low = wall.front().y(), high = low;
+  for (const Vec2& v : wall) {
+    low = std::min(low, v.y());
+    high = std::max(high, v.y());
+  }
+  const double half_width = 0.5 * opening_diameter(run);
+  if (centre.y() < low && std::abs(centre.x()) < half_width) return "invert";
+  // Above a line at 45 degrees through the corners of the crown's box.
+  if (centre.y() > 0.5 * (low + high) &&
+      std::abs(centre.x()) - half_width < centre.y() - high + 0.5 * half_width)
+    return "crown";
+  return centre.x() < 0 ? "left wall" : "right wall";
+}
+
+nlohmann::json detached_json(const RunResult& run) {
+  nlohmann::json blocks = nlohmann::json::array();
+  for (const int b : run.tunnel.fallen()) {
+    const Vec2 centre = run.tunnel.system().body(b).centre;
+    blocks.push_back(
+        {{"block", b},
+         {"x_m", centre.x()},
+         {"y_m", centre.y()},
+         {"area_m2", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure},
+         {"from", place_of(run, centre)}});
+  }
+  return blocks;
+}
+
+/// How much rock has come off, where, whether the rest stands without it, and how sure that is.
+std::string rockfall_sentence(const RunResult& run) {
+  std::map<std::string, int> places;
+  double largest = 0;
+  for (const int b : run.tunnel.fallen()) {
+    ++places[place_of(run, run.tunnel.system().body(b).centre)];
+    largest =
+        std::max(largest, run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure);
+  }
+  const std::size_t count = run.tunnel.fallen().size();
+  std::string out = text("%.2f m2 of rock in ", run.fallen_measure()) + std::to_string(count) +
+                    (count == 1 ? " block (" : text(" blocks, the largest %.2f m2 (", largest));
+  const char* separator = "";
+  for (const auto& [place, blocks] : places) {
+    out += separator + place + " " + std::to_string(blocks);
+    separator = ", ";
+  }
+  out += ")";
+  if (run.verdict() == Verdict::stable) {
+    const double tonnes = 1e-3 * run.tunnel.in_situ().density * run.fallen_measure();
+    out += std::string("; the rest stands without ") + (count == 1 ? "it" : "them") +
+           ": where nothing may fall, scale " + text("%.1f t per metre down or support it", tonnes);
+  }
+  if (!run.rockfall) return out;
+  const RockfallRange& range = *run.rockfall;
+  if (range.is_marginal())
+    out += "; marginal: " + text("%.2f", range.low) + text(" to %.2f m2", range.high) +
+           (range.has_other_verdict ? ", and not the same verdict," : "") +
+           " with half and twice the displacement limit and slower unloading";
+  return out;
+}
+
+nlohmann::json joints_json(const std::vector<JointSource>& sources) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const JointSource& s : sources)
+    list.push_back({{"source", s.name},
+                    {"asked", s.asked},
+                    {"used", s.used},
+                    {"outside", s.outside},
+                    {"refused", s.refused}});
+  return list;
+}
+
 nlohmann::json convergence_json(const Convergence& c) {
   return {{"crown_mm", 1e3 * c.crown},
           {"right_springing_mm", 1e3 * c.right_springing},
@@ -91,10 +168,12 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"verdict", to_string(run.verdict(), run.fallen_measure())},
       {"error_estimate", run.last().error_estimate},
       {"detached_area_m2", run.fallen_measure()},
+      {"detached_blocks", detached_json(run)},
       {"convergence", convergence_json(run.convergence())},
       {"stages", stages},
       {"rock",
        {{"joints", mass.slicing.joints},
+        {"joints_by_source", joints_json(run.joints)},
         {"bodies", sizes.count},
         {"contacts", run.tunnel.system().joints.contacts().size()},
         {"mean_block_area_m2", sizes.mean},
@@ -115,6 +194,11 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (run.rockfall)
+    json["rockfall"] = {{"marginal", run.rockfall->is_marginal()},
+                        {"least_detached_area_m2", run.rockfall->low},
+                        {"most_detached_area_m2", run.rockfall->high},
+                        {"another_verdict", run.rockfall->has_other_verdict}};
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
@@ -138,6 +222,8 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   TunnelPictureText text;
   if (!input.title.empty()) text.title = input.title;
   if (input.lining) text.lining_thickness = input.lining->thickness;
+  if (run.fallen_measure() > 0) text.remarks.push_back(rockfall_sentence(run));
+  for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, text);
 }
 
@@ -239,6 +325,10 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
+  for (const JointSource& s : run.joints)
+    out += "joints   " + s.name + ": " + std::to_string(s.asked) + " asked for, " +
+           std::to_string(s.used) + " used, " + std::to_string(s.refused) + " without room, " +
+           std::to_string(s.outside) + " outside\n";
   for (const StageResult& stage : run.built.stages) {
     out += "stage    " + stage.name + ": " + to_string(stage.report) +
            text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
@@ -249,6 +339,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += std::string("verdict  ") + to_string(last.verdict, run.fallen_measure());
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
     out += " of " + text("%.2f m2", run.fallen_measure());
+  if (run.rockfall && run.rockfall->is_marginal()) out += ", marginal";
   out += ": " + last.reason + "\n";
   out += "         error estimate " + computed("%.1e", last.error_estimate) +
          ", worst out-of-balance force ratio " + computed("%.1e", last.unbalance_over_weight) +
@@ -260,8 +351,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
       out += " in " + std::to_string(last.linear.iterations) + " iterations";
     out += text(", %.3g MB\n", 1e-6 * last.linear.memory);
   }
-  if (run.fallen_measure() > 0)
-    out += "detached " + text("%.2f", run.fallen_measure()) + " m2 of rock\n";
+  if (run.fallen_measure() > 0) out += "detached " + rockfall_sentence(run) + "\n";
   out += "wall     crown " + millimetres_text(c.crown) + " mm, springings " +
          millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
          " mm, invert " + millimetres_text(c.invert) + " mm";
@@ -296,7 +386,7 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
     out += label;
     for (std::size_t j = 0; j < axes.thickness.size(); ++j) {
       const DiagramPoint& p = diagram.points[i * axes.thickness.size() + j];
-      const char* mark = p.report.verdict == Verdict::collapsing  ? " C"
+      const char* mark = p.report.verdict == Verdict::collapse    ? " C"
                          : p.report.verdict == Verdict::undecided ? " ?"
                          : p.failed()                             ? " R"
                                                                   : "  ";

@@ -17,12 +17,14 @@
 namespace voussoir::program {
 
 enum ExitStatus {
-  finished = 0,
+  finished = 0,  ///< of `run`: stable
   failed = 1,
   bad_input = 2,
   not_decided = 3,
   numerical_fault = 4,
   not_verified = 5,
+  stands_after_rockfall = 6,
+  collapsed = 7,
   interrupted = 130
 };
 

@@ -58,7 +58,7 @@ TEST_SUITE("design/realisations") {
     // None of n: the upper end p leaves (1 - p)^n = 2.5 %.
     CHECK(crown.collapse_interval().low == 0);
     CHECK(crown.collapse_interval().high == doctest::Approx(1 - std::pow(0.025, 0.2)));
-    crown.add(Verdict::collapsing, 20, 1);
+    crown.add(Verdict::collapse, 20, 1);
     crown.add(Verdict::undecided, 0, 1);
     CHECK(crown.collapsed == 2);
     CHECK(crown.samples == 7);

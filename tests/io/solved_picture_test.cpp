@@ -110,9 +110,9 @@ TEST_SUITE("io/solved_picture") {
     CHECK(verdict_sentence(report, 1.234, "m²")
               .find("stable after rockfall of 1.23 m². Error of the displacements not estimated") !=
           std::string::npos);
-    report.verdict = Verdict::collapsing;
+    report.verdict = Verdict::collapse;
     report.reason = "too much of it";
-    CHECK(verdict_sentence(report, 20, "m²") == "Verdict: collapsing: too much of it.");
+    CHECK(verdict_sentence(report, 20, "m²") == "Verdict: collapse: too much of it.");
     CHECK(banner_of(report.verdict, 20, "m²")->line == "20.00 m² of rock detached: no equilibrium");
     CHECK(millimetres_text(3.2949e-3) == "3.29");
     CHECK(millimetres_text(std::numeric_limits<double>::quiet_NaN()) == "-");

@@ -119,7 +119,7 @@ TEST_SUITE("solver/incline") {
     SearchContext strict = context();
     strict.acceptance.collapse_measure = 0.1;
     const EquilibriumReport report = Method{}.find(system, strict);
-    CHECK(report.verdict == Verdict::collapsing);
+    CHECK(report.verdict == Verdict::collapse);
     CHECK(report.reason.find("1 block of") != std::string::npos);
   }
 

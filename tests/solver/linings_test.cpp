@@ -134,7 +134,7 @@ TEST_SUITE("solver/linings") {
     tunnel.install_lining(arch(-60 * degree, 240 * degree), shell, law);
     settle(tunnel, 0.5, {});
     const auto before = lining_forces(tunnel);
-    REQUIRE(largest_thrust(before) > 50);  // little: its ends rest on nothing
+    REQUIRE(largest_thrust(before) > 40);  // little: its ends rest on nothing
     tunnel.install_lining(arch(235 * degree, 305 * degree), shell, law);
     // Nothing has moved: the first carries what it did, the second nothing.
     const auto after = lining_forces(tunnel), fresh = lining_forces(tunnel, *tunnel.linings()[1]);

@@ -79,7 +79,7 @@ TEST_SUITE("tunnel/interaction_diagram") {
     CHECK(!point.failed());
     point.report.fallen_measure = 0.1;
     CHECK(point.failed());
-    for (const Verdict verdict : {Verdict::collapsing, Verdict::undecided}) {
+    for (const Verdict verdict : {Verdict::collapse, Verdict::undecided}) {
       DiagramPoint other = labelled(0, 0);
       other.report.verdict = verdict;
       CHECK(other.failed());

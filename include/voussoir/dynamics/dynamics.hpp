@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -94,9 +95,12 @@ class Dynamics : public MovingBodies<Dim> {
     return first;
   }
   /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
-  void remove(int b) {
-    fix(b);
-    bodies_[index(b)].is_gone = true;
+  void remove(int b) { remove(std::vector<int>{b}); }
+  void remove(const std::vector<int>& gone) {
+    if (gone.empty()) return;
+    begin();
+    for (const int b : gone) leave_out(b);
+    forget();
     find_contacts();
   }
   /// The same before anything is computed.
@@ -117,6 +121,10 @@ class Dynamics : public MovingBodies<Dim> {
     this->stop(b);
     forget();
   }
+  /// Makes the bodies that allow only short steps more inert, their weight kept, so that all allow
+  /// the step of the rest: what rests, rests as before; what moves, moves later.
+  /// @param share  of all bodies, that are the first to be made so [-], >= 0 and < 1
+  void add_inertia(double share);
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
   void set_laws(const LawsBySet<JointLaw>& laws) {
@@ -254,9 +262,14 @@ class Dynamics : public MovingBodies<Dim> {
   // ---- steps -----------------------------------------------------------------------------------
 
   [[nodiscard]] double longest_step() {
+    const std::vector<double> sums = stiffness_over_mass();
+    return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()), settings_);
+  }
+  /// Of every body, all others fixed [1/s^2].
+  [[nodiscard]] std::vector<double> stiffness_over_mass() {
     std::vector<double> sums = network_.stiffness_over_mass(bodies_);
     supports_.add_stiffness_over_mass(bodies_, sums);
-    return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()), settings_);
+    return sums;
   }
   [[nodiscard]] double choose_step();
   [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces() {
@@ -296,6 +309,28 @@ class Dynamics : public MovingBodies<Dim> {
   std::optional<Sound> sound_;
   std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
+
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) {
+  require(share >= 0 && share < 1, "share of bodies with more inertia", share, ">= 0 and < 1");
+  begin();
+  const double kinetic = this->kinetic_energy();
+  const std::vector<double> sums = stiffness_over_mass();
+  std::vector<double> sorted = sums;
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const double most = sorted[static_cast<std::size_t>(share * static_cast<double>(sums.size()))];
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    if (!body.movable() || !(sums[b] > most) || !(most > 0)) continue;
+    const double factor = sums[b] / most;
+    loads_[b].force[Dim - 1] += (factor - 1) * body.mass * settings_.gravity;
+    body.mass *= factor;
+    body.inertia *= factor;
+  }
+  network_.forget_masses();
+  kinetic_given_ += this->kinetic_energy() - kinetic;
+  forget();
+}
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
 void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::hold() {

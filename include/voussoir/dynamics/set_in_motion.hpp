@@ -62,7 +62,8 @@ class Handover {
       std::vector<LiningNode<dim>> nodes;
       for (std::size_t k = 0; k < lining.surface.node_count(); ++k) {
         const auto& body = system_.body(lining.first + static_cast<int>(k));
-        const double mass = body.weight / gravity;
+        // Without weight: as inert as the lightest block, and carried.
+        const double mass = (body.weight > 0 ? body.weight : system_.lightest_weight()) / gravity;
         nodes.push_back({body.centre, lining.surface.tiles(k), mass,
                          all_entries<dof - dim>(node_inertia(mass, body.gyration, lining.thickness,
                                                              lining.is_pinned))});
@@ -83,7 +84,7 @@ class Handover {
         return Load<dim>{part<dim>(load, dof * b), part<dof - dim>(load, dof * b + dim)};
       };
       Load<dim> load = on_body(system_.load);
-      load.force[dim - 1] += system_.body(b).weight;
+      load.force[dim - 1] += run.body(b).mass * run.settings().gravity;
       if (system_.wall_held.size() > 0) {
         const Load<dim> held = on_body(system_.wall_held);
         load.force += held.force;

@@ -112,54 +112,6 @@ double solve_elastically(System& system, const SearchContext& context,
   return error;
 }
 
-/// True, with the reason, if the rock as a whole is about to move so far that detached blocks
-/// cannot be told by their displacement: if more than one block in a hundred would have moved
-/// beyond half the limit after one elastic step to the end of the stage. Blocks that slid so far in
-/// an earlier stage count too: fewer than that do not matter.
-///
-/// @param solve  solve(f, tolerance) turns forces into elastic displacements, in place, and returns
-///               their error [m]
-template <class System, class Solve>
-[[nodiscard]] bool moves_too_far(System& system, const SearchContext& context, Solve&& solve,
-                                 EquilibriumReport& report, const DetachmentTuning& tuning = {}) {
-  const double now = system.wall_fraction, limit = context.acceptance.displacement_limit;
-  Eigen::VectorXd forces, u;
-  system.wall_fraction = context.wall_fraction;
-  system.forces(system.displacement, forces);
-  system.wall_fraction = now;
-  double far = 0;  // how far the block has moved that one in a hundred is beyond
-  // Once more where the error of the first solve leaves it open.
-  for (const double tolerance : {tuning.first_look, tuning.second_look}) {
-    u = forces;
-    const double error = solve(u, SolveTolerance{.relative = tolerance});
-    if (!voussoir::is_finite(u))
-      throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
-    u += system.displacement;
-    std::vector<double> moved;
-    for (int b = 0; b < system.body_count(); ++b)
-      if (system.body(b).movable && system.body(b).is_block)
-        moved.push_back(part<System::dim>(u, System::dof * b).norm());
-    if (moved.empty()) return false;
-    const auto place =
-        moved.begin() + static_cast<std::ptrdiff_t>((1 - tuning.far_blocks) *
-                                                    static_cast<double>(moved.size() - 1));
-    std::nth_element(moved.begin(), place, moved.end());
-    far = *place;
-    if (std::abs(far - tuning.far_limit * limit) > error) break;
-  }
-  if (!(far > tuning.far_limit * limit)) return false;
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "with joints that slip and open no further the rock would have moved %.3g mm, more than "
-      "half the displacement limit of %.3g mm, and detached blocks could not be told from it: "
-      "raise displacement_limit",
-      1e3 * far, 1e3 * limit);
-  report.reason = text;
-  report.largest_displacement = system.largest_translation(system.displacement);
-  return true;
-}
-
 /// True, with the verdict, if more is detached than a tunnel can lose.
 template <int Dim>
 [[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context) {
@@ -174,7 +126,7 @@ template <int Dim>
       "a collapse",
       report.fallen.size(), report.fallen.size() == 1 ? "" : "s", report.fallen_measure, unit,
       limit, unit);
-  report.verdict = Verdict::collapsing;
+  report.verdict = Verdict::collapse;
   report.reason = text;
   return true;
 }

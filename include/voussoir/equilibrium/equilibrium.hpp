@@ -15,17 +15,17 @@ namespace voussoir {
 
 /// What is known about a state after equilibrium was sought.
 enum class Verdict {
-  stable,      ///< all three tests passed, possibly after blocks detached: see `to_string(report)`
-  collapsing,  ///< more rock detached than the limit
-  undecided,   ///< no answer was found, or none was sought: the reason says why
+  stable,     ///< all three tests passed, possibly after blocks detached: see `to_string(report)`
+  collapse,   ///< more rock detached than the limit
+  undecided,  ///< no answer was found, or none was sought: the reason says why
 };
 
 [[nodiscard]] constexpr const char* to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::stable:
       return "stable";
-    case Verdict::collapsing:
-      return "collapsing";
+    case Verdict::collapse:
+      return "collapse";
     case Verdict::undecided:
       return "undecided";
   }
@@ -40,17 +40,20 @@ enum class Verdict {
                                                           : to_string(verdict);
 }
 
+/// A limit of displacements that is chosen from the size of the blocks and the elastic movement of
+/// the rock (see `detail::limits_by_the_rock`).
+inline constexpr double by_the_rock = -1;
+
 /// When a state counts as an equilibrium.
 struct Acceptance {
   double error_estimate = 1e-3;         ///< largest elastic correction / largest displacement [-]
   double unbalance_over_weight = 1e-2;  ///< of the worst body [-]
-  /// A body that moved further is detached [m]. Beyond some centimetres answers depend on the path.
-  double displacement_limit = 0.02;
-  /// Contacts are updated when a block has moved so far since they were last updated [m]: as far
-  /// as contacts and levers are good for blocks of half a metre; a quarter of it is better where
-  /// blocks turn. Without effect unless below the displacement limit. A block that has lost all
-  /// contacts within twice this is detached.
-  double contact_update_limit = 0.02;
+  /// A block that moved further has come off [m].
+  double displacement_limit = by_the_rock;
+  /// Contacts are updated when a block has moved so far since they were last updated [m]. Without
+  /// effect unless below the displacement limit. A block that has lost all contacts within twice
+  /// this is detached.
+  double contact_update_limit = by_the_rock;
   /// More detached rock than this is a collapse, per metre of tunnel: the area lost in the section
   /// [m^2], in 3-D as in 2-D (see `SearchContext::open_length`).
   double collapse_measure = 20;
@@ -59,8 +62,9 @@ struct Acceptance {
   void check() const {
     require(error_estimate > 0, "error_estimate", error_estimate, "> 0");
     require(unbalance_over_weight > 0, "unbalance_over_weight", unbalance_over_weight, "> 0");
-    require(displacement_limit > 0, "displacement_limit", displacement_limit, "> 0 m");
-    require(contact_update_limit > 0, "contact_update_limit", contact_update_limit, "> 0 m");
+    const auto is_limit = [](double value) { return value > 0 || value == by_the_rock; };
+    require(is_limit(displacement_limit), "displacement_limit", displacement_limit, "> 0 m");
+    require(is_limit(contact_update_limit), "contact_update_limit", contact_update_limit, "> 0 m");
     require(collapse_measure >= 0, "collapse_measure", collapse_measure, ">= 0");
   }
 };
@@ -73,7 +77,9 @@ struct EquilibriumReport {
   double error_estimate = std::numeric_limits<double>::quiet_NaN();
   double unbalance_over_weight = std::numeric_limits<double>::quiet_NaN();
   double largest_displacement = 0;  ///< [m]
-  int steps = 0;                    ///< force evaluations
+  /// Those of the acceptance; where they were to be chosen by the rock, what was chosen [m].
+  double displacement_limit = by_the_rock, contact_update_limit = by_the_rock;
+  int steps = 0;  ///< force evaluations
   int elastic_solves = 0;
   int factorisations = 0;     ///< times that the elastic stiffness was prepared for solving
   LinearReport linear;        ///< how the elastic solves were done
@@ -81,7 +87,10 @@ struct EquilibriumReport {
   double fallen_measure = 0;  ///< [m^2] or [m^3]
   int broken_bolts = 0;       ///< bolt springs that ruptured
   ContactUpdateReport contact_updates;  ///< what they gave to the springs, and how forces jumped
-  bool stopped = false;                 ///< the caller asked to stop
+  /// The state is where blocks came to rest in motion: some were caught on their way, and their
+  /// displacements are those of that way, its overshoot and its rounding in them.
+  bool is_from_motion = false;
+  bool stopped = false;  ///< the caller asked to stop
 };
 
 /// The verdict of one search as people read it.
@@ -100,6 +109,7 @@ struct SearchContext {
   /// open length, but no more than the width of the section, lest a chimney in a long tunnel be
   /// overlooked [m].
   double open_length = 1;
+  double gravity = 9.81;  ///< of the weights of bodies [m/s^2]
 };
 
 namespace detail {

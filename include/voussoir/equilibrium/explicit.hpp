@@ -7,6 +7,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
+#include <voussoir/equilibrium/detail/search_or_follow.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/update_when_due.hpp>
@@ -20,7 +21,8 @@ namespace voussoir {
 /// Here to compare with the paper and to show what dynamics do to the answer: a sudden, lightly
 /// damped excavation overshoots, slips on the way, and ends with a crown that has moved 10 to 50 %
 /// further although its out-of-balance force is as small as after any other. The wall traction is
-/// therefore taken away along a ramp unless `ramp_steps` is zero.
+/// therefore taken away along a ramp unless `ramp_steps` is zero: blocks that come off on that path
+/// are taken out on the way, and nothing is said of a slow one.
 ///
 /// Masses are density-scaled so that the critical step is the same for every unknown (quarter of
 /// the Gershgorin row sums): steps are no physical time; `Dynamics` has true ones. Local damping
@@ -40,6 +42,7 @@ class Explicit {
     int max_steps = 200000;
     int check_every = 50;
     LinearSettings linear{};  ///< of the elastic solves: error estimate and a look ahead
+    MotionTuning motion{};    ///< of a stage in which rock fails
   };
   Explicit() = default;
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -49,6 +52,7 @@ class Explicit {
     require(params.safety > 0 && params.safety <= 1, "safety", params.safety, "> 0 and <= 1");
     require(params.max_steps > params.ramp_steps, "max_steps", params.max_steps, "> ramp_steps");
     require(params.check_every > 0, "check_every", params.check_every, "> 0");
+    params.motion.check();
   }
 
   /// Accepts on the same three tests as `TwoLevel`; a factor is made for the estimate alone, when
@@ -76,7 +80,9 @@ class Explicit {
   }
 
   template <class System>
-  void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
+  [[nodiscard]] detail::SearchEnd step_on(System& system, const SearchContext& context,
+                                          detail::AtAFall at_a_fall,
+                                          EquilibriumReport& report) const;
 
   Params params_;
 };
@@ -84,25 +90,28 @@ class Explicit {
 template <class System>
 EquilibriumReport Explicit::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
-  detail::until_stopped(report, [&] { step_on(system, context, report); });
-  if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = message({"step limit of ", params_.max_steps, " reached"});
+  const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
+    return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);
+  };
+  const auto search = [&](const SearchContext& stage, detail::AtAFall at_a_fall, const System&,
+                          EquilibriumReport& to) { return step_on(system, stage, at_a_fall, to); };
+  detail::until_stopped(report, [&] {
+    // A sudden excavation is a path of its own.
+    const MotionTuning* motion = params_.ramp_steps > 0 ? &params_.motion : nullptr;
+    detail::carry_out_stage(system, context, solve, {}, motion, search, report);
+  });
   report.broken_bolts = system.supports.broken_count();
   return report;
 }
 
 template <class System>
-void Explicit::step_on(System& system, const SearchContext& context,
-                       EquilibriumReport& report) const {
+detail::SearchEnd Explicit::step_on(System& system, const SearchContext& context,
+                                    detail::AtAFall at_a_fall, EquilibriumReport& report) const {
   constexpr int dof = System::dof;
   const Acceptance& accept = context.acceptance;
-  detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);
   };
-  if (detail::has_collapsed<System::dim>(report, context)) return;
-  if (detail::moves_too_far(system, context, solve, report)) return;
-  if (detail::has_collapsed<System::dim>(report, context)) return;  // by what nothing holds
   const double from = system.wall_fraction, to = context.wall_fraction;
   Eigen::VectorXd& u = system.displacement;
   Eigen::VectorXd velocity = zeros(u.size()), f;
@@ -120,15 +129,18 @@ void Explicit::step_on(System& system, const SearchContext& context,
     return true;
   };
   StopCheck stop(context.progress, 1);
-  while (report.steps < params_.max_steps) {
-    const bool ramping = report.steps < params_.ramp_steps;
-    const double done = ramping ? static_cast<double>(report.steps + 1) / params_.ramp_steps : 1.0;
+  // Without a load that goes there is nothing to do slowly.
+  const int ramp_steps = from == to ? 0 : params_.ramp_steps;
+  for (int made = 0; made < params_.max_steps;) {
+    const bool ramping = made < ramp_steps;
+    const double done = ramping ? static_cast<double>(made + 1) / ramp_steps : 1.0;
     stop();
     VOUSSOIR_ASSERT(done > 0 && done <= 1, "a ramp goes from its beginning to its end");
     VOUSSOIR_ASSERT(step > 0, "time goes on");
     system.wall_fraction = from + (to - from) * done;
     system.template forces<Committing>(u, f);
     ++report.steps;
+    ++made;
     // Velocity Verlet in its leapfrog form: velocities live at half steps.
     // A loop: Eigen's sign() is not made of vector instructions.
     for (Eigen::Index k = 0; k < u.size(); ++k) {
@@ -136,17 +148,18 @@ void Explicit::step_on(System& system, const SearchContext& context,
       velocity[k] += step * inverse_mass[k] * (f[k] - params_.damping * std::abs(f[k]) * along);
       u[k] += step * velocity[k];
     }
-    if (report.steps % params_.check_every != 0) continue;
+    if (made % params_.check_every != 0) continue;
     report.largest_displacement = system.largest_translation(u);
     if (!is_finite(u))  // a maximum does not tell: it passes over what is not a number
       throw NumericalFault(message({"explicit stepping: displacements are not finite at step ",
                                     report.steps, "; lower the safety factor of the step"}));
     detail::ask_to_go_on(context, ramping ? done : -1.0);
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+    if (at_a_fall == detail::AtAFall::gives_up && !fallen.empty()) return detail::SearchEnd::open;
     const bool found = detail::update_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
-      if (!goes_on_without_the_fallen()) break;
+      if (!goes_on_without_the_fallen()) return detail::SearchEnd::decided;
       continue;
     }
     if (ramping) continue;
@@ -158,7 +171,7 @@ void Explicit::step_on(System& system, const SearchContext& context,
     const std::size_t fallen_before = report.fallen.size();
     const double inexact = solve(d, detail::tolerance_of_correction(system, accept));
     if (report.fallen.size() > fallen_before) {  // nothing has held them
-      if (!goes_on_without_the_fallen()) break;
+      if (!goes_on_without_the_fallen()) return detail::SearchEnd::decided;
       continue;
     }
     report.error_estimate = system.relative_correction(d, u, inexact);
@@ -167,10 +180,12 @@ void Explicit::step_on(System& system, const SearchContext& context,
       report.verdict = Verdict::stable;
       report.reason =
           "error estimate, out-of-balance force ratio and displacements are within their limits";
-      break;
+      return detail::SearchEnd::decided;
     }
     next_estimate = 0.5 * report.unbalance_over_weight;
   }
+  report.reason = message({"step limit of ", params_.max_steps, " reached"});
+  return detail::SearchEnd::open;
 }
 
 }  // namespace voussoir

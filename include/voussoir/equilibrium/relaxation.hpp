@@ -8,6 +8,7 @@
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/equilibrium/active_set.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
+#include <voussoir/equilibrium/detail/search_or_follow.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
@@ -40,6 +41,7 @@ class Relaxation {
     /// [-], > 0 and <= 1.
     double active_above = 0.3;
     DetachmentTuning detachment{};
+    MotionTuning motion{};  ///< of a stage in which rock fails
   };
   Relaxation() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -52,6 +54,7 @@ class Relaxation {
     require(params.active_above > 0 && params.active_above <= 1, "active_above",
             params.active_above, "> 0 and <= 1");
     params.detachment.check();
+    params.motion.check();
   }
 
   /// Accepts when the out-of-balance test has passed and no block is beyond the displacement limit;
@@ -59,14 +62,18 @@ class Relaxation {
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
-  /// The same without asking first whether detached blocks can be told by their displacement, for
-  /// a caller that has. Adds to what is in the report.
+  /// The same of a stage that has begun and whose limits are numbers; blocks that come off are
+  /// taken out on the way. Adds to what is in the report.
   template <class System>
   void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
  private:
   template <class System>
-  void step_on(System& system, const SearchContext& context, EquilibriumReport& report) const;
+  [[nodiscard]] detail::SearchEnd step_on(System& system, const SearchContext& context,
+                                          detail::AtAFall at_a_fall,
+                                          EquilibriumReport& report) const;
+  template <class System>
+  static void finish(const System& system, EquilibriumReport& report);
 
   Params params_;
 };
@@ -74,32 +81,36 @@ class Relaxation {
 template <class System>
 EquilibriumReport Relaxation::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
-  detail::drop(system, {}, context, report);
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);
   };
+  const auto search = [&](const SearchContext& stage, detail::AtAFall at_a_fall, const System&,
+                          EquilibriumReport& to) { return step_on(system, stage, at_a_fall, to); };
   detail::until_stopped(report, [&] {
-    if (!detail::has_collapsed<System::dim>(report, context) &&
-        !detail::moves_too_far(system, context, solve, report, params_.detachment) &&
-        !detail::has_collapsed<System::dim>(report, context))  // by what nothing holds
-      follow(system, context, report);
+    detail::carry_out_stage(system, context, solve, params_.detachment, &params_.motion, search,
+                            report);
   });
+  finish(system, report);
   return report;
 }
 
 template <class System>
 void Relaxation::follow(System& system, const SearchContext& context,
                         EquilibriumReport& report) const {
-  detail::until_stopped(report, [&] { step_on(system, context, report); });
-  if (report.verdict == Verdict::undecided && report.reason.empty())
-    report.reason = message({"step limit of ", params_.max_steps, " reached"});
+  detail::until_stopped(report,
+                        [&] { (void)step_on(system, context, detail::AtAFall::goes_on, report); });
+  finish(system, report);
+}
+
+template <class System>
+void Relaxation::finish(const System& system, EquilibriumReport& report) {
   report.broken_bolts = system.supports.broken_count();
   report.largest_displacement = system.largest_translation(system.displacement);
 }
 
 template <class System>
-void Relaxation::step_on(System& system, const SearchContext& context,
-                         EquilibriumReport& report) const {
+detail::SearchEnd Relaxation::step_on(System& system, const SearchContext& context,
+                                      detail::AtAFall at_a_fall, EquilibriumReport& report) const {
   constexpr int dof = System::dof;
   const Acceptance& accept = context.acceptance;
   system.wall_fraction = context.wall_fraction;
@@ -112,15 +123,16 @@ void Relaxation::step_on(System& system, const SearchContext& context,
   Eigen::VectorXd mass = masses();
   const double step = params_.safety / std::sqrt(1 + params_.damping);
   StopCheck stop(context.progress, 1);
-  while (report.steps < params_.max_steps) {
+  for (int made = 0; made < params_.max_steps;) {
     system.template forces<Committing>(u, f);
     if (!is_finite(f))
       throw NumericalFault(message({"relaxation: forces are not finite at step ", report.steps}));
     const std::vector<int> fallen = detail::fallen_bodies(system, accept.displacement_limit);
+    if (at_a_fall == detail::AtAFall::gives_up && !fallen.empty()) return detail::SearchEnd::open;
     const bool found = detail::update_when_due(system, context, report);
     if (found || !fallen.empty()) {
       detail::drop(system, fallen, context, report);
-      if (detail::has_collapsed<System::dim>(report, context)) break;
+      if (detail::has_collapsed<System::dim>(report, context)) return detail::SearchEnd::decided;
       mass = masses();
       continue;
     }
@@ -129,17 +141,18 @@ void Relaxation::step_on(System& system, const SearchContext& context,
       if (detail::update_when_due(system, context, report, true)) continue;
       report.verdict = Verdict::stable;
       report.reason = "every block is in equilibrium within the out-of-balance force ratio limit";
-      break;
+      return detail::SearchEnd::decided;
     }
     detail::ask_to_go_on(context);
     ActiveSet<System> active(system, f, zeros(f.size()),
                              params_.active_above * accept.unbalance_over_weight, params_.rings);
     VOUSSOIR_ASSERT(mass.size() == u.size() && velocity.size() == u.size(),
                     "every unknown has a mass and a velocity");
-    for (int k = 0; k < params_.check_every && report.steps < params_.max_steps; ++k) {
+    for (int k = 0; k < params_.check_every && made < params_.max_steps; ++k) {
       stop();
       if (k > 0) active.template forces<Committing>(u, f);
       ++report.steps;
+      ++made;
       for (const int b : active.bodies())
         for (int i = dof * b; i < dof * (b + 1); ++i) {
           const double against = velocity[i] > 0 ? 1.0 : (velocity[i] < 0 ? -1.0 : 0.0);
@@ -148,6 +161,8 @@ void Relaxation::step_on(System& system, const SearchContext& context,
         }
     }
   }
+  report.reason = message({"step limit of ", params_.max_steps, " reached"});
+  return detail::SearchEnd::open;
 }
 
 }  // namespace voussoir

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,15 +32,14 @@ namespace voussoir {
 /// The local search settles slip and openings: a burst of FIRE and, once the estimate is small,
 /// anchored Newton steps with the unsymmetric tangent. The elastic solve settles what is
 /// long-ranged, and its correction d measures the error of the displacements. The history is frozen
-/// during the search, so the answer does not depend on the path the search took: on increments and
-/// the fallback only, where blocks detach.
+/// during the search, so the answer does not depend on the path the search took.
 ///
 /// d is blind to mechanisms: a key block that detaches has a tiny elastic correction. Hence the
 /// test on every block's out-of-balance force ratio. A block that nothing holds runs away under the
-/// Newton steps until it passes the displacement limit, is removed, and the search goes on without
-/// it. Where many blocks detach at once `Relaxation` finds out which, and the search starts anew
-/// without them. Detached blocks are judged in increments of the unloading: in a single one
-/// marginal blocks are lost that stay.
+/// Newton steps until it passes the displacement limit: the search gives up, and the stage is
+/// followed in motion (`MotionTuning`). In a model without shapes such blocks are taken out on the
+/// way; where many detach at once `Relaxation` finds out which, and the search starts anew without
+/// them.
 class TwoLevel {
  public:
   using role = roles::Equilibrium;
@@ -53,7 +51,7 @@ class TwoLevel {
     double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
     int rings = 2;               ///< generations of neighbours searched with a body out of balance
     int max_bursts = 14;         ///< local searches without detachment or end before the fallback
-    int increments = 5;          ///< of the unloading, where blocks detach in one step
+    int increments = 5;          ///< of the unloading, where one step finds no end
     int max_restarts = 8;        ///< searches after the first, without what is detached
     LinearSettings linear{};     ///< of the elastic solves
     Fire::Params fire{};
@@ -62,6 +60,7 @@ class TwoLevel {
     CorrectionTuning correction{};
     DetachmentTuning detachment{};
     RestartTuning restart{};
+    MotionTuning motion{};  ///< of a stage in which rock fails
   };
   TwoLevel() = default;
   /// @throws InvalidInput  a parameter out of range
@@ -78,40 +77,57 @@ class TwoLevel {
     params.correction.check();
     params.detachment.check();
     params.restart.check();
+    params.motion.check();
   }
 
   template <class System>
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
  private:
+  /// One search; without an end where something falls. Where none is found though nothing falls,
+  /// the unloading is followed in increments: the elastic start of one large step breaks and opens
+  /// joints that a gradual unloading spares. Most happens when little traction is left: the
+  /// increments shrink with it.
   template <class System>
-  void find_by_stages(System& system, const SearchContext& context,
-                      detail::ElasticCorrections<System>& elastic, EquilibriumReport& whole) const;
-
-  template <class System>
-  [[nodiscard]] EquilibriumReport find_in_one_step(
-      System& system, const SearchContext& context, bool give_up_at_a_fall,
-      detail::ElasticCorrections<System>& elastic) const {
-    EquilibriumReport report;
-    detail::until_stopped(
-        report, [&] { search_anew(system, context, give_up_at_a_fall, elastic, report); });
-    report.broken_bolts = system.supports.broken_count();
-    return report;
+  [[nodiscard]] detail::SearchEnd search_once(System& system, const SearchContext& context,
+                                              const System& start,
+                                              detail::ElasticCorrections<System>& elastic,
+                                              EquilibriumReport& report) const {
+    const double from = system.wall_fraction, to = context.wall_fraction;
+    const auto run = [&](double wall_fraction) {
+      SearchContext part = context;
+      part.wall_fraction = wall_fraction;
+      return detail::GlobalSearch<System>(system, effort(), part, elastic, report)
+          .run(detail::AtAFall::gives_up);
+    };
+    if (run(to) == detail::SearchEnd::decided) return detail::SearchEnd::decided;
+    const double limit = context.acceptance.displacement_limit;
+    if (from == to || params_.increments == 1 ||
+        !(system.largest_translation(system.displacement) <= limit))
+      return detail::SearchEnd::open;
+    system = System(start);  // moved: less code than an assignment of every part
+    for (int k = 1; k <= params_.increments; ++k) {
+      const double left = to + (from - to) * std::pow(params_.restart.increment_ratio, k);
+      report.verdict = Verdict::undecided;
+      if (run(k == params_.increments ? to : left) == detail::SearchEnd::open)
+        return detail::SearchEnd::open;
+      if (report.verdict != Verdict::stable) break;
+    }
+    return detail::SearchEnd::decided;
   }
 
   /// Searches until one is decided, without what detaches meanwhile.
   template <class System>
-  void search_anew(System& system, const SearchContext& context, bool give_up_at_a_fall,
-                   detail::ElasticCorrections<System>& elastic, EquilibriumReport& report) const {
+  [[nodiscard]] detail::SearchEnd search_anew(System& system, const SearchContext& context,
+                                              detail::ElasticCorrections<System>& elastic,
+                                              EquilibriumReport& report) const {
     const Acceptance& accept = context.acceptance;
-    // Where a search without the detached blocks begins. One that gives up has no use for it.
-    std::optional<System> start;
-    if (!give_up_at_a_fall) start.emplace(system);
+    const std::size_t fallen_before = report.fallen.size();
+    const System start(system);  // where a search without the detached blocks begins
     double follow_to = std::max(params_.restart.follow_to, accept.unbalance_over_weight);
     for (int attempt = 0; attempt <= params_.max_restarts; ++attempt) {
       detail::GlobalSearch<System> search(system, effort(), context, elastic, report);
-      if (search.run(give_up_at_a_fall) != detail::SearchEnd::open) break;
-      if (give_up_at_a_fall) return;  // without a reason: not decided
+      if (search.run(detail::AtAFall::goes_on) == detail::SearchEnd::decided) break;
       const EquilibriumReport fall = follow(system, context, follow_to, report);
       if (detail::has_collapsed<System::dim>(report, context)) break;
       if (fall.verdict == Verdict::undecided) {
@@ -121,8 +137,10 @@ class TwoLevel {
       }
       if (attempt == params_.max_restarts) break;
       if (!fall.fallen.empty()) {
-        system = System(*start);  // moved: less code than an assignment of every part
-        detail::remove_with_loose(system, report.fallen);
+        system = System(start);  // moved: less code than an assignment of every part
+        detail::remove_with_loose(
+            system, {report.fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before),
+                     report.fallen.end()});
         continue;
       }
       // Nothing detached: the search goes on from the slip that the fallback has committed.
@@ -136,6 +154,7 @@ class TwoLevel {
     if (report.verdict == Verdict::undecided && report.reason.empty())
       report.reason = message({"no equilibrium in ", params_.max_restarts + 1,
                                " searches, detached blocks taken out in between"});
+    return detail::SearchEnd::decided;
   }
 
   /// Lets the fallback follow what falls, and enters it in the report.
@@ -159,18 +178,6 @@ class TwoLevel {
     return fall;
   }
 
-  /// Adds what an increment did; its state replaces that of the one before.
-  static void add(EquilibriumReport& whole, const EquilibriumReport& part) {
-    EquilibriumReport sum = part;
-    sum.steps += whole.steps;
-    sum.elastic_solves += whole.elastic_solves;
-    sum.factorisations += whole.factorisations;
-    sum.contact_updates.add(whole.contact_updates);
-    sum.fallen.insert(sum.fallen.begin(), whole.fallen.begin(), whole.fallen.end());
-    sum.fallen_measure += whole.fallen_measure;
-    whole = sum;
-  }
-
   [[nodiscard]] detail::SearchEffort effort() const {
     return {{params_.burst_steps, params_.newton_steps, params_.newton_below, params_.rings},
             params_.max_bursts,
@@ -187,55 +194,26 @@ class TwoLevel {
 
 template <class System>
 EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) const {
-  EquilibriumReport whole;
+  EquilibriumReport report;
   detail::ElasticCorrections<System> elastic;
-  detail::until_stopped(whole, [&] { find_by_stages(system, context, elastic, whole); });
-  whole.linear = elastic.report();
-  return whole;
-}
-
-template <class System>
-void TwoLevel::find_by_stages(System& system, const SearchContext& context,
-                              detail::ElasticCorrections<System>& elastic,
-                              EquilibriumReport& whole) const {
-  detail::drop(system, {}, context, whole);
-  detail::prepare_without_free_bodies(system, context, whole, [&] {
-    elastic.prepare(system, params_.fire, params_.linear, context.progress, whole);
-  });
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
-    return elastic.solve(f, tolerance, context.progress, whole);
+    detail::prepare_without_free_bodies(system, context, report, [&] {
+      elastic.prepare(system, params_.fire, params_.linear, context.progress, report);
+    });
+    return elastic.solve(f, tolerance, context.progress, report);
   };
-  if (detail::has_collapsed<System::dim>(whole, context)) return;
-  if (detail::moves_too_far(system, context, solve, whole, params_.detachment)) return;
-  const auto part_of_stage = [&](double wall_fraction) {
-    SearchContext part = context;
-    part.wall_fraction = wall_fraction;
-    part.acceptance.collapse_measure -= whole.fallen_measure / context.open_length;
-    return part;
+  const auto search = [&](const SearchContext& stage, detail::AtAFall at_a_fall,
+                          const System& start, EquilibriumReport& to) {
+    return at_a_fall == detail::AtAFall::gives_up ? search_once(system, stage, start, elastic, to)
+                                                  : search_anew(system, stage, elastic, to);
   };
-  const double from = system.wall_fraction, to = context.wall_fraction;
-  const bool unloading = from != to && params_.increments > 1;
-  std::optional<System> start;
-  if (unloading) start.emplace(system);
-  add(whole, find_in_one_step(system, part_of_stage(to), unloading, elastic));
-  if (unloading && whole.reason.empty()) {
-    // Something detached, or no end was found. The elastic start of one large step opens joints
-    // that a gradual unloading keeps closed, so only what detaches then counts. Most detaches when
-    // little traction is left: the increments shrink with it.
-    system = std::move(*start);
-    for (int k = 1; k <= params_.increments; ++k) {
-      const bool last = k == params_.increments;
-      const double left =
-          last ? to : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
-      add(whole, find_in_one_step(system, part_of_stage(left), false, elastic));
-      if (whole.verdict != Verdict::stable) break;
-    }
-  }
-  // The search that ended it speaks of its own blocks; the verdict of all of them.
-  if (whole.verdict == Verdict::collapsing)
-    (void)detail::has_collapsed<System::dim>(whole, context);
-  if (whole.verdict == Verdict::stable && !whole.fallen.empty())
-    whole.reason = "within all limits after blocks had detached";
+  detail::until_stopped(report, [&] {
+    detail::carry_out_stage(system, context, solve, params_.detachment, &params_.motion, search,
+                            report);
+  });
+  report.linear = elastic.report();
+  report.broken_bolts = system.supports.broken_count();
+  return report;
 }
 
 }  // namespace voussoir

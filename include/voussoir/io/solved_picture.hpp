@@ -27,7 +27,8 @@ namespace voussoir {
 /// What a picture cannot know from the tunnel.
 struct TunnelPictureText {
   std::string title = "Tunnel in jointed rock";
-  double lining_thickness = 0;  ///< [m]; 0: drawn as a line. Without meaning in 3-D
+  double lining_thickness = 0;            ///< [m]; 0: drawn as a line. Without meaning in 3-D
+  std::vector<std::string> remarks = {};  ///< below the verdict, a line each
 };
 
 /// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
@@ -71,7 +72,7 @@ VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double f
   const std::string rock = fixed_text(fallen, 2) + " " + unit + " of rock detached";
   if (verdict == Verdict::stable)
     return PictureBanner{word, rock + " before the rest came to rest", "#b45309"};
-  if (verdict == Verdict::collapsing) return PictureBanner{word, rock + ": no equilibrium"};
+  if (verdict == Verdict::collapse) return PictureBanner{word, rock + ": no equilibrium"};
   return PictureBanner{word, "no equilibrium was found: what is drawn here is no result"};
 }
 
@@ -128,6 +129,7 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   BlocksPicture picture = picture_of(state, solver.mass(), result.bars, text.lining_thickness);
   picture.header.title = text.title;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²")};
+  picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result);
   picture.banner = banner_of(result.verdict(), fallen, "m²");
   if (const auto opening = bounding_rect(picture.outline); picture.lining && opening)
@@ -146,6 +148,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   TunnelView view = picture_of(state, result.bars);
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³")};
+  view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
   view.header.key_numbers = detail::key_numbers_of(solver, result);
   view.banner = banner_of(result.verdict(), fallen, "m³");
   return draw_tunnel_view(solver.mass(), view);

@@ -194,6 +194,9 @@ class ContactNetwork {
     return sum;
   }
 
+  /// Bodies have other masses from now on.
+  void forget_masses() { std::fill(is_stale_.begin(), is_stale_.end(), char{1}); }
+
   /// A bound on the largest eigenvalue of M^-1 K of every body, all others fixed, its contacts
   /// closed and sticking: the largest sum of a row [1/s^2].
   [[nodiscard]] const std::vector<double>& stiffness_over_mass(const Bodies& bodies) {

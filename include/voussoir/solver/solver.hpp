@@ -247,7 +247,7 @@ class ComposedSolver {
   WallTractions walls_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
-  double update_limit_ = Acceptance{}.contact_update_limit;  ///< of the last search
+  double update_limit_ = 0.02;  ///< of contact updates, of the last search [m]
   int bolt_count_ = 0;
   bool started_ = false;
 };
@@ -416,9 +416,10 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   acceptance.check();
   const double to = aim_at(wall_fractions);
   started_ = true;
-  update_limit_ = acceptance.contact_update_limit;
-  const SearchContext context{acceptance, &measures_, to, progress, open_length(*mass_)};
+  const SearchContext context{acceptance, &measures_,          to,
+                              progress,   open_length(*mass_), in_situ_.gravity};
   EquilibriumReport report = method.find(system_, context);
+  if (report.contact_update_limit > 0) update_limit_ = report.contact_update_limit;
   walls_.reach(system_.wall_fraction);
   fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
   return report;

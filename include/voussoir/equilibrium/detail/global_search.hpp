@@ -10,6 +10,7 @@
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/detail/elastic_corrections.hpp>
 #include <voussoir/equilibrium/detail/local_search.hpp>
+#include <voussoir/equilibrium/detail/search_or_follow.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
@@ -28,9 +29,6 @@ struct SearchEffort {
   CorrectionTuning correction;
   RestartTuning restart;
 };
-
-/// `decided` with a verdict, or with a reason to stop; `open`: something falls, or no end is found.
-enum class SearchEnd { decided, open };
 
 /// One search with the present bodies: local searches and elastic corrections in turn, see
 /// `TwoLevel`. What detaches on the way is taken out.
@@ -52,7 +50,7 @@ class GlobalSearch {
   }
 
   /// @throws NumericalFault, Stopped, FreeBody, NotEnoughMemory
-  SearchEnd run(bool give_up_at_a_fall) {
+  SearchEnd run(AtAFall at_a_fall) {
     system_.wall_fraction = context_.wall_fraction;
     prepare();
     Eigen::VectorXd& u = system_.displacement;
@@ -65,8 +63,8 @@ class GlobalSearch {
       if (!voussoir::is_finite(u))
         throw NumericalFault(
             message({"two-level search: displacements are not finite in search ", burst}));
-      if (system_.largest_translation(u) > context_.acceptance.displacement_limit &&
-          give_up_at_a_fall)
+      if (at_a_fall == AtAFall::gives_up &&
+          system_.largest_translation(u) > context_.acceptance.displacement_limit)
         return SearchEnd::open;
       const Change change = take_out_and_update();
       if (change == Change::too_often) return SearchEnd::open;

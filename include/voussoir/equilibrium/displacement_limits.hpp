@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/long_vectors.hpp>
+#include <voussoir/core/message.hpp>
+#include <voussoir/core/message_number.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/equilibrium/search_tuning.hpp>
+#include <voussoir/linear/linear_method.hpp>
+
+namespace voussoir::detail {
+
+/// Edge of a square or cube as large as the mean block [m]. Where areas and volumes are not known,
+/// from the radii of gyration: edge / sqrt(6) of a square as of a cube.
+template <class System>
+[[nodiscard]] double mean_block_edge(const System& system, const std::vector<double>* measures) {
+  double sum = 0;
+  int count = 0;
+  for (int b = 0; b < system.body_count(); ++b) {
+    const auto& body = system.body(b);
+    if (!body.is_block || !(body.weight > 0)) continue;
+    sum += measures != nullptr ? (*measures)[static_cast<std::size_t>(b)] : body.gyration;
+    ++count;
+  }
+  if (count == 0) return 0;
+  return measures != nullptr ? std::pow(sum / count, 1.0 / System::dim)
+                             : std::sqrt(6.0) * sum / count;
+}
+
+/// The displacement that one block in a hundred is beyond: about that of the walls of an opening,
+/// whatever a few loose blocks do [m].
+template <class System>
+[[nodiscard]] double far_displacement(const System& system, const Eigen::VectorXd& u,
+                                      double far_blocks) {
+  std::vector<double> moved;
+  for (int b = 0; b < system.body_count(); ++b)
+    if (system.body(b).movable && system.body(b).is_block)
+      moved.push_back(part<System::dim>(u, System::dof * b).norm());
+  if (moved.empty()) return 0;
+  const auto place = moved.begin() + static_cast<std::ptrdiff_t>(
+                                         (1 - far_blocks) * static_cast<double>(moved.size() - 1));
+  std::nth_element(moved.begin(), place, moved.end());
+  return *place;
+}
+
+/// Where bodies would be after one elastic step to the end of the stage, all contacts closed and
+/// sticking.
+struct ElasticOutlook {
+  Eigen::VectorXd displacement;
+  double far = 0;  ///< displacement that one block in a hundred is beyond there [m]
+};
+
+/// @param solve  solve(f, tolerance) turns forces into elastic displacements, in place, and returns
+///               their error [m]
+/// @throws NumericalFault  displacements are not finite
+template <class System, class Solve>
+[[nodiscard]] ElasticOutlook look_ahead(System& system, const SearchContext& context, Solve&& solve,
+                                        const DetachmentTuning& tuning = {}) {
+  const double now = system.wall_fraction, limit = context.acceptance.displacement_limit;
+  Eigen::VectorXd forces;
+  system.wall_fraction = context.wall_fraction;
+  system.forces(system.displacement, forces);
+  system.wall_fraction = now;
+  ElasticOutlook outlook;
+  // Once more where the error of the first solve leaves open whether a limit that is given is long
+  // enough.
+  for (const double tolerance : {tuning.first_look, tuning.second_look}) {
+    Eigen::VectorXd& u = outlook.displacement = forces;
+    const double error = solve(u, SolveTolerance{.relative = tolerance});
+    if (!voussoir::is_finite(u))
+      throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
+    u += system.displacement;
+    outlook.far = far_displacement(system, u, tuning.far_blocks);
+    if (limit == by_the_rock || std::abs(outlook.far - tuning.far_limit * limit) > error) break;
+  }
+  return outlook;
+}
+
+/// The limits as given; where they are left to the rock: of displacements the larger of a fifth of
+/// a block and four times what the walls move elastically, so that a block has come off when it has
+/// lost its place among the others, deep below the ground as well as near to it; of contact updates
+/// the larger of a twenty-fifth of a block and twice the elastic movement.
+///
+/// A fifth of a block: where rock fails the answer does not depend on it (docs/theory.md). A block
+/// that has slid less far still stands in the notch that it came from.
+/// @param far  elastic displacement at the walls [m]
+template <class System>
+[[nodiscard]] Acceptance limits_by_the_rock(const System& system, const SearchContext& context,
+                                            double far) {
+  constexpr double block_share = 0.2, elastic_movements = 4;
+  constexpr double update_block_share = 0.04, update_elastic_movements = 2;
+  Acceptance chosen = context.acceptance;
+  const double edge = mean_block_edge(system, context.measures);
+  if (chosen.displacement_limit == by_the_rock)
+    chosen.displacement_limit = std::max({block_share * edge, elastic_movements * far, 1e-9});
+  if (chosen.contact_update_limit == by_the_rock)
+    chosen.contact_update_limit =
+        std::max({update_block_share * edge, update_elastic_movements * far, 1e-9});
+  return chosen;
+}
+
+/// True, with the reason, if the rock as a whole is about to move so far that detached blocks
+/// cannot be told by a limit that was given: if more than one block in a hundred would have moved
+/// beyond half of it after one elastic step to the end of the stage. Blocks that slid so far in an
+/// earlier stage count too: fewer than that do not matter.
+template <class System>
+[[nodiscard]] bool moves_too_far(const System& system, const SearchContext& context, double far,
+                                 EquilibriumReport& report, const DetachmentTuning& tuning = {}) {
+  const double limit = context.acceptance.displacement_limit;
+  if (!(far > tuning.far_limit * limit)) return false;
+  report.reason =
+      message({"with joints that slip and open no further the rock would have moved ",
+               message_number(1e3 * far, 3), " mm, more than half the displacement limit of ",
+               message_number(1e3 * limit, 3),
+               " mm that was given, and detached blocks could not be told from it: raise "
+               "displacement_limit to ",
+               message_number(1e3 * far / tuning.far_limit, 2),
+               " mm at least, or leave it out to have it chosen"});
+  report.largest_displacement = system.largest_translation(system.displacement);
+  return true;
+}
+
+}  // namespace voussoir::detail

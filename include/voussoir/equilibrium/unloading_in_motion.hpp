@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/message.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/equilibrium/detached_blocks.hpp>
+#include <voussoir/equilibrium/equilibrium.hpp>
+
+namespace voussoir {
+
+/// What is true where rock fails: the stage as it happens, in time.
+///
+/// The walls are unloaded slowly, along a ramp of twice the time in which a block falls through the
+/// displacement limit. A block that has moved further than that limit has come off and is taken
+/// out: what it held up may follow. The stage is over when the blocks that are left are in balance
+/// and so slow that none would come off within `patience`; or when more has come off than a
+/// collapse needs. Local damping takes the energy out; contacts follow the blocks wherever they go.
+/// The smaller half of the blocks is made as inert as the larger, which halves the number of steps.
+///
+/// Held against all blocks in motion, and the same with half the step and half the rate:
+/// tests/equilibrium/rock_failure_test.cpp, bench/failure_table.cpp.
+struct MotionTuning {
+  double local_damping = 0.7;  ///< [-], >= 0 and < 1
+  double safety = 0.9;         ///< of the stable step [-], > 0 and <= 1
+  double inert_share = 0.5;    ///< of the bodies get more inertia, for longer steps [-]
+  double ramp = 2;             ///< its duration over the time of a fall through the limit [-], > 0
+  double rest_ratio = 1e-2;    ///< out-of-balance force ratio at rest [-], > 0
+  double patience = 2;         ///< at rest nothing would come off within so long [s], > 0
+  double longest = 30;         ///< after which no end is expected [s], > 0
+  int looks_in_ramp = 100;     ///< times that the load is changed, and what has come off looked for
+  int check_every = 50;        ///< steps between two looks afterwards
+
+  /// @throws InvalidInput  a value out of range
+  void check() const {
+    require(local_damping >= 0 && local_damping < 1, "local_damping", local_damping,
+            ">= 0 and < 1");
+    require(safety > 0 && safety <= 1, "safety", safety, "> 0 and <= 1");
+    require(inert_share >= 0 && inert_share < 1, "inert_share", inert_share, ">= 0 and < 1");
+    require(ramp > 0, "ramp", ramp, "> 0");
+    require(rest_ratio > 0, "rest_ratio", rest_ratio, "> 0");
+    require(patience > 0, "patience", patience, "> 0 s");
+    require(longest > 0, "longest", longest, "> 0 s");
+    require(looks_in_ramp > 0, "looks_in_ramp", looks_in_ramp, "> 0");
+    require(check_every > 0, "check_every", check_every, "> 0");
+  }
+};
+
+namespace detail {
+
+/// Whether a model can be set in motion: it knows the shapes of its blocks, and their masses.
+template <class System>
+[[nodiscard]] bool can_be_set_in_motion(const System& system, const SearchContext& context) {
+  return system.shapes != nullptr && context.gravity > 0 &&
+         std::all_of(system.linings.begin(), system.linings.end(),
+                     [](const auto& lining) { return lining.thickness > 0; });
+}
+
+/// One stage in motion, see `MotionTuning`.
+template <class System>
+class UnloadingInMotion {
+ public:
+  static constexpr int dim = System::dim, dof = System::dof;
+  using Run = typename MotionOf<System>::type;
+
+  /// @param context  its displacement limit is a number
+  UnloadingInMotion(System& system, const SearchContext& context, const MotionTuning& tuning)
+      : system_(system),
+        context_(context),
+        tuning_(tuning),
+        limit_(context.acceptance.displacement_limit),
+        from_(system.wall_fraction),
+        run_(set_in_motion(system, {.gravity = context.gravity,
+                                    .local_damping = tuning.local_damping,
+                                    .safety = tuning.safety,
+                                    .points = ContactPoints::gauss,
+                                    .overlap_limit = 0.5})) {
+    duration_ = tuning.ramp * std::sqrt(2 * limit_ / context.gravity);
+    run_.add_inertia(tuning.inert_share);
+  }
+
+  /// Carries the stage out, and leaves the model where it ends.
+  /// @return  true if the rock has come to rest; else the report says what has become of it
+  /// @throws Stopped  the model is as it was
+  bool go(EquilibriumReport& report) {
+    bool rests = false;
+    try {
+      rests = follow(report);
+    } catch (const NumericalFault& fault) {
+      report.reason = std::string("the stage could not be followed in motion: ") + fault.what();
+    }
+    bring_to_rest(run_, system_, gone_);
+    report.steps += static_cast<int>(run_.steps());
+    report.largest_displacement = system_.largest_translation(system_.displacement);
+    return rests;
+  }
+
+ private:
+  [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
+
+  bool follow(EquilibriumReport& report) {
+    double done = 0;
+    while (run_.time() < tuning_.longest) {
+      if (done < 1) {
+        done = std::min(done + 1.0 / tuning_.looks_in_ramp, 1.0);
+        run_.set_held(from_ + (context_.wall_fraction - from_) * done);
+        run_.advance(duration_ / tuning_.looks_in_ramp);
+      } else {
+        run_.advance_steps(tuning_.check_every);
+      }
+      ask_to_go_on(context_);
+      take_out(report);
+      if (has_collapsed<dim>(report, context_)) return false;
+      if (done >= 1 && rests()) return true;
+    }
+    report.reason =
+        message({"rock was still moving ", tuning_.longest,
+                 " s after the walls were unloaded: it neither comes off nor comes to rest"});
+    return false;
+  }
+
+  /// Takes out what has come off.
+  void take_out(EquilibriumReport& report) {
+    std::vector<int> off;
+    for (int b = 0; b < run_.body_count(); ++b)
+      if (run_.body(b).movable() && system_.body(b).is_block &&
+          (run_.position(b) - system_.body(b).centre).norm() > limit_)
+        off.push_back(b);
+    for (const int b : off) {
+      gone_.push_back(b);
+      report.fallen.push_back(b);
+      if (context_.measures != nullptr) report.fallen_measure += (*context_.measures)[index(b)];
+    }
+    run_.remove(off);
+  }
+
+  [[nodiscard]] bool rests() {
+    if (run_.unbalance_over_weight() >= tuning_.rest_ratio) return false;
+    for (int b = 0; b < run_.body_count(); ++b)
+      if (run_.body(b).movable() && run_.velocity(b).norm() * tuning_.patience > limit_)
+        return false;
+    return true;
+  }
+
+  System& system_;
+  const SearchContext& context_;
+  const MotionTuning& tuning_;
+  double limit_;         ///< [m]
+  double from_;          ///< wall fraction at the start
+  double duration_ = 0;  ///< of the ramp [s]
+  Run run_;
+  std::vector<int> gone_;
+};
+
+}  // namespace detail
+
+}  // namespace voussoir
