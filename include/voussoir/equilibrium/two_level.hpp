@@ -94,6 +94,8 @@ class TwoLevel {
                                               detail::ElasticCorrections<System>& elastic,
                                               EquilibriumReport& report) const {
     const double from = system.wall_fraction, to = context.wall_fraction;
+    const std::vector<int> fallen_before = report.fallen;
+    const double measure_before = report.fallen_measure;
     const auto run = [&](double wall_fraction) {
       SearchContext part = context;
       part.wall_fraction = wall_fraction;
@@ -106,6 +108,8 @@ class TwoLevel {
         !(system.largest_translation(system.displacement) <= limit))
       return detail::SearchEnd::open;
     system = System(start);  // moved: less code than an assignment of every part
+    report.fallen = fallen_before;
+    report.fallen_measure = measure_before;
     for (int k = 1; k <= params_.increments; ++k) {
       const double left = to + (from - to) * std::pow(params_.restart.increment_ratio, k);
       report.verdict = Verdict::undecided;
