@@ -222,7 +222,12 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   TunnelPictureText text;
   if (!input.title.empty()) text.title = input.title;
   if (input.lining) text.lining_thickness = input.lining->thickness;
-  if (run.fallen_measure() > 0) text.remarks.push_back(rockfall_sentence(run));
+  if (run.fallen_measure() > 0) {
+    std::string sentence = rockfall_sentence(run);
+    for (auto at = sentence.find("m2"); at != std::string::npos; at = sentence.find("m2", at))
+      sentence.replace(at, 2, "m²");  // a picture has what a terminal may not
+    text.remarks.push_back(std::move(sentence));
+  }
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, text);
 }
