@@ -49,6 +49,14 @@ class Path {
     stored_ = stored;
     least_lost_ = std::min(least_lost_, lost_in_step_);
   }
+  /// Time passes, nothing moves.
+  void creep(double time) requires CreepingLaw<Law, Dim> {
+    law_.creep(load_, state_, time);
+    const double stored = law_.stored_energy(load_, state_);
+    turned_over_ += std::abs(stored - stored_);
+    least_lost_ = std::min(least_lost_, stored_ - stored);
+    stored_ = stored;
+  }
   [[nodiscard]] double work() const { return work_; }
   [[nodiscard]] double stored() const { return stored_; }
   [[nodiscard]] double least_lost() const { return least_lost_; }
@@ -85,6 +93,7 @@ void check_random_paths(const Law& law, double closure) {
       opening = 0.9 * opening + size * (2 * random.uniform() - 1);
       slip = Vec<Dim - 1>(0.9 * slip + drawn<Dim>(random, size));
       path.move_to(opening, slip);
+      if constexpr (CreepingLaw<Law, Dim>) path.creep(0.2 * law.creep_time());  // as a solver does
     }
     // Rounding of a stored energy is 1e-16 of it.
     REQUIRE(path.least_lost() >= -1e-9 * path.turned_over());

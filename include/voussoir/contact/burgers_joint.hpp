@@ -62,9 +62,14 @@ class BurgersJoint {
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
     return joint_.commit(load, state.joint);
   }
+  /// That of the joint, and of Kelvin's spring: delayed slip comes back, and works as it does.
   template <int Dim>
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    return joint_.stored_energy(load, state.joint);
+    const double delayed =
+        std::isfinite(p_.kelvin_stiffness)
+            ? 0.5 * load.weight * p_.kelvin_stiffness * state.delayed_slip.squaredNorm()
+            : 0.0;
+    return joint_.stored_energy(load, state.joint) + delayed;
   }
 
   /// Lets the point creep for a time under its present force, which stays as it is meanwhile.
@@ -81,6 +86,8 @@ class BurgersJoint {
       state.delayed_slip = delayed;
     }
     state.joint.plastic_slip += slip;
+    // Where it is open, or delayed slip comes back against friction, the spring is not left wound.
+    (void)joint_.commit(load, state.joint);
   }
   /// The time in which shear would relax if the blocks did not move [s].
   [[nodiscard]] double creep_time() const {

@@ -111,10 +111,30 @@ class TwoLevel {
     report.fallen = fallen_before;
     report.fallen_measure = measure_before;
     for (int k = 1; k <= params_.increments; ++k) {
-      const double left = to + (from - to) * std::pow(params_.restart.increment_ratio, k);
       report.verdict = Verdict::undecided;
-      if (run(k == params_.increments ? to : left) == detail::SearchEnd::open)
+      if (run(end_of_increment(k, from, to)) == detail::SearchEnd::open)
         return detail::SearchEnd::open;
+      if (report.verdict != Verdict::stable) break;
+    }
+    return detail::SearchEnd::decided;
+  }
+  [[nodiscard]] double end_of_increment(int k, double from, double to) const {
+    return k == params_.increments
+               ? to
+               : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
+  }
+
+  /// The same in increments, with the fallback where one has no end; what detaches is taken out.
+  template <class System>
+  [[nodiscard]] detail::SearchEnd search_on(System& system, const SearchContext& context,
+                                            detail::ElasticCorrections<System>& elastic,
+                                            EquilibriumReport& report) const {
+    const double from = system.wall_fraction, to = context.wall_fraction;
+    SearchContext part = context;
+    for (int k = from == to ? params_.increments : 1; k <= params_.increments; ++k) {
+      part.wall_fraction = end_of_increment(k, from, to);
+      report.verdict = Verdict::undecided;
+      (void)search_anew(system, part, elastic, report);
       if (report.verdict != Verdict::stable) break;
     }
     return detail::SearchEnd::decided;
@@ -209,7 +229,7 @@ EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) c
   const auto search = [&](const SearchContext& stage, detail::AtAFall at_a_fall,
                           const System& start, EquilibriumReport& to) {
     return at_a_fall == detail::AtAFall::gives_up ? search_once(system, stage, start, elastic, to)
-                                                  : search_anew(system, stage, elastic, to);
+                                                  : search_on(system, stage, elastic, to);
   };
   detail::until_stopped(report, [&] {
     detail::carry_out_stage(system, context, solve, params_.detachment, &params_.motion, search,

@@ -24,9 +24,9 @@ enum class AtAFall { gives_up, goes_on };
 /// The search gives up where a block comes off or no end is found. The stage is then carried out
 /// once more from its beginning, in motion (`UnloadingInMotion`), which tells what comes off; and
 /// from its beginning again by the search, without that, so that the state found has neither the
-/// overshoot nor the rounding of the motion in it. Where more would then come off that has been
-/// caught in motion, the search goes on from where the motion came to rest. A model that cannot be
-/// set in motion is searched as it is.
+/// overshoot nor the rounding of the motion in it. Only where more would then come off that has
+/// been caught in motion does the search go on from where the motion came to rest. A model that
+/// cannot be set in motion is searched as it is.
 /// @param context  its limits are numbers
 /// @param search   search(AtAFall, start, report): the procedure, from where the system is, which
 ///                 is the state `start`
@@ -60,7 +60,14 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
   const System moved(system);
   const std::vector<int> fallen = report.fallen;
   const double measure = report.fallen_measure;
-  if (fallen.size() > fallen_before.size()) {
+  if (fallen.size() == fallen_before.size()) {
+    // Nothing comes off: the search may take its time, for the shaking of the run breaks joints
+    // that a gradual unloading spares.
+    back_to(start, fallen_before, measure_before);
+    (void)search(AtAFall::goes_on, start, report);
+    if (report.verdict == Verdict::stable && report.fallen.size() == fallen.size())
+      return say_why();
+  } else {
     back_to(start, fallen_before, measure_before);
     drop(system, {fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before.size()), fallen.end()},
          context, report);
@@ -68,8 +75,8 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
                          search(AtAFall::gives_up, System(system), report) == SearchEnd::decided &&
                          report.verdict == Verdict::stable && report.fallen.size() == fallen.size();
     if (is_same) return say_why();
-    back_to(moved, fallen, measure);
   }
+  back_to(moved, fallen, measure);
   report.is_from_motion = true;
   if (search(AtAFall::goes_on, moved, report) == SearchEnd::open)
     report.reason =
