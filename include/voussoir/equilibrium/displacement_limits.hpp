@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
-#include <voussoir/core/message.hpp>
 #include <voussoir/core/message_number.hpp>
+#include <voussoir/core/small_algebra.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
-#include <voussoir/linear/linear_method.hpp>
+#include <voussoir/linear/conjugate_gradients.hpp>
 
 namespace voussoir::detail {
 
@@ -114,14 +115,13 @@ template <class System>
                                  EquilibriumReport& report, const DetachmentTuning& tuning = {}) {
   const double limit = context.acceptance.displacement_limit;
   if (!(far > tuning.far_limit * limit)) return false;
-  report.reason =
-      message({"with joints that slip and open no further the rock would have moved ",
-               message_number(1e3 * far, 3), " mm, more than half the displacement limit of ",
-               message_number(1e3 * limit, 3),
-               " mm that was given, and detached blocks could not be told from it: raise "
-               "displacement_limit to ",
-               message_number(1e3 * far / tuning.far_limit, 2),
-               " mm at least, or leave it out to have it chosen"});
+  const std::string moved = message_number(1e3 * far, 3), most = message_number(1e3 * limit, 3),
+                    least = message_number(1e3 * far / tuning.far_limit, 2);
+  report.reason = "with joints that slip and open no further the rock would have moved " + moved +
+                  " mm, more than half the displacement limit of " + most +
+                  " mm that was given, and detached blocks could not be told from it: raise " +
+                  "displacement_limit to " + least +
+                  " mm at least, or leave it out to have it chosen";
   report.largest_displacement = system.largest_translation(system.displacement);
   return true;
 }
