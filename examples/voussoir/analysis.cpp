@@ -227,7 +227,7 @@ std::vector<JointSource> sources_of(const Input& input, std::size_t mapped,
   std::vector<JointSource> sources;
   if (mapped > 0) sources.push_back({"joints.file"});
   const std::size_t first_set = sources.size();
-  for (const JointSetInput& set : input.joint_sets) sources.push_back({"set " + set.name});
+  for (const JointSetInput& set : input.joint_sets) sources.push_back({set.name});
   for (std::size_t k = 0; k < mass.joints.size(); ++k) {
     JointSource& source =
         sources[k < mapped ? 0 : first_set + static_cast<std::size_t>(mass.joints[k].set)];

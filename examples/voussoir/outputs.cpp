@@ -331,7 +331,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
   for (const JointSource& s : run.joints)
-    out += "joints   " + s.name + ": " + std::to_string(s.asked) + " asked for, " +
+    out += "joints   " + s.name + ": " + std::to_string(s.asked) + " joints, " +
            std::to_string(s.used) + " used, " + std::to_string(s.refused) + " without room, " +
            std::to_string(s.outside) + " outside\n";
   for (const StageResult& stage : run.built.stages) {
