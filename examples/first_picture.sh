@@ -21,7 +21,7 @@ program=build/program/voussoir
 input=examples/paper/tunnel.toml
 say "one tunnel with bolts and lining (a second): $program run $input --out results"
 "$program" run "$input" --out results || stop "the design case did not end well (exit status $?)"
-say "its interaction diagram, 36 tunnels (some seconds): $program diagram $input --out results"
+say "its interaction diagram, 36 tunnels (half a minute): $program diagram $input --out results"
 "$program" diagram "$input" --out results || stop "the diagram did not end well (exit status $?)"
 
 say "the pictures, to be opened in a browser:"
