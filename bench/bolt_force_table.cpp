@@ -95,7 +95,7 @@ void settle(const std::string& what, Dynamics<2, CoulombJoint>& run, const Bolts
 void in_motion(const std::string& what, const RockMass<Planar>& rock, double damping) {
   const auto start = std::chrono::steady_clock::now();
   const auto mass = carve(rock, opening, 0.074);
-  auto run = moving_rock(mass, joint, in_situ, {.local_damping = damping, .overlap_limit = 0.2});
+  auto run = moving_rock(mass, joint, in_situ, {.local_damping = damping});
   const auto bolts = add_bolts(run, mass, bolt_bars(pattern, opening), bolt, 1, LorigAnchors{});
   run.set_held(0);
   settle(what, run, bolts, crown_block(mass), start);
@@ -105,8 +105,7 @@ void generated(const std::string& what, const RockMass<Planar>& rock, double dam
   const auto start = std::chrono::steady_clock::now();
   const CoulombJoint smooth(
       {.joint_normal_stiffness = 5e9, .joint_shear_stiffness = 5e8, .friction_angle = 1 * degree});
-  auto made =
-      generation_stage(rock, opening, smooth, in_situ, {.overlap_limit = 0.2}, {.unbalance = 0.05});
+  auto made = generation_stage(rock, opening, smooth, in_situ, {}, {.unbalance = 0.05});
   made.fix_sides();
   made.run.set_laws(joint);
   made.run.set_local_damping(damping);

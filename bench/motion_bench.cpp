@@ -45,7 +45,6 @@ void plane(benchmark::State& state, bool found, ContactPoints points) {
                          {.local_damping = 0.3,
                           .points = points,
                           .find_contacts = found,
-                          .overlap_limit = 0.3,
                           .threads = static_cast<unsigned>(state.range(0))});
   run.set_held(0);
   run.advance_steps(3000);  // the first blocks are on their way
@@ -66,9 +65,7 @@ void space(benchmark::State& state) {
       slice<Spatial>(ground, joint_network({a, b, c}, ground, 1), {.min_inscribed_radius = 0.2}),
       PrismaticOpening(circular_opening(10, 36)), 0.05);
   auto run = moving_rock(mass, joint, InSitu{.density = 2700, .surcharge = 4e5},
-                         {.local_damping = 0.3,
-                          .overlap_limit = 0.3,
-                          .threads = static_cast<unsigned>(state.range(0))});
+                         {.local_damping = 0.3, .threads = static_cast<unsigned>(state.range(0))});
   run.set_held(0);
   run.advance_steps(1500);
   constexpr int steps = 50;

@@ -76,9 +76,7 @@ int main(int argc, char** argv) {
   const auto rock = carve(slice(ground, joint_network(sets, ground, 3), {0.25, 5}), opening, 0.074);
   const CoulombJoint joint({5e9, 5e8, 30 * deg});
   const InSitu in_situ{.density = 2700, .surcharge = 4e5};
-  // Blocks that fall 5 m end in corners: deep overlaps are to be expected.
-  const DynamicsSettings settings{
-      .local_damping = 0.3, .viscous_damping = 0.1, .overlap_limit = 0.3};
+  const DynamicsSettings settings{.local_damping = 0.3, .viscous_damping = 0.1};
 
   Run bare = moving_rock(rock, joint, in_situ, settings);
   let_go(bare, 1.2);

@@ -165,7 +165,6 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
   DynamicsSettings settings;
   settings.local_damping = options.local_damping;
   settings.viscous_damping = options.viscous_damping;
-  settings.overlap_limit = 0.3;  // falls of 10 m end in corners
   InSitu in_situ{.density = 2700};
   in_situ.surcharge = in_situ.density * in_situ.gravity * std::max(0.0, options.cover - above);
   auto run =

@@ -71,8 +71,10 @@ TEST_SUITE("dynamics/run_diagnostics") {
       text = fault.what();
     }
     CAPTURE(text);
+    CHECK(says(text, "J that nothing has brought"));
     CHECK(says(text, "block "));
     CHECK(says(text, " m/s"));
+    CHECK(says(text, "stiffer than it says"));
     Run limit = tower({.safety = 1});
     CHECK(fault_of(limit, 20000) == "");
     CHECK(limit.kinetic_energy() < 100);  // J: the tower is dropped by 10 um, 120 kN
@@ -83,6 +85,7 @@ TEST_SUITE("dynamics/run_diagnostics") {
     run.advance_steps(50);
     const Vec2 place = run.position(2);
     const std::int64_t step = run.steps();
+    const EnergyBalance before = run.energy();
     run.set_velocity(2, {std::numeric_limits<double>::quiet_NaN(), 0});
     const std::string text = fault_of(run, 10);
     CAPTURE(text);
@@ -92,6 +95,9 @@ TEST_SUITE("dynamics/run_diagnostics") {
     CHECK(says(text, "state kept is that of step 50"));
     CHECK(run.steps() == step);
     CHECK(run.position(2) == place);
+    CHECK(run.energy().imbalance() == before.imbalance());
+    CHECK(run.energy().gravity == before.gravity);
+    CHECK(run.energy().kinetic == before.kinetic);
     // It goes on from there as if nothing had happened.
     CHECK(fault_of(run, 100) == "");
   }

@@ -171,7 +171,7 @@ TEST_SUITE("dynamics/sliding") {
       const std::string id = key;
       CAPTURE(id);
       const double alpha = std::atan(b / h), tilt = f * alpha, radius = std::hypot(b, h);
-      Dynamics<2, CoulombJoint> run(CoulombJoint({2e11, 2e11, 60 * degree}), {.safety = 0.5});
+      Dynamics<2, CoulombJoint> run(CoulombJoint({2e11, 2e11, 60 * degree}), {.safety = 0.25});
       run.add_fixed_block(rectangle({0, -1}, 20, 2));
       // Tilted to the right about the right-hand corner.
       const Vec2 centre = radius * Vec2(-std::sin(alpha - tilt), std::cos(alpha - tilt));
@@ -180,7 +180,7 @@ TEST_SUITE("dynamics/sliding") {
       // The corner sinks by 1e-5 m of 0.5 m, and the time is looked at every millisecond.
       const double quarter = 0.25 * reference("F.rock." + std::string(id) + ".T_exact");
       CHECK(run.time() == doctest::Approx(quarter).epsilon(5e-3));
-      CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
+      CHECK(std::abs(run.energy().relative_imbalance()) < 2.5e-4);  // falls with its square
     }
   }
 }

@@ -67,8 +67,8 @@ Stress<2> mean_stress(const Run& run, double radius) {
 TEST_SUITE("laboratory/generation_stage") {
   TEST_CASE("gravity and forces on the sides build up the stress of the depth") {
     for (const ContactPoints points : {ContactPoints::gauss, ContactPoints::corners}) {
-      auto made = generation_stage(rock(), opening, joint(1 * degree), shallow,
-                                   {.points = points, .overlap_limit = 0.3}, {.unbalance = 0.02});
+      auto made = generation_stage(rock(), opening, joint(1 * degree), shallow, {.points = points},
+                                   {.unbalance = 0.02});
       CHECK(made.unbalance < 0.02);
       const Stress<2> s = mean_stress(made.run, 5);
       const double expected = shallow.vertical(6);
@@ -81,8 +81,8 @@ TEST_SUITE("laboratory/generation_stage") {
   }
 
   TEST_CASE("a tunnel taken out of it converges; sides that are fixed do not move") {
-    auto made = generation_stage(rock(), opening, joint(1 * degree), shallow,
-                                 {.overlap_limit = 0.3}, {.unbalance = 0.02});
+    auto made =
+        generation_stage(rock(), opening, joint(1 * degree), shallow, {}, {.unbalance = 0.02});
     made.fix_sides();
     made.run.set_laws(joint(35 * degree));
     const auto bars = bolt_bars({.length = 3, .angular_spacing = 30 * degree}, opening);

@@ -90,11 +90,13 @@ TEST_SUITE("solver/detectors") {
     // Both name the same faces of nearly all pairs; where corners meet they may not, and these
     // carry next to nothing.
     CHECK(apart<Geometry>(faces, centres).farthest < 0.02);
-    // In motion one piece at the wall that only edges hold comes to lie elsewhere, in 3-D by 0.28
-    // of the largest displacement.
-    CHECK(
-        apart<Geometry>(in_motion<Geometry, FaceContacts>(), in_motion<Geometry, AnalyticCentre>())
-            .root_mean_square < 0.05);
+    // In motion pieces at the wall that only edges hold come to lie elsewhere.
+    const Eigen::VectorXd moved = in_motion<Geometry, FaceContacts>();
+    CHECK(apart<Geometry>(moved, in_motion<Geometry, AnalyticCentre>()).root_mean_square < 0.05);
+    // Rest found at once and rest come to differ by the way it took: 0.06 and 0.08 are seen. Bodies
+    // of several parts that take up the wrong contact when it is updated lose their in-situ
+    // stress, and the rock comes in by a third more.
+    CHECK(apart<Geometry>(faces, moved).root_mean_square < 0.1);
   }
 
   TEST_CASE("by default contacts come from the cuts, and FaceContacts updates them") {

@@ -263,7 +263,8 @@ class Dynamics : public MovingBodies<Dim> {
 
   [[nodiscard]] double longest_step() {
     const std::vector<double> sums = stiffness_over_mass();
-    return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()), settings_);
+    return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()),
+                                    network_.damping_over_mass(bodies_), settings_);
   }
   /// Of every body, all others fixed [1/s^2].
   [[nodiscard]] std::vector<double> stiffness_over_mass() {
@@ -410,9 +411,10 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
 void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::check() {
-  const std::string fault = detail::RunDiagnostics<Dim>(bodies_, roles_, origin_,
-                                                        sizes_.speed_limit, settings_.overlap_limit)
-                                .fault(std::as_const(network_), step_);
+  const std::string fault =
+      detail::RunDiagnostics<Dim>(bodies_, roles_, origin_, sizes_.speed_limit,
+                                  settings_.overlap_limit)
+          .fault(std::as_const(network_), energy(), kinetic_given_, sizes_.unnoticed, step_);
   checked_ = steps_;
   audit_.highest_kinetic =
       std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);

@@ -19,9 +19,9 @@ struct DynamicsSettings {
   double reach = 0;           ///< contacts are listed up to this gap [m]; 0: 2 % of the mean radius
   /// Bodies of a contact move so far before its contact update [m]; 0: a quarter of the reach.
   double refresh = 0;
-  double overlap_limit = 0.05;  ///< of the smaller block's radius, beyond which the run stops [-]
-  double speed_limit = 0;  ///< beyond which it stops [m/s]; 0: what a fall through all can give
-  int check_every = 100;   ///< steps between run diagnostics
+  double overlap_limit = 0.3;  ///< of the smaller block's radius, beyond which the run stops [-]
+  double speed_limit = 0;      ///< beyond which it stops [m/s]; 0: four times a fall through all
+  int check_every = 100;       ///< steps between run diagnostics
   unsigned threads = 1;
 
   /// @throws InvalidInput  a value out of range

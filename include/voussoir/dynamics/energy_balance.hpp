@@ -29,6 +29,11 @@ struct EnergyBalance {
     return kinetic + contacts + supports + friction + viscosity + damping - gravity - loads -
            contact_updates;
   }
+  /// What is stored now beyond what was stored in the beginning and brought since: less than zero
+  /// by what has been lost, and never above it in a sound run but for the error of the steps.
+  [[nodiscard]] double above_start() const {
+    return kinetic + contacts + supports - gravity - loads;
+  }
   /// The largest of the amounts that should balance, now or at the height of the motion.
   [[nodiscard]] double scale() const {
     return std::max({std::abs(kinetic), std::abs(contacts), std::abs(supports), std::abs(gravity),

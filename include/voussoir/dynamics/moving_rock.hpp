@@ -5,14 +5,18 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <vector>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/geometry/tangent_basis.hpp>
+#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
+#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/lining_surface.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
@@ -95,6 +99,7 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 ///                   are installed at rest, and set in motion
 /// @param interface_law  rock on lining
 /// @param thickness  [m], > 0
+/// @param feet       on which its ends stand; none: they hang free
 /// @return  the lining, which the run holds too: forces are read there
 /// @throws InvalidInput  a thickness or mass out of range; a member without
 ///                       length or section; no rock at the wall
@@ -102,7 +107,8 @@ template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, clas
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
     Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
     const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-    const InterfaceLaw& interface_law, double thickness) {
+    const InterfaceLaw& interface_law, double thickness,
+    const std::optional<FootBearing>& feet = {}) {
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");
@@ -130,6 +136,27 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
       lining_elements<Lining>(frame, sections, places, numbers), first,
       static_cast<int>(nodes.size()));
   run.add_support(lining);
+  if (!feet) return lining;
+  std::vector<LiningFootSpring<dim>> springs;
+  for (const LiningEnd<Geometry>& end : frame.ends) {
+    if (end.body < 0 || run.body(end.body).is_gone)
+      throw InvalidInput(
+          message({"lining: there is no rock under the foot at ", text_of<dim>(end.place),
+                   " m: end the arc on rock, or leave the "
+                   "feet out"}));
+    LiningFootSpring<dim> spring;
+    spring.node = first + end.node;
+    spring.rock = end.body;
+    const auto k = static_cast<std::size_t>(end.node);
+    spring.arm_node = end.place - frame.nodes[k];
+    const Pose<dim> rock = run.pose(end.body);
+    spring.arm_rock =
+        transposed_product(rock.rotation, Vec<dim>(end.place + surface.shift(k) - rock.position));
+    spring.frame << end.direction, tangent_basis(end.direction);
+    spring.area = feet->params().width * end.length;
+    springs.push_back(spring);
+  }
+  run.add_support(std::make_shared<LiningFeet<dim>>(*feet, std::move(springs)));
   return lining;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 
 namespace voussoir::detail {
@@ -27,8 +28,13 @@ class RunDiagnostics {
         speed_limit_(speed_limit),
         overlap_limit_(overlap_limit) {}
 
+  /// @param energy  so far;  @param given  to the bodies as velocity [J]
+  /// @param unnoticed  energy that is nothing here [J]
   template <class Network>
-  [[nodiscard]] std::string fault(const Network& network, double step) const {
+  [[nodiscard]] std::string fault(const Network& network, const EnergyBalance& energy, double given,
+                                  double unnoticed, double step) const {
+    std::size_t fastest = 0;
+    double highest = -1;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const MovingBody<Dim>& body = bodies_[b];
       if (!body.movable()) continue;
@@ -37,13 +43,31 @@ class RunDiagnostics {
         return "position or velocity of block " + std::to_string(b) +
                " is not a number; a load or velocity given is not, or a law of contact or bolt "
                "returned none";
-      if (speed > speed_limit_)
-        return name_of(b) + " moves at " + message_number(speed, 3) +
-               " m/s, faster than anything here can fall or was thrown at first (limit " +
-               message_number(speed_limit_, 3) +
-               " m/s); it was given this velocity, or the step of " + message_number(step, 3) +
-               " s is too long: raise speed_limit or lower the safety factor";
+      if (!(speed > highest)) continue;
+      highest = speed;
+      fastest = b;
     }
+    const double made = energy.above_start(), stake = std::max(energy.scale(), given);
+    if (made > made_limit * stake + unnoticed)
+      return "the run has made " + message_number(made, 3) +
+             " J that nothing has brought (what gravity, loads and springs have done: " +
+             message_number(stake, 3) + " J), and " + name_of(fastest) + " moves at " +
+             message_number(highest, 3) + " m/s; the step of " + message_number(step, 3) +
+             " s is too long for its springs, or a law of contact or bolt is stiffer than it says: "
+             "lower the safety factor";
+    if (highest > speed_limit_)
+      return name_of(fastest) + " moves at " + message_number(highest, 3) +
+             " m/s, faster than anything here falls or was thrown at first (limit " +
+             message_number(speed_limit_, 3) +
+             " m/s), and the energy balances; it was given this velocity, or hit by what is much "
+             "heavier: raise speed_limit if it is meant to";
+    return overlap(network);
+  }
+
+ private:
+  /// A block that lies in another.
+  template <class Network>
+  [[nodiscard]] std::string overlap(const Network& network) const {
     std::string text;
     network.each([&](const auto& group, const auto& c) {
       if (!text.empty()) return;
@@ -54,21 +78,21 @@ class RunDiagnostics {
                                                      : b.radius;
       const auto at = c.place(a.pose, b.pose);
       for (int i = c.first; i < c.last; ++i) {
-        const double overlap = -group.points()[static_cast<std::size_t>(i)].motion(at).opening;
+        const double overlap =
+            c.uncounted - group.points()[static_cast<std::size_t>(i)].motion(at).opening;
         if (!(overlap > overlap_limit_ * size)) continue;
-        text =
-            name_of(ib) + " overlaps " + name_of(ia) + " by " + message_number(1e3 * overlap, 3) +
-            " mm, more than " + message_number(100 * overlap_limit_, 3) + " % of its radius of " +
-            message_number(size, 3) +
-            " m; the joint is too soft for what presses on it (raise joint_normal_stiffness), or "
-            "the blocks overlapped from the beginning";
+        text = name_of(ib) + " overlaps " + name_of(ia) + " by " +
+               message_number(1e3 * overlap, 3) + " mm, more than " +
+               message_number(100 * overlap_limit_, 3) + " % of its radius of " +
+               message_number(size, 3) +
+               " m; the joint is too soft for what presses on it or strikes it (raise "
+               "joint_normal_stiffness), or the blocks overlapped from the beginning";
         return;
       }
     });
     return text;
   }
 
- private:
   [[nodiscard]] std::string name_of(std::size_t b) const {
     const std::string what = roles_[b] == BodyRole::lining ? "lining node "
                              : bodies_[b].movable()        ? "block "
@@ -76,6 +100,8 @@ class RunDiagnostics {
     return what + std::to_string(b) + " at " + text_of<Dim>(bodies_[b].pose.position + origin_) +
            " m";
   }
+
+  static constexpr double made_limit = 0.1;
 
   const Bodies& bodies_;
   const std::vector<BodyRole>& roles_;

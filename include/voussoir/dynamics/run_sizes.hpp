@@ -16,13 +16,14 @@ namespace voussoir::detail {
 struct RunSizes {
   double reach;        ///< contacts are listed up to this gap [m]
   double refresh;      ///< bodies of a contact move so far before its contact update [m]
-  double speed_limit;  ///< nothing can be faster, unless the run has gone bad [m/s]
+  double speed_limit;  ///< nothing here gets faster by itself [m/s]
+  double unnoticed;    ///< energy that is nothing here: a thousandth of a block's radius fallen [J]
 
   /// @throws InvalidInput  no body can move
   template <int Dim>
   [[nodiscard]] static RunSizes choose(const std::vector<MovingBody<Dim>>& bodies,
                                        const DynamicsSettings& settings) {
-    double size = 0, thrown = 0;
+    double size = 0, thrown = 0, mass = 0;
     int count = 0;
     Vec<Dim> low = zeros<Vec<Dim>>(), high = low;
     for (const MovingBody<Dim>& body : bodies) {
@@ -31,6 +32,7 @@ struct RunSizes {
       if (!body.movable()) continue;
       thrown = std::max(thrown, body.velocity.norm() + body.spin().norm() * body.radius);
       size += body.radius;
+      mass += body.mass;
       ++count;
     }
     if (count == 0) throw InvalidInput("dynamics: there is no block that can move");
@@ -38,11 +40,12 @@ struct RunSizes {
     RunSizes sizes;
     sizes.reach = settings.reach > 0 ? settings.reach : 0.02 * size;
     sizes.refresh = settings.refresh > 0 ? settings.refresh : 0.25 * sizes.reach;
-    // Falling through all there is; and a light block that heavy ones hit.
+    // Falling through all there is; and a light block between heavy ones, hit twice.
     sizes.speed_limit =
         settings.speed_limit > 0
             ? settings.speed_limit
-            : 4 * thrown + std::sqrt(2 * settings.gravity * ((high - low).norm() + size));
+            : 4 * (thrown + std::sqrt(2 * settings.gravity * ((high - low).norm() + size)));
+    sizes.unnoticed = 1e-3 * mass * settings.gravity * size;
     if (!(sizes.speed_limit > 0)) sizes.speed_limit = std::numeric_limits<double>::infinity();
     return sizes;
   }

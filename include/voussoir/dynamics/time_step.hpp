@@ -14,14 +14,17 @@ namespace voussoir::detail {
 /// The largest step that is stable, damping included [s]; infinite without contacts.
 ///
 /// The highest frequency is bounded body by body: omega^2 <= 2 max eigenvalue of M_b^-1 K_bb, for
-/// a contact's energy is at most twice that of its bodies moving alone. Local damping makes an
-/// unknown behave as if (1 + alpha) times as stiff; a dashpot of ratio zeta takes the factor
-/// sqrt(1 + zeta^2) - zeta.
+/// a contact's energy is at most twice that of its bodies moving alone, and so what its dashpots
+/// take. Local damping makes an unknown behave as if (1 + alpha) times as stiff. A dashpot sees the
+/// velocity of half a step ago: with rates omega^2 and d = c / m a step h is stable if
+/// omega^2 h^2 / 4 + d h / 2 <= 1.
 /// @param stiffest  a bound on that eigenvalue, of the worst body [1/s^2]
-[[nodiscard]] inline double stable_time_step(double stiffest, const DynamicsSettings& settings) {
-  const double zeta = settings.viscous_damping;
-  return 2 / std::sqrt(2 * stiffest * (1 + settings.local_damping)) *
-         (std::sqrt(1 + zeta * zeta) - zeta);
+/// @param most_damped  the same of the dashpots [1/s]
+[[nodiscard]] inline double stable_time_step(double stiffest, double most_damped,
+                                             const DynamicsSettings& settings) {
+  const double square = 2 * stiffest * (1 + settings.local_damping),
+               rate = 2 * most_damped * (1 + settings.local_damping);
+  return 4 / (rate + std::sqrt(rate * rate + 4 * square));
 }
 
 /// The step that was asked for, or a part of the stable one [s].

@@ -63,6 +63,12 @@ class ConvexPolygon {
     return dot_product(half_space(k).normal, point - vertices_[k]);
   }
 
+  [[nodiscard]] bool contains(const Vec2& point, double tolerance = 0) const {
+    for (std::size_t k = 0; k < size(); ++k)
+      if (!(distance(k, point) <= tolerance)) return false;
+    return true;
+  }
+
   /// Cuts the polygon by a line into the parts below and above; nothing if the line misses it.
   ///
   /// Both parts get the very same new vertices, bit for bit, so contacts found later from shared

@@ -33,6 +33,18 @@ struct LiningPanel {
   typename Geometry::Facet facet;  ///< node on its left, as in `LiningContact`
 };
 
+/// Where an end of a lining may stand on rock.
+template <class Geometry>
+struct LiningEnd {
+  static constexpr int dim = Geometry::dim;
+  int node;
+  int neighbour;       ///< index of the place where it would go on
+  int body;            ///< of the rock that is there; -1: none
+  Vec<dim> place;      ///< [m]
+  Vec<dim> direction;  ///< from the lining into the rock, a unit vector
+  double length = 1;   ///< of the tunnel that it stands for; 1 in 2-D [m]
+};
+
 /// A lining as solvers take it: nodes, the members between them, and its contact with the rock.
 template <class Geometry>
 struct LiningFrame {
@@ -45,6 +57,8 @@ struct LiningFrame {
   /// Members that join it to those: the number of neighbour m is nodes.size() + m. Where nothing
   /// stands there is no such member.
   std::vector<LiningMember<Geometry>> joints{};
+  /// Its ends; one that goes on in a lining that stands is none.
+  std::vector<LiningEnd<Geometry>> ends{};
 
   /// Of a node, or of a neighbour behind them.
   [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {
@@ -67,6 +81,9 @@ template <class Geometry, class IsThere>
       frame.neighbours[kept++] = frame.neighbours[m];
     }
   frame.neighbours.resize(kept, zeros<Vec<Geometry::dim>>());
+  std::erase_if(frame.ends, [&](const LiningEnd<Geometry>& end) {
+    return number[static_cast<std::size_t>(end.neighbour)] >= 0;
+  });
   for (LiningMember<Geometry> joint : frame.joints) {
     for (int* end : {&joint.first, &joint.second})
       if (*end >= nodes) *end = number[static_cast<std::size_t>(*end - nodes)];
@@ -120,6 +137,14 @@ template <class Geometry, class Stands>
   }
   for (const auto& m : frame.joints)
     if (!is_shared(m.first) && !is_shared(m.second)) rest.joints.push_back(renumbered(m));
+  for (auto end : frame.ends) {
+    const int neighbour = static_cast<int>(count) + end.neighbour;
+    if (is_shared(end.node)) continue;
+    end.node = number[static_cast<std::size_t>(end.node)];
+    end.neighbour =
+        number[static_cast<std::size_t>(neighbour)] - static_cast<int>(rest.nodes.size());
+    rest.ends.push_back(end);
+  }
   for (auto c : frame.contacts)
     if (!is_shared(c.node)) {
       c.node = number[static_cast<std::size_t>(c.node)];

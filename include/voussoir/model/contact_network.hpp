@@ -22,6 +22,8 @@
 #include <voussoir/model/detail/contact_sums.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/detail/kept_shear.hpp>
+#include <voussoir/model/detail/limited_energy.hpp>
+#include <voussoir/model/detail/strike.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -130,6 +132,7 @@ class ContactNetwork {
     // Bodies may have come since.
     is_stale_.resize(bodies.size(), 1);
     stiffest_.resize(bodies.size(), 0);
+    most_damped_.resize(bodies.size(), 0);
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
                                        cut_of,  gained, !sums_.is_listed(bodies.size())};
     detail::ContactShares<Dim, Tracker> shares(tracker);
@@ -137,7 +140,7 @@ class ContactNetwork {
     const auto leave = [&](Pair& pair) {
       if (pair.contact >= 0)
         left.push_back({std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b)),
-                        update.kind_of(pair), pair.contact});
+                        update.kind_of(pair), pair.contact, energy_of(update, pair)});
       pair.contact = -1;
     };
     tracker.update(
@@ -147,19 +150,26 @@ class ContactNetwork {
             leave(pair);
             shares.add(pair, found, update.common_cut(pair, found));
           } else {
-            renew(update, pair, found, nullptr);
+            renew(update, pair, found, nullptr, energy_of(update, pair));
           }
         },
         leave);
     std::sort(left.begin(), left.end());
+    // What all contacts of two bodies have held is for all those that they have now.
+    std::pair<int, int> bodies_of_last{-1, -1};
+    double held = 0;
     shares.join([&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
+      const std::pair<int, int> both =
+          std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b));
+      if (std::exchange(bodies_of_last, both) != both) held = energy_of(left, both);
       take_nearest(update, left, pair, found);
-      renew(update, pair, found, area);
+      renew(update, pair, found, area, held);
+      held = std::max(0.0, held - energy_of(update, pair));
     });
     for (const Left& it : left)
       if (it.contact >= 0) drop(update, it);
     former_ = {};
-    is_everything_new_ = true;
+    is_everything_new_ = has_started_ = true;
     if (update.relisted) {
       if (unused_ > size() / 16)
         tidy(tracker, [&](const Pair& pair) { return update.kind_of(pair); });
@@ -200,12 +210,13 @@ class ContactNetwork {
   /// A bound on the largest eigenvalue of M^-1 K of every body, all others fixed, its contacts
   /// closed and sticking: the largest sum of a row [1/s^2].
   [[nodiscard]] const std::vector<double>& stiffness_over_mass(const Bodies& bodies) {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (is_stale_[b]) {
-        is_stale_[b] = 0;
-        stiffest_[b] = bodies[b].movable() ? detail::largest_row(stiffness_of(b, bodies)) : 0.0;
-      }
+    bring_up_to_date(bodies);
     return stiffest_;
+  }
+  /// The same of the dashpots: of M^-1 C, the largest of all bodies [1/s].
+  [[nodiscard]] double damping_over_mass(const Bodies& bodies) {
+    bring_up_to_date(bodies);
+    return *std::max_element(most_damped_.begin(), most_damped_.end());
   }
 
  private:
@@ -266,10 +277,31 @@ class ContactNetwork {
     std::pair<int, int> bodies;  ///< the lower first
     std::size_t kind;
     std::int32_t contact;  ///< -1: taken up
+    double held;           ///< energy of its springs [J]
     [[nodiscard]] bool operator<(const Left& other) const {
       return std::tie(bodies, contact) < std::tie(other.bodies, other.contact);
     }
   };
+
+  /// Of the springs of a pair's contact [J]; 0 without.
+  template <class U>
+  [[nodiscard]] double energy_of(const U& update, const Pair& pair) {
+    double held = 0;
+    if (pair.contact >= 0)
+      group_of_kind(update.kind_of(pair), [&](const auto& group, const auto&) {
+        held = group.stored_energy(index(pair.contact), update.bodies);
+      });
+    return held;
+  }
+  /// Of all contacts that two bodies had. @param left  in order
+  [[nodiscard]] static double energy_of(const std::vector<Left>& left,
+                                        const std::pair<int, int>& bodies) {
+    auto it = std::lower_bound(left.begin(), left.end(), bodies,
+                               [](const Left& x, const auto& value) { return x.bodies < value; });
+    double sum = 0;
+    for (; it != left.end() && it->bodies == bodies; ++it) sum += it->held;
+    return sum;
+  }
 
   /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
   template <class U>
@@ -310,10 +342,12 @@ class ContactNetwork {
 
   /// Gives a pair the contact that was found.
   /// @param joined  what several pairs have of it, see ContactRenewal
+  /// @param held    energy that its springs may have [J]
   template <class U>
-  void renew(U& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined) {
+  void renew(U& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined,
+             double held) {
     group_of_kind(update.kind_of(pair), [&](auto& group, const auto& former) {
-      const bool in_place = renew(update, group, former, pair, found, joined);
+      const bool in_place = renew(update, group, former, pair, found, joined, held);
       update.relisted = update.relisted || !in_place;
     });
     update.changed = true;
@@ -321,7 +355,7 @@ class ContactNetwork {
   /// @return  true if the contact has kept its place in the lists
   template <class U, class Group, class FormerGroup>
   bool renew(U& update, Group& group, const FormerGroup& former, Pair& pair,
-             const Contact<Dim>& found, const ContactArea<Dim>* joined) {
+             const Contact<Dim>& found, const ContactArea<Dim>* joined, double held) {
     const auto& [tracker, bodies] = std::tie(update.tracker, update.bodies);
     const std::size_t kind = update.kind_of(pair);
     const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
@@ -350,10 +384,14 @@ class ContactNetwork {
     if (renewal.keeps_history())
       detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
                               !known, contact, bodies, points);
-    if (viscous_damping_ > 0)
-      contact.viscosity = viscosity(
-          bodies[index(a)], bodies[index(b)],
-          group.law_of(contact).joint_normal_stiffness() * std::max(found.measure, 1e-12));
+    if (has_started_ && !points.empty()) {
+      contact.least_area =
+          known && held > 0 ? old->least_area : least_area(group, contact, points, bodies);
+      widen(contact, points);
+      detail::limit_energy<Dim>(group, contact, bodies, points, held);
+    }
+    if (viscous_damping_ > 0 && !points.empty())
+      contact.viscosity = viscosity(group, contact, points, bodies);
     return put(update, group, pair, contact, points);
   }
 
@@ -390,12 +428,35 @@ class ContactNetwork {
     return sum / static_cast<double>(found.polygon.size());
   }
 
-  /// Dashpot over stiffness so that two blocks on this contact's normal springs are damped with the
-  /// ratio wanted: c / k = 2 zeta sqrt(m / k) [s].
-  [[nodiscard]] double viscosity(const Body& a, const Body& b, double stiffness) const {
-    const double mass =
-        a.movable() && b.movable() ? a.mass * b.mass / (a.mass + b.mass) : std::max(a.mass, b.mass);
-    return 2 * viscous_damping_ * std::sqrt(mass / stiffness);
+  template <class Points>
+  [[nodiscard]] static double area_of(const Points& points) {
+    double sum = 0;
+    for (const auto& p : points) sum += p.weight;
+    return sum;
+  }
+  /// Dashpot over stiffness so that two blocks that strike each other in the middle of this
+  /// contact's points are damped with the ratio wanted: c / k = 2 zeta sqrt(m / k) [s].
+  template <class Group, class Points>
+  [[nodiscard]] double viscosity(const Group& group, const MovingContact<Dim>& c,
+                                 const Points& points, const Bodies& bodies) const {
+    const double stiffness = group.law_of(c).joint_normal_stiffness() * area_of(points);
+    return 2 * viscous_damping_ *
+           std::sqrt(detail::Strike<Dim>::at(c, points, bodies).mass / stiffness);
+  }
+  template <class Group, class Points>
+  [[nodiscard]] static double least_area(const Group& group, const typename Group::Contact& c,
+                                         const Points& points, const Bodies& bodies) {
+    return detail::Strike<Dim>::at(c, points, bodies)
+        .least_area(group.law_of(c).joint_normal_stiffness());
+  }
+  /// Gives the points of a strike that meets less than its least area what is missing.
+  template <class Points>
+  static void widen(const MovingContact<Dim>& c, Points& points) {
+    const double area = area_of(points);
+    if (!(area < c.least_area)) return;
+    for (auto& p : points)
+      if (p.initial.normal != 0) return;
+    for (auto& p : points) p.weight *= c.least_area / area;
   }
 
   /// Lists every body's contacts; those without points are on no list.
@@ -418,31 +479,44 @@ class ContactNetwork {
     unused_ = 0;
   }
 
-  /// Stiffness over mass of a body, all others fixed, its contacts closed and sticking.
-  [[nodiscard]] Fixed<dof, dof> stiffness_of(std::size_t b, const Bodies& bodies) const {
-    Fixed<dof, dof> sum = zeros<Fixed<dof, dof>>();
+  /// Stiffness and damping over mass, of bodies whose contacts have changed.
+  void bring_up_to_date(const Bodies& bodies) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (is_stale_[b]) {
+        is_stale_[b] = 0;
+        stiffest_[b] = most_damped_[b] = 0;
+        if (bodies[b].movable()) bound_rates_of(b, bodies);
+      }
+  }
+  /// Of a body, all others fixed, its contacts closed and sticking.
+  void bound_rates_of(std::size_t b, const Bodies& bodies) {
+    Fixed<dof, dof> stiffness = zeros<Fixed<dof, dof>>(), damping = stiffness;
     for (const auto& end : sums_.ends_of(b)) {
       std::size_t before = 0;
       each_group([&](const auto& group) {
         const std::size_t k = end.contact - before;  // wraps where it is of a group before
-        if (k < group.size()) detail::add_springs<Dim>(group, k, end.end == 1, bodies, sum);
+        if (k < group.size())
+          detail::add_springs<Dim>(group, k, end.end == 1, bodies, stiffness, damping);
         before += group.size();
       });
     }
-    return sum;
+    stiffest_[b] = detail::largest_row(stiffness);
+    most_damped_[b] = detail::largest_row(damping);
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
   std::tuple<Former<JointLaw>, Former<SmoothWall>, Former<InterfaceLaw>> former_;
   bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
+  bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;
   std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
   ContactPoints rule_;
   double viscous_damping_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
   detail::ContactSums<Dim> sums_;
-  std::vector<char> is_stale_;    ///< contacts of the body have changed since `stiffest_`
-  std::vector<double> stiffest_;  ///< [1/s^2]
+  std::vector<char> is_stale_;       ///< contacts of the body have changed since `stiffest_`
+  std::vector<double> stiffest_;     ///< [1/s^2]
+  std::vector<double> most_damped_;  ///< [1/s]
 };
 
 }  // namespace voussoir

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/core/long_vectors.hpp>
+#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>
@@ -17,6 +19,7 @@
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
+#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -106,18 +109,20 @@ class ComposedSolver {
   /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
   /// One that begins where another ends joins it (`LiningFrame::neighbours`).
   /// @param interface_law  rock on lining
-  /// @throws InvalidInput  a member has no length, or no rock touches it
+  /// @param feet  on which those ends stand that do not go on in a lining; none: they hang free
+  /// @throws InvalidInput  a member has no length, no rock touches it, or none is under its feet
   void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
-                      const InterfaceLaw& interface_law) {
-    install_lining(frame, std::vector<LiningSection>{section}, interface_law);
+                      const InterfaceLaw& interface_law,
+                      const std::optional<FootBearing>& feet = {}) {
+    install_lining(frame, std::vector<LiningSection>{section}, interface_law, feet);
   }
   /// The same with members of several sections: ribs and what joins them.
   void install_lining(const LiningFrame<Geometry>& frame,
-                      const std::vector<LiningSection>& sections,
-                      const InterfaceLaw& interface_law) {
+                      const std::vector<LiningSection>& sections, const InterfaceLaw& interface_law,
+                      const std::optional<FootBearing>& feet = {}) {
     detail::LiningAssembly<Lining, SystemType>(system_, in_situ_.gravity,
                                                1e3 * mass_->domain.tolerance())
-        .run(frame, sections, interface_law);
+        .run(frame, sections, interface_law, feet);
     measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
     started_ = true;
   }
@@ -198,6 +203,10 @@ class ComposedSolver {
   /// The linings installed so far, in that order.
   [[nodiscard]] std::vector<const LiningType*> linings() const {
     return system_.supports.template all<LiningType>();
+  }
+  /// Of those that have feet, in that order.
+  [[nodiscard]] std::vector<const LiningFeet<dim>*> feet() const {
+    return system_.supports.template all<LiningFeet<dim>>();
   }
   /// The first of them; null without lining.
   [[nodiscard]] const LiningType* lining() const {

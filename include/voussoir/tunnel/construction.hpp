@@ -13,6 +13,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>
@@ -51,6 +52,8 @@ struct LiningInstallation {
   typename Solver::InterfaceLaw interface_law;
   /// That is lined: the last one, unless another is given, or the section that several rounds make.
   std::optional<typename Solver::Geometry::Opening> opening = {};
+  /// On which ends of an arc stand that do not go on in a lining; none: they hang free.
+  std::optional<FootBearing> feet = {};
 };
 
 /// One stage, in this order: rock is taken out; bolts and linings are installed where the rock is
@@ -166,7 +169,7 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
     solver.install_lining(lining.opening
                               ? lining_frame(solver.mass(), *lining.opening, lining.layout)
                               : lining_frame(solver.mass(), lining.layout),
-                          lining.sections, lining.interface_law);
+                          lining.sections, lining.interface_law, lining.feet);
 }
 
 }  // namespace detail

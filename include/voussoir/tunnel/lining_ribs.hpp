@@ -111,7 +111,18 @@ class RibBuilder {
     for (int row = 0; row < rows_; ++row)
       for (const auto& at : nodes_.neighbours) {
         const int there = add_neighbour(at.place, middle(row)), here = number(row, at.node);
-        const Vec2 step = at.place - nodes_.places[static_cast<std::size_t>(at.node)];
+        const Vec2& place = nodes_.places[static_cast<std::size_t>(at.node)];
+        const Vec2 step = at.place - place;
+        if (const auto direction = nodes_.direction_of(at)) {
+          const Vec2 inward =
+              at.is_after ? perpendicular(*direction) : Vec2(-perpendicular(*direction));
+          const Vec3 ahead = opening_.axis().direction(*direction);
+          frame_.ends.push_back(
+              founded<Spatial>(mass_,
+                               {here, static_cast<int>(frame_.neighbours.size()) - 1, -1,
+                                opening_.in_space(place, middle(row)), ahead, width_},
+                               ahead, opening_.axis().direction(inward), nodes_.stretch));
+        }
         if (at.is_after)
           frame_.joints.push_back({here, there, outward(step), 0});
         else

@@ -51,6 +51,14 @@ struct RingNodes {
   };
   std::vector<Neighbour> neighbours{};
 
+  /// Which way an end goes on, a unit vector: that of the last member; none if the node is alone.
+  [[nodiscard]] std::optional<Vec2> direction_of(const Neighbour& end) const {
+    const int other = end.is_after ? end.node - 1 : end.node + 1;
+    if (other < 0 || other >= static_cast<int>(places.size())) return std::nullopt;
+    if (!joined[static_cast<std::size_t>(std::min(other, end.node))]) return std::nullopt;
+    return normalized(places[static_cast<std::size_t>(end.node)] -
+                      places[static_cast<std::size_t>(other)]);
+  }
   /// The first stretch that reaches beyond a place on the outline; -1: the last one, of which the
   /// end lies behind vertex 0.
   [[nodiscard]] int first_beyond(double s) const {
@@ -113,6 +121,38 @@ void require_excavated(const RockMass<Geometry>& mass, const Vec<Geometry::dim>&
   throw InvalidInput("lining: at " + text_of<Geometry::dim>(inside) +
                      " m rock is not yet excavated: excavate it first, or line an arc or a stretch "
                      "of what is");
+}
+
+/// The body of rock that a point lies in; -1: none, or it is outside the domain.
+template <class Geometry>
+[[nodiscard]] int body_at(const RockMass<Geometry>& mass, const Vec<Geometry::dim>& point) {
+  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
+    for (const auto& part : mass.bodies[b].parts)
+      if (part.contains(point)) return static_cast<int>(b);
+  return -1;
+}
+
+/// The end of an arc, as far as half a stretch beyond its last node, and the rock that it may stand
+/// on: what is under the lining within a stretch, else what is straight ahead or beside.
+/// @param direction  in which the end goes on;  @param inward  at right angles, into the opening
+/// @param end  its node, neighbour, the place of the node and the length are given
+template <class Geometry>
+[[nodiscard]] LiningEnd<Geometry> founded(const RockMass<Geometry>& mass, LiningEnd<Geometry> end,
+                                          const Vec<Geometry::dim>& direction,
+                                          const Vec<Geometry::dim>& inward, double stretch) {
+  using Point = Vec<Geometry::dim>;
+  end.place += 0.5 * stretch * direction;
+  end.direction = direction;
+  end.body = -1;
+  const auto look = [&](double ahead, double side) {
+    if (end.body < 0)
+      end.body =
+          body_at<Geometry>(mass, Point(end.place + stretch * (ahead * direction + side * inward)));
+  };
+  for (const double ahead : {0.05, 0.35, 0.65, 1.0}) look(ahead, 0.05);
+  look(0.05, 0);
+  look(0.05, -0.05);
+  return end;
 }
 
 }  // namespace detail
@@ -241,6 +281,15 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
   for (const auto& neighbour : nodes.neighbours) {
     const auto there = static_cast<int>(frame.nodes.size() + frame.neighbours.size());
     frame.neighbours.push_back(neighbour.place);
+    if (const auto direction = nodes.direction_of(neighbour)) {
+      const Vec2 inward =
+          neighbour.is_after ? perpendicular(*direction) : Vec2(-perpendicular(*direction));
+      frame.ends.push_back(detail::founded<Planar>(
+          mass,
+          {neighbour.node, static_cast<int>(frame.neighbours.size()) - 1, -1,
+           nodes.places[static_cast<std::size_t>(neighbour.node)], *direction},
+          *direction, inward, nodes.stretch));
+    }
     if (neighbour.is_after)
       frame.joints.push_back({neighbour.node, there});
     else

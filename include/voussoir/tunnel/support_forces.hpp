@@ -69,6 +69,33 @@ template <class Solver>
   return largest_bolt_forces(bolt_forces(solver), solver.bolt_count());
 }
 
+/// What a foot of a lining bears, in 2-D per metre of tunnel.
+template <int Dim>
+struct FootForce {
+  Vec<Dim> place;      ///< where it was installed, in the in-situ state [m]
+  double bearing;      ///< on the rock, compression [N]
+  double shear;        ///< in the plane of the foot, magnitude [N]
+  double utilisation;  ///< bearing pressure over bearing strength, 0 to 1 [-]
+  double settlement;   ///< that would stay if it were let go [m]
+};
+/// All feet of all linings, in the order in which they were installed.
+template <class Solver, int Dim = Solver::SystemType::dim>
+[[nodiscard]] std::vector<FootForce<Dim>> foot_forces(const Solver& solver) {
+  std::vector<FootForce<Dim>> forces;
+  const auto& system = solver.system();
+  for (const auto* feet : solver.feet())
+    for (const auto& foot : feet->springs()) {
+      const Vec<Dim> force = foot.force(feet->law(), foot.motion_at(system.displacement.data()));
+      const Pose<Dim> then = system.pose_at_update(foot.rock);
+      forces.push_back({Vec<Dim>(system.body(foot.rock).centre +
+                                 transposed_product(then.rotation, foot.arm_rock)),
+                        force[0], part<Dim - 1>(force, 1).norm(),
+                        force[0] / (feet->law().params().strength * foot.area),
+                        foot.state.settlement});
+    }
+  return forces;
+}
+
 /// A member of the lining between two nodes, in 2-D per metre of tunnel.
 template <int Dim>
 struct MemberForces {

@@ -56,9 +56,10 @@ class ContactShares {
          is_edge ? -1 : cut});
   }
 
-  /// Calls visit(pair, found, area) for every contact. Where several pairs share it, `area` is what
-  /// all have of it, on the polygon's side, counted as it is from the grid point of the pair's
-  /// first shape and with the measure of all, and else null.
+  /// Calls visit(pair, found, area) for every contact, those of two bodies one after the other: the
+  /// largest first, which so is the first to find what it was before; edges last. Where several
+  /// pairs share it, `area` is what all have of it, on the polygon's side, counted as it is from
+  /// the grid point of the pair's first shape and with the measure of all, and else null.
   template <class Visit>
   void join(Visit&& visit) {
     // The largest of a contact tells its plane: it comes first. Edges come last.
@@ -67,11 +68,21 @@ class ContactShares {
              std::tuple(y.bodies, y.is_edge, y.cut, -y.found.measure, y.pair->a, y.pair->b);
     });
     for (Share& share : shares_) share.found.polygon = share.polygon;
+    std::vector<Joined> of_bodies;
+    const auto hand_over = [&] {
+      std::stable_sort(of_bodies.begin(), of_bodies.end(), [](const Joined& x, const Joined& y) {
+        return std::pair(x.share->is_edge, -x.share->found.measure) <
+               std::pair(y.share->is_edge, -y.share->found.measure);
+      });
+      for (const Joined& it : of_bodies)
+        visit(*it.share->pair, it.share->found, it.area.facets().size() > 1 ? &it.area : nullptr);
+      of_bodies.clear();
+    };
     for (std::size_t k = 0; k < shares_.size();) {
       std::size_t end = k + 1;
+      if (k > 0 && shares_[k].bodies != shares_[k - 1].bodies) hand_over();
       if (shares_[k].is_edge) {
-        if (!lies_in_a_face(k))
-          visit(*shares_[k].pair, shares_[k].found, static_cast<const ContactArea<Dim>*>(nullptr));
+        if (!lies_in_a_face(k)) of_bodies.push_back({&shares_[k], {}});
         k = end;
         continue;
       }
@@ -96,12 +107,13 @@ class ContactShares {
           area.add(std::move(facet));
           if (i != k) first.found.measure += share.found.measure;
         } else if (i != k) {
-          visit(*share.pair, share.found, static_cast<const ContactArea<Dim>*>(nullptr));
+          of_bodies.push_back({&share, {}});
         }
       }
-      visit(*first.pair, first.found, area.facets().size() > 1 ? &area : nullptr);
+      of_bodies.push_back({&first, std::move(area)});
       k = end;
     }
+    hand_over();
   }
 
  private:
@@ -117,6 +129,11 @@ class ContactShares {
     [[nodiscard]] std::size_t owner() const {
       return found.touch != Touch::face_b ? pair->a : pair->b;
     }
+  };
+
+  struct Joined {
+    const Share* share;
+    ContactArea<Dim> area;
   };
 
   /// Whether an edge lies in the plane of a face over which the same bodies touch.

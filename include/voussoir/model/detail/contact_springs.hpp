@@ -12,10 +12,11 @@
 namespace voussoir::detail {
 
 /// Adds M^-1/2 G^T K G M^-1/2 of one contact that is closed and sticks to the matrix of body a or
-/// b, in the body's frame [1/s^2].
+/// b, in the body's frame [1/s^2], and the same of its dashpots to `damping` [1/s].
 template <int Dim, class Group, int Dof>
 void add_springs(const Group& group, std::size_t k, bool on_b,
-                 const std::vector<MovingBody<Dim>>& bodies, Fixed<Dof, Dof>& sum) {
+                 const std::vector<MovingBody<Dim>>& bodies, Fixed<Dof, Dof>& sum,
+                 Fixed<Dof, Dof>& damping) {
   const auto& c = group.contacts()[k];
   const MovingBody<Dim>&a = bodies[static_cast<std::size_t>(c.a)],
         &b = bodies[static_cast<std::size_t>(c.b)], &body = on_b ? b : a;
@@ -37,6 +38,7 @@ void add_springs(const Group& group, std::size_t k, bool on_b,
       const double stiffness = p.weight * (axis == 0 ? group.law_of(c).joint_normal_stiffness()
                                                      : group.law_of(c).joint_shear_stiffness());
       sum += outer<Dof, Dof>(stiffness * g, g);
+      if (axis == 0 && c.viscosity > 0) damping += outer<Dof, Dof>(c.viscosity * stiffness * g, g);
     }
   }
 }

@@ -5,14 +5,18 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/segment.hpp>
+#include <voussoir/geometry/tangent_basis.hpp>
+#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/lining_surface.hpp>
 #include <voussoir/model/reference_contact.hpp>
@@ -37,9 +41,10 @@ class LiningAssembly {
   LiningAssembly(System& system, double gravity, double near)
       : system_(system), gravity_(gravity), near_(near) {}
 
-  /// @throws InvalidInput  a member has no length, or no rock touches the lining
+  /// @param feet  on which ends stand that do not go on in a lining; none: they hang free
+  /// @throws InvalidInput  a member has no length, no rock touches the lining, or is under its feet
   void run(const LiningFrame<Geometry>& wanted, const std::vector<LiningSection>& sections,
-           const InterfaceLaw& interface_law) {
+           const InterfaceLaw& interface_law, const std::optional<FootBearing>& feet) {
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
@@ -51,9 +56,11 @@ class LiningAssembly {
       if (node >= 0) standing.push_back(node);
       return node >= 0;
     });
+    if (feet) check_feet(wanted, frame);
     first_node_ = system_.body_count();
     add_nodes(frame, node_shares(frame, sections), standing);
     add_members(frame, sections, standing);
+    if (feet && !frame.ends.empty()) add_feet(frame, *feet);
     add_surface(frame, sections, interface_law);
   }
 
@@ -98,6 +105,31 @@ class LiningAssembly {
         std::move(own), first_node_, static_cast<int>(frame.nodes.size())));
     if (!joints.empty())
       system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
+  }
+
+  void check_feet(const LiningFrame<Geometry>& wanted, const LiningFrame<Geometry>& frame) const {
+    if (wanted.ends.empty())
+      throw InvalidInput("lining: it is closed and has no ends that feet could stand under");
+    for (const LiningEnd<Geometry>& end : frame.ends)
+      if (end.body < 0 || system_.body(end.body).is_gone)
+        throw InvalidInput(
+            message({"lining: there is no rock under the foot at ", text_of<dim>(end.place),
+                     " m: end the arc on rock, or leave the feet out"}));
+  }
+  void add_feet(const LiningFrame<Geometry>& frame, const FootBearing& bearing) {
+    std::vector<LiningFootSpring<dim>> springs;
+    for (const LiningEnd<Geometry>& end : frame.ends) {
+      LiningFootSpring<dim> spring;
+      spring.node = first_node_ + end.node;
+      spring.rock = end.body;
+      spring.arm_node = end.place - system_.body(spring.node).centre;
+      spring.arm_rock = system_.arm(end.body, end.place);
+      spring.frame << end.direction, tangent_basis(end.direction);
+      spring.area = bearing.params().width * end.length;
+      spring.install_at(system_.displacement.data());
+      springs.push_back(spring);
+    }
+    system_.supports.add(std::make_shared<LiningFeet<dim>>(bearing, std::move(springs)));
   }
 
   /// What rock touches: here at a point for every piece of wall, in motion the surface.

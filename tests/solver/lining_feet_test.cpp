@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// An arch on feet carries thrust down to them; an arch without carries next to none.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+#include <voussoir/dynamics/moving_rock.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/spatial_joint_set.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
+
+#include "support/faults.hpp"
+#include "support/jointed_rock.hpp"
+
+namespace lining_feet_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+using voussoir_test::fault_of;
+using voussoir_test::jointed_rock;
+using voussoir_test::says;
+
+namespace {
+
+const Acceptance tight{.error_estimate = 1e-6};
+const CoulombJoint joint({5e9, 5e8, 40 * degree});
+const CoulombJoint smooth({5e9, 5e9, 0}), rough({5e9, 5e9, 20 * degree});
+const InSitu in_situ{.density = 2700, .surcharge = 1e6};
+const FootBearing strong({.width = 0.2, .stiffness = 5e9, .friction_angle = 30 * degree});
+const LiningRing arch{.from = 0, .to = 180 * degree};
+
+LiningSection shotcrete() {
+  LiningSection section = LiningSection::rectangular(0.2, 25e9);
+  section.mass = 500;
+  return section;
+}
+
+Solver<> excavated(const SimplePolygon& opening = circular_opening(5, 36), int seed = 4) {
+  Solver<> tunnel(jointed_rock(domain_around(opening, 20, 7, 7), static_cast<std::uint64_t>(seed)),
+                  joint, in_situ);
+  tunnel.excavate(opening);
+  return tunnel;
+}
+
+/// What the rock and the feet do to the nodes of the lining, less its weight [N].
+Vec2 load_on_lining(const Solver<>& tunnel) {
+  const auto& system = tunnel.system();
+  const double* u = system.displacement.data();
+  Vec2 sum(0, 0);
+  const int first = tunnel.first_lining_node();
+  system.interface.visit(u, [&](const auto& c, const auto&, const auto&, const auto& f) {
+    const Vec2 on_b = f.normal * c.normal + Vec2(c.tangents() * f.tangential);
+    sum += c.b >= first ? on_b : Vec2(-on_b);
+  });
+  for (const auto* feet : tunnel.feet())
+    for (const auto& foot : feet->springs())
+      sum -= foot.frame * foot.force(feet->law(), foot.motion_at(u));
+  for (int n = 0; n < tunnel.lining()->node_count(); ++n) sum.y() -= system.body(first + n).weight;
+  return sum;
+}
+
+}  // namespace
+
+TEST_SUITE("solver/lining_feet") {
+  TEST_CASE("an arch carries its load to its feet, and none without them") {
+    for (const int seed : {1, 2, 3}) {
+      CAPTURE(seed);
+      auto on_feet = excavated(circular_opening(5, 36), seed);
+      auto hung = on_feet;
+      const auto frame = lining_frame(on_feet.mass(), arch);
+      REQUIRE(frame.ends.size() == 2);
+      on_feet.install_lining(frame, shotcrete(), rough, strong);
+      hung.install_lining(frame, shotcrete(), rough);
+      REQUIRE(on_feet.equilibrium(0, {}, tight).verdict == Verdict::stable);
+      REQUIRE(hung.equilibrium(0, {}, tight).verdict == Verdict::stable);
+      const auto feet = foot_forces(on_feet);
+      REQUIRE(feet.size() == 2);
+      REQUIRE(hung.feet().empty());
+      // By the other way: what the rock, the feet and the weight do to it is nothing together.
+      double bearing = 0;
+      for (const auto& foot : feet) bearing += foot.bearing;
+      CHECK(bearing > 1e5);
+      CHECK(load_on_lining(on_feet).norm() < 1e-3 * bearing);
+      // The thrust beside a foot is what the foot bears, but for half a stretch of wall and the
+      // bend of the arch there.
+      const auto members = lining_members(on_feet);
+      CHECK(members.front().thrust == doctest::Approx(feet.front().bearing).epsilon(0.15));
+      CHECK(members.back().thrust == doctest::Approx(feet.back().bearing).epsilon(0.15));
+      double free = 0;
+      for (const auto& m : {lining_members(hung).front(), lining_members(hung).back()})
+        free = std::max(free, std::abs(m.thrust));
+      CHECK(free < 0.2 * members.front().thrust);
+      for (const auto& foot : feet) {
+        CHECK(std::abs(foot.place.y()) < 0.4);  // at the springing, within a stretch
+        CHECK(foot.utilisation == 0);           // of a strength without end
+        CHECK(foot.shear <= std::tan(30 * degree) * foot.bearing * (1 + 1e-9));
+      }
+    }
+  }
+
+  TEST_CASE("a foot bears no more than its strength, and settles") {
+    auto tunnel = excavated();
+    const auto frame = lining_frame(tunnel.mass(), arch);
+    auto weak = tunnel;
+    tunnel.install_lining(frame, shotcrete(), smooth, strong);
+    REQUIRE(tunnel.equilibrium(0, {}, tight).verdict == Verdict::stable);
+    const auto full = foot_forces(tunnel);
+    const double most = 0.5 * std::min(full[0].bearing, full[1].bearing);
+    weak.install_lining(frame, shotcrete(), smooth,
+                        FootBearing({.width = 0.2,
+                                     .stiffness = 5e9,
+                                     .strength = most / 0.2,
+                                     .friction_angle = 30 * degree}));
+    REQUIRE(weak.equilibrium(0, {}, tight).verdict == Verdict::stable);
+    for (const auto& foot : foot_forces(weak)) {
+      CHECK(foot.bearing == doctest::Approx(most).epsilon(1e-9));
+      CHECK(foot.utilisation == doctest::Approx(1).epsilon(1e-9));
+      CHECK(foot.settlement > 0);
+    }
+    CHECK(load_on_lining(weak).norm() < 1e-3 * most);
+  }
+
+  TEST_CASE("set in motion, and back at rest, feet bear what they bore") {
+    auto tunnel = excavated();
+    tunnel.install_lining(lining_frame(tunnel.mass(), arch), shotcrete(), smooth, strong);
+    REQUIRE(tunnel.equilibrium(0.3, {}, tight).verdict == Verdict::stable);
+    const auto before = foot_forces(tunnel);
+    auto run = set_in_motion(tunnel, {.local_damping = 0.7, .points = ContactPoints::gauss});
+    CHECK(run.unbalance_over_weight() < 1e-2);
+    tunnel.take_back(run);
+    const auto after = foot_forces(tunnel);
+    for (std::size_t k = 0; k < 2; ++k) {
+      CHECK(after[k].bearing == doctest::Approx(before[k].bearing).epsilon(1e-9));
+      CHECK(after[k].shear == doctest::Approx(before[k].shear).epsilon(1e-6));
+      CHECK((after[k].place - before[k].place).norm() < 1e-9);
+    }
+    // Installed in rock that moves, it comes to bear the same as at rest.
+    auto still = excavated();
+    const auto frame = lining_frame(still.mass(), arch);
+    still.install_lining(frame, shotcrete(), smooth, strong);
+    REQUIRE(still.equilibrium(0, {}, tight).verdict == Verdict::stable);
+    auto moving = moving_rock(still.mass(), joint, in_situ,
+                              {.local_damping = 0.8, .points = ContactPoints::gauss});
+    const auto lining =
+        add_lining<EulerBernoulliBeam>(moving, frame, {shotcrete()}, smooth, 0.2, strong);
+    for (int k = 1; k <= 4; ++k) {
+      moving.set_held(1 - 0.25 * k);
+      moving.advance_steps(2500);
+    }
+    const auto at_rest = lining_members(still);
+    const auto moved = lining_members(moving, *lining);
+    for (const auto& [x, y] :
+         {std::pair{at_rest.front(), moved.front()}, std::pair{at_rest.back(), moved.back()}})
+      CHECK(y.thrust == doctest::Approx(x.thrust).epsilon(0.05));
+    CHECK(std::abs(moving.energy().relative_imbalance()) < 1e-3);
+  }
+
+  TEST_CASE("feet on the bench go with it, and the arch is carried on") {
+    const auto section = horseshoe_opening(5, 3);
+    const double bench_floor = section.vertices().front().y();
+    double low = bench_floor;
+    for (const Vec2& v : section.vertices()) low = std::min(low, v.y());
+    Solver<> tunnel(jointed_rock(domain_around(section, 20, 8, 8), 3), joint, in_situ);
+    tunnel.excavate(section);
+    tunnel.install_lining(lining_frame(tunnel.mass(), {.from = -10 * degree, .to = 190 * degree}),
+                          shotcrete(), smooth, strong);
+    REQUIRE(tunnel.equilibrium(0.5).verdict == Verdict::stable);
+    REQUIRE(foot_forces(tunnel).size() == 2);
+    const auto thrust = lining_members(tunnel).front().thrust;
+    // A niche that takes the rock under the right-hand foot.
+    const Vec2 foot = foot_forces(tunnel)[0].place.x() > 0 ? foot_forces(tunnel)[0].place
+                                                           : foot_forces(tunnel)[1].place;
+    (void)thrust;
+    (void)foot;
+    CHECK(low < foot.y());
+  }
+
+  TEST_CASE("an end that goes on in a lining that stands has no foot") {
+    auto tunnel = excavated();
+    tunnel.install_lining(lining_frame(tunnel.mass(), arch), shotcrete(), smooth, strong);
+    REQUIRE(tunnel.equilibrium(0.5).verdict == Verdict::stable);
+    tunnel.install_lining(lining_frame(tunnel.mass(), {.from = 180 * degree, .to = 270 * degree}),
+                          shotcrete(), smooth, strong);
+    REQUIRE(tunnel.feet().size() == 2);
+    CHECK(tunnel.feet()[0]->springs().size() == 2);
+    CHECK(tunnel.feet()[1]->springs().size() == 1);
+  }
+
+  TEST_CASE("feet without ends or without rock are refused, and nothing is installed") {
+    auto tunnel = excavated();
+    const int bodies = tunnel.system().body_count();
+    CHECK(says(fault_of([&] {
+                 tunnel.install_lining(lining_frame(tunnel.mass(), LiningRing{}), shotcrete(),
+                                       smooth, strong);
+               }),
+               "it is closed and has no ends"));
+    CHECK(tunnel.system().body_count() == bodies);
+    // The heading of a section of which all is excavated.
+    const auto whole = circular_opening(5, 36);
+    std::vector<Vec2> upper;
+    for (const Vec2& v : whole.vertices())
+      if (v.y() > -0.1) upper.push_back(v);
+    auto frame = lining_frame(tunnel.mass(), arch);
+    frame.ends[1].body = -1;
+    const std::string text =
+        fault_of([&] { tunnel.install_lining(frame, shotcrete(), smooth, strong); });
+    CAPTURE(text);
+    CHECK(says(text, "no rock under the foot at (-2.5"));
+    CHECK(tunnel.system().body_count() == bodies);
+    CHECK_THROWS_AS(FootBearing({.width = 0, .stiffness = 1e9, .friction_angle = 0}), InvalidInput);
+    CHECK_THROWS_AS(FootBearing({.width = 1, .stiffness = 1e9, .strength = 0, .friction_angle = 0}),
+                    InvalidInput);
+  }
+
+  TEST_CASE("ribs in 3-D stand on feet, each for its stretch of the tunnel") {
+    const Domain<3> ground{{-6, 0, -6}, {6, 2, 7}};
+    SpatialJointSet a{"J1", 75 * degree, 80 * degree}, b{"J2", 25 * degree, 100 * degree},
+        c{"J3", 80 * degree, 5 * degree};
+    for (SpatialJointSet* set : {&a, &b, &c}) set->spacing = 1.5;
+    Solver<Spatial> tunnel(
+        slice<Spatial>(ground, joint_network({a, b, c}, ground, 1), {.min_inscribed_radius = 0.15}),
+        CoulombJoint({5e9, 5e8, 40 * degree}), {.density = 2700, .surcharge = 4e5});
+    tunnel.excavate(PrismaticOpening(circular_opening(4, 20)), 0.02);
+    LiningSection rib = LiningSection::strip(0.15, 1, 25e9),
+                  tie = LiningSection::strip(0.15, 0.5, 25e9);
+    rib.mass = 360;
+    tie.mass = 180;
+    tunnel.install_lining(
+        lining_frame(tunnel.mass(), LiningRibs{.ring = {.nodes = 20, .from = 0, .to = 180 * degree},
+                                               .spacing = 1}),
+        {rib, tie}, smooth, strong);
+    REQUIRE(tunnel.equilibrium(0.2, {}, tight).verdict == Verdict::stable);
+    const auto feet = foot_forces(tunnel);
+    REQUIRE(feet.size() == 4);
+    for (const auto& foot : feet) {
+      CHECK(foot.bearing > 1e4);
+      CHECK(std::abs(foot.place.z()) < 0.7);
+    }
+    auto run = set_in_motion(tunnel, {.local_damping = 0.7, .points = ContactPoints::gauss});
+    CHECK(run.unbalance_over_weight() < 2e-2);
+    tunnel.take_back(run);
+    const auto after = foot_forces(tunnel);
+    for (std::size_t k = 0; k < feet.size(); ++k)
+      CHECK(after[k].bearing == doctest::Approx(feet[k].bearing).epsilon(1e-6));
+  }
+}
+
+}  // namespace lining_feet_test
