@@ -63,10 +63,11 @@ LiningInstallation<Tunnel> lining_of(const Lining& lining) {
   LiningSection section = LiningSection::rectangular(lining.thickness, lining_modulus);
   section.bending_stiffness *= lining.bending_factor;
   section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
-  return {
-      {.nodes = lining.nodes},
-      {section},
-      CoulombJoint({lining.interface_stiffness, lining.interface_stiffness, interface_friction})};
+  return {{.nodes = lining.nodes},
+          {section},
+          MohrCoulombJoint({.joint_normal_stiffness = lining.interface_stiffness,
+                            .joint_shear_stiffness = lining.interface_stiffness,
+                            .friction_angle = interface_friction})};
 }
 
 Construction<Tunnel> construction_of(const Variant& variant) {

@@ -121,21 +121,36 @@ BoltInstallation<Tunnel> bolts_of(const BoltsInput& bolts, const BoltSpacing& sp
   return {bars_of(bolts, spacing, opening), bolt_of(bolts), bolts.out_of_plane, anchors_of(bolts)};
 }
 
-LiningInstallation<Tunnel> lining_of(const LiningInput& lining, double thickness) {
-  LiningRing ring{.nodes = lining.nodes};
+/// On the full ring: as many as facets, or as many as it takes to be no farther apart than joints,
+/// for a block that falls between two nodes loads none.
+int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening) {
+  if (input.lining->nodes) return *input.lining->nodes;
+  const double half_width = input.tunnel.half_width();
+  const double joint_spacing = radial_spacing(mass, Vec2::Zero(), half_width, 2 * half_width);
+  const double needed = std::ceil(opening.perimeter() / joint_spacing);
+  return static_cast<int>(
+      std::clamp(needed, static_cast<double>(std::max(input.tunnel.facets, 8)), 2000.0));
+}
+
+LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, double thickness) {
+  LiningRing ring{.nodes = nodes};
   if (lining.arc) {
     ring.from = lining.arc->from;
     ring.to = lining.arc->to;
   }
-  return {ring,
-          {section_of(lining, thickness)},
-          CoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
-                        .joint_shear_stiffness = lining.interface_shear_stiffness,
-                        .friction_angle = lining.interface_friction_angle})};
+  LiningInstallation<Tunnel> made{ring, {section_of(lining, thickness)}, interface_of(lining)};
+  if (const auto& feet = lining.feet)
+    made.feet.emplace(FootBearing::Params{
+        .width = feet->width,
+        .stiffness = feet->stiffness,
+        .strength = feet->strength.value_or(std::numeric_limits<double>::infinity()),
+        .friction_angle = feet->friction_angle});
+  return made;
 }
 
 /// The stages of the input. `spacing` none: no bolts; `thickness` 0: no lining.
-Construction<Tunnel> construction_of(const Input& input, const SimplePolygon& opening,
+Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
+                                     const SimplePolygon& opening,
                                      const std::optional<BoltSpacing>& spacing, double thickness,
                                      const LinearSettings& linear) {
   Construction<Tunnel> construction;
@@ -146,7 +161,8 @@ Construction<Tunnel> construction_of(const Input& input, const SimplePolygon& op
     if (stage.install_bolts && spacing)
       made.install_bolts(bolts_of(*input.bolts, *spacing, opening));
     if (stage.install_lining && thickness > 0)
-      made.install_lining(lining_of(*input.lining, thickness));
+      made.install_lining(
+          lining_of(*input.lining, lining_nodes(input, tunnel.mass(), opening), thickness));
   }
   return construction;
 }
@@ -279,7 +295,7 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   for (std::string& text : remarks_on(support_condition(run.tunnel, run.built)))
     warn(std::move(text));
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
-    const double node_spacing = run.opening.perimeter() / input.lining->nodes;
+    const double node_spacing = run.opening.perimeter() / lining_nodes(input, mass, run.opening);
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
                                                 2 * input.tunnel.half_width());
     if (node_spacing > joint_spacing)
@@ -401,8 +417,9 @@ RunResult computed_run(const Input& input, const Report& report) {
       input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  const Construction<Tunnel> construction = construction_of(
-      input, run.opening, spacing, input.lining ? input.lining->thickness : 0.0, linear);
+  const Construction<Tunnel> construction =
+      construction_of(input, run.tunnel, run.opening, spacing,
+                      input.lining ? input.lining->thickness : 0.0, linear);
   const Tunnel before = run.tunnel;
   run.built = construct(run.tunnel, construction, report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
@@ -433,10 +450,10 @@ DiagramResult computed_diagram(const Input& input, unsigned threads, const Repor
   const auto tunnel_at = [&](std::size_t i, std::size_t j) {
     if (!go_on) return DiagramPoint{};
     Tunnel tunnel = excavated.tunnel;
-    const auto built = construct(
-        tunnel,
-        construction_of(input, excavated.opening, axes.spacing[i], axes.thickness[j], linear),
-        quiet);
+    const auto built = construct(tunnel,
+                                 construction_of(input, tunnel, excavated.opening, axes.spacing[i],
+                                                 axes.thickness[j], linear),
+                                 quiet);
     return diagram_point_of(tunnel, built);
   };
   DiagramResult result;

@@ -32,7 +32,9 @@ constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};      // below it roun
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};  // [m]
 constexpr Range surcharge_range{.low = 0, .high = 1e9};         // [Pa]
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
-constexpr Range thickness_range{.low = 1e-3, .high = 10};                   // of a lining [m]
+constexpr Range bond_range{.low = 100, .high = 1e9};       // of a lining to rock [Pa]
+constexpr Range bearing_range{.low = 1e3, .high = 1e12};   // strength under a foot [Pa]
+constexpr Range thickness_range{.low = 1e-3, .high = 10};  // of a lining [m]
 
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
@@ -271,7 +273,7 @@ void read_bolts(Section& s, BoltsInput& bolts) {
   }
 }
 
-void read_lining(Section& s, LiningInput& lining, int facets) {
+void read_lining(Section& s, LiningInput& lining) {
   s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
@@ -288,10 +290,35 @@ void read_lining(Section& s, LiningInput& lining, int facets) {
                        per_area_range, Need::optional);
     interface.quantity("friction", lining.interface_friction_angle, dimension::angle,
                        angle_below_90(), Need::required);
+    interface.quantity("shear_bond", lining.shear_bond, dimension::pressure, bond_range,
+                       Need::optional);
+    interface.quantity("tensile_bond", lining.tensile_bond, dimension::pressure, bond_range,
+                       Need::optional);
+    const double most = lining.shear_bond / std::tan(lining.interface_friction_angle);
+    if (lining.tensile_bond > most * (1 + 1e-12))
+      interface.complain("tensile_bond",
+                         lining.shear_bond > 0 ? "is more than shear_bond / tan(friction)"
+                                               : "is a bond without strength in shear",
+                         lining.shear_bond > 0
+                             ? "at most " + format_quantity(most, dimension::pressure)
+                             : "with a key shear_bond, at most shear_bond / tan(friction)");
   });
-  lining.nodes = facets;
   s.integer("nodes", lining.nodes, 8, 2000);
   lining.arc = read_arc(s);
+  s.optional_table("feet", [&](Section& table) {
+    FeetInput& feet = lining.feet.emplace();
+    feet.width = lining.thickness;
+    table.quantity("width", feet.width, dimension::length, thickness_range, Need::optional);
+    table.quantity("stiffness", feet.stiffness, dimension::stiffness_per_area, per_area_range,
+                   Need::required);
+    table.quantity("strength", feet.strength, dimension::pressure, bearing_range);
+    feet.friction_angle = lining.interface_friction_angle;
+    table.quantity("friction", feet.friction_angle, dimension::angle, angle_below_90(),
+                   Need::optional);
+  });
+  if (lining.feet && !lining.arc)
+    s.complain("feet", "stand under the ends of an arc, and a full ring has none",
+               "a key arc, or no table feet");
 }
 
 void read_stage(Section& s, StageInput& stage) {
@@ -431,8 +458,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
     support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
-    support.optional_table(
-        "lining", [&](Section& s) { read_lining(s, input.lining.emplace(), input.tunnel.facets); });
+    support.optional_table("lining", [&](Section& s) { read_lining(s, input.lining.emplace()); });
   });
   file.tables("stage", [&](Section& s, std::size_t i) {
     StageInput& stage = input.stages.emplace_back();
@@ -608,6 +634,12 @@ std::vector<std::string> unusual_values(const Input& input) {
          dimension::stiffness_per_area);
     look("support.lining.interface.ks", input.lining->interface_shear_stiffness, 1e6, 1e11,
          dimension::stiffness_per_area);
+    if (input.lining->feet) {
+      look("support.lining.feet.stiffness", input.lining->feet->stiffness, 1e7, 1e11,
+           dimension::stiffness_per_area);
+      look("support.lining.feet.strength", input.lining->feet->strength.value_or(1e7), 1e5, 1e9,
+           dimension::pressure);
+    }
   }
   if (input.run.tolerance < 1e-5)
     unusual.push_back("run.tolerance = " + significant_text(input.run.tolerance, 3) +

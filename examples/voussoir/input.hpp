@@ -123,6 +123,14 @@ struct BoltsInput {
   BoltLaw law = BoltLaw::axial;
 };
 
+/// [support.lining.feet] On which the ends of an arc stand.
+struct FeetInput {
+  double width = 0;                ///< [m], 1e-3 to 10; default: the thickness of the lining
+  double stiffness = 0;            ///< bearing pressure over settlement [Pa/m], 1e3 to 1e12
+  std::optional<double> strength;  ///< bearing [Pa], 1e3 to 1e12; none: no end to it
+  double friction_angle = 0;       ///< [rad], 0 <= . < pi/2; default interface.friction
+};
+
 /// [support.lining]
 struct LiningInput {
   double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
@@ -132,8 +140,13 @@ struct LiningInput {
   double interface_normal_stiffness = 0;  ///< interface.kn [Pa/m], 1e3 to 1e12
   double interface_shear_stiffness = 0;   ///< interface.ks [Pa/m], 1e3 to 1e12; default kn
   double interface_friction_angle = 0;    ///< interface.friction [rad], 0 <= . < pi/2
-  int nodes = 72;                         ///< 8 to 2000; default tunnel.facets
-  std::optional<ArcInput> arc;            ///< default: the full ring
+  /// Bond to the rock until it fails [Pa], 100 to 1e9; 0: none. In tension no more than friction
+  /// makes of the shear bond, c / tan(phi).
+  double shear_bond = 0, tensile_bond = 0;
+  /// On the full ring, 8 to 2000; left out: as many as facets, or more where joints are closer.
+  std::optional<int> nodes;
+  std::optional<ArcInput> arc;    ///< default: the full ring
+  std::optional<FeetInput> feet;  ///< of an arc alone
 };
 
 /// [[stage]] One step of the construction, in the order of the file.

@@ -26,6 +26,15 @@ AxialShearBolt bolt_of(const BoltsInput& bolts) {
   return AxialShearBolt({.axial = axial, .shear_stiffness = shear}, any_units);
 }
 
+MohrCoulombJoint interface_of(const LiningInput& lining) {
+  return MohrCoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
+                           .joint_shear_stiffness = lining.interface_shear_stiffness,
+                           .friction_angle = lining.interface_friction_angle,
+                           .cohesion = lining.shear_bond,
+                           .tensile_strength = lining.tensile_bond},
+                          any_units);
+}
+
 LiningSection section_of(const LiningInput& lining, double thickness) {
   LiningSection section =
       LiningSection::rectangular(thickness, lining.young_modulus, lining.poisson_ratio);
@@ -88,7 +97,7 @@ std::string composition_of(const Input& input) {
         .append(input.lining->beam == LiningBeam::euler_bernoulli ? EulerBernoulliBeam::name
                                                                   : TimoshenkoBeam::name)
         .append(" on ")
-        .append(CoulombJoint::name);
+        .append(input.lining->shear_bond > 0 ? MohrCoulombJoint::name : CoulombJoint::name);
   switch (input.run.method) {
     case RunMethod::two_level:
       return text + ", " + TwoLevel::name;

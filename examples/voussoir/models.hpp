@@ -12,8 +12,9 @@
 ///
 /// A program that knows its physics composes exactly that (see examples/minimal.cpp). This one
 /// learns it from a file, so the choices are made at run time inside policies of our own, and one
-/// solver type serves every input: `AxialShearBolt` without shear stiffness is the axial bolt, and
-/// `TimoshenkoBeam` with infinite shear stiffness is the Euler-Bernoulli beam.
+/// solver type serves every input: `AxialShearBolt` without shear stiffness is the axial bolt,
+/// `TimoshenkoBeam` with infinite shear stiffness is the Euler-Bernoulli beam, and an interface
+/// with `MohrCoulombJoint` without cohesion is one with `CoulombJoint`.
 namespace voussoir::program {
 
 /// Any of the anchor placements.
@@ -49,11 +50,13 @@ class ChosenMethod {
   std::variant<TwoLevel, Relaxation, Explicit> method_;
 };
 
-using Tunnel =
-    Solver<Planar, CoulombJoint, ChosenAnchors, AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
+using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
+                      AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
 
 [[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
 [[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
+/// Rock on lining: friction, and a bond until it fails, which leaves the friction.
+[[nodiscard]] MohrCoulombJoint interface_of(const LiningInput& lining);
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
 /// @param linear  what the computer has for elastic equations; how they are solved is the file's
 /// choice

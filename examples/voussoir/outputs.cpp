@@ -209,6 +209,13 @@ std::string run_json(const Input& input, const RunResult& run) {
     json["lining"] = {{"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
+  for (const auto& foot : foot_forces(run.tunnel))
+    json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
+                                      {"y_m", foot.place.y()},
+                                      {"bearing_kN_per_m", 1e-3 * foot.bearing},
+                                      {"shear_kN_per_m", 1e-3 * foot.shear},
+                                      {"of_its_strength", foot.utilisation},
+                                      {"settlement_mm", 1e3 * foot.settlement}});
   return json.dump(2) + "\n";
 }
 
@@ -370,6 +377,14 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);
+  if (const auto feet = foot_forces(run.tunnel); !feet.empty()) {
+    out += "feet    ";
+    for (const auto& foot : feet)
+      out += (&foot == &feet.front() ? " " : ", ") + text("%.0f kN/m", 1e-3 * foot.bearing) +
+             (foot.utilisation > 0 ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
+                                   : std::string());
+    out += "\n";
+  }
   for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";
   return out;
 }

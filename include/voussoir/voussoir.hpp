@@ -10,6 +10,7 @@
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/contact/smooth_wall.hpp>

@@ -8,6 +8,7 @@
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/random.hpp>
@@ -120,6 +121,12 @@ TEST_SUITE("contact/dissipation") {
     check_in_both(CoulombJoint({5e9, 1e9, 0}), 2e-4);
     check_in_both(SmoothWall(5e9), 2e-4);
     check_in_both(rough, 2e-4);
+    // The foot of a lining, that gives way within the pressures of the paths; none starts beyond.
+    for (const double strength : {1e6, 2e6})
+      check_in_both(
+          FootBearing(
+              {.width = 1, .stiffness = 5e9, .strength = strength, .friction_angle = 30 * degree}),
+          2e-4);
     check_in_both(BurgersJoint({.joint_normal_stiffness = 5e9,
                                 .joint_shear_stiffness = 5e8,
                                 .friction_angle = 35 * degree,

@@ -233,7 +233,8 @@ TEST_SUITE("program/input") {
     CHECK(lining.interface_normal_stiffness == 1e9);
     CHECK(lining.interface_shear_stiffness == 1e9);
     CHECK(lining.interface_friction_angle == degrees(30));
-    CHECK(lining.nodes == 72);
+    CHECK_FALSE(lining.nodes.has_value());
+    CHECK_FALSE(lining.feet.has_value());
     CHECK_FALSE(lining.arc.has_value());
 
     REQUIRE(input.stages.size() == 1);
@@ -274,7 +275,7 @@ TEST_SUITE("program/input") {
     CHECK(input.blocks.max_elongation == infinity);
     CHECK(input.bolts.value().arc.to == degrees(180));
     CHECK_FALSE(input.bolts.value().rupture_force.has_value());
-    CHECK(input.lining.value().nodes == 72);
+    CHECK_FALSE(input.lining.value().nodes.has_value());
     REQUIRE(input.stages.size() == 2);
     CHECK(input.stages[0].name == "stage 1");
     CHECK(input.stages[0].wall_traction == 0.4);
@@ -282,8 +283,6 @@ TEST_SUITE("program/input") {
     CHECK_FALSE(input.stages[0].install_lining);
     CHECK(input.stages[1].install_lining);
     CHECK_FALSE(input.run.max_steps.has_value());
-    CHECK(read(with("cover = \"20 m\"", "cover = \"20 m\"\nfacets = 36")).lining.value().nodes ==
-          36);
   }
 
   TEST_CASE("every optional key arrives where it belongs") {
@@ -324,8 +323,18 @@ TEST_SUITE("program/input") {
     const LiningInput lining =
         read(good, {"support.lining.nu=0.25", "support.lining.beam=timoshenko",
                     "support.lining.nodes=90", "support.lining.interface.ks=0.3 GPa/m",
-                    "support.lining.arc=[\"-30 deg\", \"210 deg\"]"})
+                    "support.lining.arc=[\"-30 deg\", \"210 deg\"]",
+                    "support.lining.interface.shear_bond=0.8 MPa",
+                    "support.lining.interface.tensile_bond=0.5 MPa",
+                    "support.lining.feet.stiffness=2 GPa/m", "support.lining.feet.strength=5 MPa"})
             .lining.value();
+    const FeetInput feet = lining.feet.value();
+    CHECK(lining.shear_bond == 0.8e6);
+    CHECK(lining.tensile_bond == 0.5e6);
+    CHECK(feet.width == lining.thickness);
+    CHECK(feet.stiffness == 2e9);
+    CHECK(feet.strength.value() == 5e6);
+    CHECK(feet.friction_angle == lining.interface_friction_angle);
     CHECK(lining.poisson_ratio == 0.25);
     CHECK(lining.beam == LiningBeam::timoshenko);
     CHECK(lining.nodes == 90);

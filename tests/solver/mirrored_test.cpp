@@ -173,10 +173,10 @@ TEST_SUITE("solver/mirrored") {
   }
 
   TEST_CASE("bare walls from which blocks detach: the mirrored ones do, no others") {
-    // Seeds 1 to 20 do at 35 degrees; which do not where more falls, docs/decisions.md says.
+    // Of seeds 1 to 20, 17 do at 35 degrees; which do not, docs/decisions.md says.
     std::size_t fallen = 0;
     int off = 0;
-    for (const std::uint64_t seed : {1u, 2u, 4u, 7u}) {
+    for (const std::uint64_t seed : {1u, 4u, 7u, 8u}) {
       const Section section{seed, circular_opening(5, 36), 35, false};
       off += check(section, {mirrored_2d()}, bound);
       fallen += tunnel(section, {}).fallen().size();

@@ -7,11 +7,10 @@
 #include <numeric>
 #include <optional>
 #include <vector>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
-#include <voussoir/geometry/tangent_basis.hpp>
-#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
@@ -139,21 +138,13 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   if (!feet) return lining;
   std::vector<LiningFootSpring<dim>> springs;
   for (const LiningEnd<Geometry>& end : frame.ends) {
-    if (end.body < 0 || run.body(end.body).is_gone)
-      throw InvalidInput(
-          message({"lining: there is no rock under the foot at ", text_of<dim>(end.place),
-                   " m: end the arc on rock, or leave the "
-                   "feet out"}));
-    LiningFootSpring<dim> spring;
-    spring.node = first + end.node;
-    spring.rock = end.body;
+    LiningFootSpring<dim> spring =
+        foot_spring(end, first + end.node, *feet, [&](int b) { return run.body(b).is_gone; });
     const auto k = static_cast<std::size_t>(end.node);
     spring.arm_node = end.place - frame.nodes[k];
     const Pose<dim> rock = run.pose(end.body);
     spring.arm_rock =
         transposed_product(rock.rotation, Vec<dim>(end.place + surface.shift(k) - rock.position));
-    spring.frame << end.direction, tangent_basis(end.direction);
-    spring.area = feet->params().width * end.length;
     springs.push_back(spring);
   }
   run.add_support(std::make_shared<LiningFeet<dim>>(*feet, std::move(springs)));

@@ -119,7 +119,7 @@ class UnloadingInMotion {
       }
       ask_to_go_on(context_);
       take_out(report);
-      if (has_collapsed<dim>(report, context_)) return false;
+      if (has_collapsed<dim>(report, context_) || lining_comes_off(report)) return false;
       if (done >= 1 && rests()) return true;
     }
     report.reason =
@@ -141,6 +141,22 @@ class UnloadingInMotion {
       if (context_.measures != nullptr) report.fallen_measure += (*context_.measures)[index(b)];
     }
     run_.remove(off);
+  }
+
+  /// A lining that slides off its wall as a whole carries nothing and is no block that could be
+  /// taken out.
+  [[nodiscard]] bool lining_comes_off(EquilibriumReport& report) const {
+    for (int b = 0; b < run_.body_count(); ++b) {
+      if (!run_.body(b).movable() || run_.role(b) != BodyRole::lining) continue;
+      const double moved = (run_.position(b) - system_.body(b).centre).norm();
+      if (!(moved > limit_)) continue;
+      report.reason = message({"the lining comes off the wall: at ",
+                               text_of<dim>(system_.body(b).centre), " m it has moved ", moved,
+                               " m, more than the displacement limit; give its ends feet, close "
+                               "it, or bond it to the rock"});
+      return true;
+    }
+    return false;
   }
 
   [[nodiscard]] bool rests() {

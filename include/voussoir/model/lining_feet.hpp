@@ -6,9 +6,12 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/foot_bearing.hpp>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
-#include <voussoir/lining/foot_bearing.hpp>
+#include <voussoir/geometry/tangent_basis.hpp>
+#include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/small_displacement.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -110,6 +113,26 @@ struct LiningFootSpring {
     return l;
   }
 };
+
+/// The spring under an end of a lining, its arms left to be set.
+/// @param node     that the end is, among the bodies
+/// @param is_gone  is_gone(body): that body has fallen
+/// @throws InvalidInput  no rock there
+template <class Geometry, class IsGone>
+[[nodiscard]] LiningFootSpring<Geometry::dim> foot_spring(const LiningEnd<Geometry>& end, int node,
+                                                          const FootBearing& bearing,
+                                                          IsGone&& is_gone) {
+  if (end.body < 0 || is_gone(end.body))
+    throw InvalidInput(
+        message({"lining: there is no rock under the foot at ", text_of<Geometry::dim>(end.place),
+                 " m: end the arc on rock, or leave the feet out"}));
+  LiningFootSpring<Geometry::dim> spring;
+  spring.node = node;
+  spring.rock = end.body;
+  spring.frame << end.direction, tangent_basis(end.direction);
+  spring.area = bearing.params().width * end.length;
+  return spring;
+}
 
 /// The feet of linings.
 template <int Dim>

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/long_vectors.hpp>
-#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>

@@ -10,10 +10,10 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
-#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>

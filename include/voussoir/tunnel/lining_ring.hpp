@@ -144,14 +144,16 @@ template <class Geometry>
   end.place += 0.5 * stretch * direction;
   end.direction = direction;
   end.body = -1;
+  const Point last = end.place;
   const auto look = [&](double ahead, double side) {
-    if (end.body < 0)
-      end.body =
-          body_at<Geometry>(mass, Point(end.place + stretch * (ahead * direction + side * inward)));
+    if (end.body >= 0) return;
+    const Point here = last + stretch * (ahead * direction + side * inward);
+    end.body = body_at<Geometry>(mass, here);
+    if (end.body >= 0) end.place = here;
   };
   for (const double ahead : {0.05, 0.35, 0.65, 1.0}) look(ahead, 0.05);
-  look(0.05, 0);
   look(0.05, -0.05);
+  look(0.05, 0);
   return end;
 }
 

@@ -95,12 +95,17 @@ template <class Solver>
     condition.idle += result.crossings[k] == 0;
     condition.lost += result.crossings[k] > 0 && held[k] == 0;
   }
+  bool is_bonded = false;
+  for (const auto& law : solver.system().interface.laws())
+    if constexpr (requires { law.params().cohesion; })
+      is_bonded = is_bonded || law.params().cohesion > 0;
   const bool is_joined =
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto* lining : solver.linings()) {
     const std::size_t members = lining->members().size();
     condition.lining_lost |= !solver.system().body(lining->first_node()).movable;
-    condition.lining_open |= Solver::dim == 2 && !is_joined && members > 0 &&
+    condition.lining_open |= Solver::dim == 2 && !is_joined && !is_bonded &&
+                             solver.feet().empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
   return condition;
@@ -115,8 +120,9 @@ template <class Solver>
         "more");
   if (condition.lining_open)
     remarks.emplace_back(
-        "the lining is open and its feet stand on nothing: it carries what friction on the rock "
-        "gives it, next to no thrust");
+        "the lining is open and its ends stand on nothing: it carries what friction on the rock "
+        "gives it, next to no thrust; give them feet, or bond it ([support.lining.feet], "
+        "interface.shear_bond)");
   const std::string of_all = " of " + std::to_string(condition.bolts) + " bolts ";
   if (condition.idle > 0)
     remarks.push_back(std::to_string(condition.idle) + of_all + "cross no joint and hold nothing");

@@ -74,7 +74,14 @@ class GlobalSearch {
       find_correction();
       judge(burst);
       if (is_accepted()) {
-        if (rests()) return SearchEnd::decided;
+        const int failed = system_.commit();
+        if (failed == 0 && rests()) return SearchEnd::decided;
+        // A joint fails once, and a bolt breaks once: where that goes from one to the next, every
+        // step of it is progress.
+        if (failed > 0) {
+          prepare();
+          burst = std::min(burst, effort_.max_bursts / 2);
+        }
         continue;
       }
       ask_to_go_on(context_, progress_of(burst));
@@ -140,10 +147,10 @@ class GlobalSearch {
            report_.unbalance_over_weight < context_.acceptance.unbalance_over_weight;
   }
 
-  /// Commits what has slipped. @return  false: a bolt broke, a joint failed, or contacts are
-  /// elsewhere, and one has to look again
+  /// @return  false: contacts are elsewhere, and one has to look again
+  /// @pre  what has slipped is committed, and nothing has failed by that
   bool rests() {
-    if (system_.commit() > 0 || update_when_due(system_, context_, report_, true)) {
+    if (update_when_due(system_, context_, report_, true)) {
       prepare();
       return false;
     }

@@ -8,11 +8,10 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/segment.hpp>
-#include <voussoir/geometry/tangent_basis.hpp>
-#include <voussoir/lining/foot_bearing.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -56,11 +55,12 @@ class LiningAssembly {
       if (node >= 0) standing.push_back(node);
       return node >= 0;
     });
-    if (feet) check_feet(wanted, frame);
     first_node_ = system_.body_count();
+    std::vector<LiningFootSpring<dim>> springs;
+    if (feet) springs = feet_of(wanted, frame, *feet, first_node_);
     add_nodes(frame, node_shares(frame, sections), standing);
     add_members(frame, sections, standing);
-    if (feet && !frame.ends.empty()) add_feet(frame, *feet);
+    if (feet) add_feet(*feet, std::move(springs));
     add_surface(frame, sections, interface_law);
   }
 
@@ -107,28 +107,25 @@ class LiningAssembly {
       system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
   }
 
-  void check_feet(const LiningFrame<Geometry>& wanted, const LiningFrame<Geometry>& frame) const {
+  /// @param first  body that the first node will be
+  [[nodiscard]] std::vector<LiningFootSpring<dim>> feet_of(const LiningFrame<Geometry>& wanted,
+                                                           const LiningFrame<Geometry>& frame,
+                                                           const FootBearing& bearing,
+                                                           int first) const {
     if (wanted.ends.empty())
       throw InvalidInput("lining: it is closed and has no ends that feet could stand under");
-    for (const LiningEnd<Geometry>& end : frame.ends)
-      if (end.body < 0 || system_.body(end.body).is_gone)
-        throw InvalidInput(
-            message({"lining: there is no rock under the foot at ", text_of<dim>(end.place),
-                     " m: end the arc on rock, or leave the feet out"}));
-  }
-  void add_feet(const LiningFrame<Geometry>& frame, const FootBearing& bearing) {
     std::vector<LiningFootSpring<dim>> springs;
     for (const LiningEnd<Geometry>& end : frame.ends) {
-      LiningFootSpring<dim> spring;
-      spring.node = first_node_ + end.node;
-      spring.rock = end.body;
-      spring.arm_node = end.place - system_.body(spring.node).centre;
-      spring.arm_rock = system_.arm(end.body, end.place);
-      spring.frame << end.direction, tangent_basis(end.direction);
-      spring.area = bearing.params().width * end.length;
-      spring.install_at(system_.displacement.data());
-      springs.push_back(spring);
+      springs.push_back(foot_spring(end, first + end.node, bearing,
+                                    [this](int b) { return system_.body(b).is_gone; }));
+      springs.back().arm_node = end.place - frame.nodes[static_cast<std::size_t>(end.node)];
+      springs.back().arm_rock = system_.arm(end.body, end.place);
     }
+    return springs;
+  }
+  void add_feet(const FootBearing& bearing, std::vector<LiningFootSpring<dim>> springs) {
+    if (springs.empty()) return;
+    for (auto& spring : springs) spring.install_at(system_.displacement.data());
     system_.supports.add(std::make_shared<LiningFeet<dim>>(bearing, std::move(springs)));
   }
 

@@ -16,8 +16,8 @@ namespace voussoir {
 /// The bearing of a foot of a lining on rock: elastic up to the bearing strength, then it settles
 /// without more; no tension; friction in the plane of the foot, an elastic shear spring up to it.
 ///
-/// A contact law per area of the foot: a width times a metre of tunnel (2-D), or times the stretch
-/// of the tunnel that a rib stands for.
+/// Per area of the foot, as a contact law is, though no policy to compose with: a width times a
+/// metre of tunnel (2-D), or times the stretch of the tunnel that a rib stands for.
 class FootBearing {
  public:
   struct Params {
@@ -26,7 +26,6 @@ class FootBearing {
     double strength = std::numeric_limits<double>::infinity();  ///< bearing [Pa], > 0
     double friction_angle;                                      ///< [rad], >= 0 and < pi/2
   };
-  using role = roles::ContactLaw;
   static constexpr const char* name = "FootBearing";
   template <int Dim>
   struct State {
@@ -98,7 +97,5 @@ class FootBearing {
   Params params_;
   double friction_coefficient_;
 };
-
-static_assert(ContactLaw<FootBearing, 2> && ContactLaw<FootBearing, 3>);
 
 }  // namespace voussoir
