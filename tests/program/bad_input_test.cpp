@@ -68,11 +68,11 @@ TEST_SUITE("program/bad_input") {
          "E = \"25 GPa\"\nfeet.stiffness = \"2 GPa/m\"",
          {"support.lining.feet", "a full ring has none", "a key arc"}},
         {"E = \"25 GPa\"",
-         "feet = { width = \"20 cm\" }\narc = [\"0 deg\", \"180 deg\"]\nE = \"25 GPa\"",
+         "E = \"25 GPa\"\nfeet = { width = \"20 cm\" }\narc = [\"0 deg\", \"180 deg\"]",
          {"support.lining.feet.stiffness is missing"}},
         {"E = \"25 GPa\"",
-         "feet = { stiffness = \"2 GPa/m\", strength = \"0 MPa\" }\n"
-         "arc = [\"0 deg\", \"180 deg\"]\nE = \"25 GPa\"",
+         "E = \"25 GPa\"\nfeet = { stiffness = \"2 GPa/m\", strength = \"0 MPa\" }\n"
+         "arc = [\"0 deg\", \"180 deg\"]",
          {"support.lining.feet.strength", "0 MPa", "1 kPa"}},
         {"shape = \"circle\"", "shape = \"oval\"", {"tunnel.shape", "oval", "circle"}},
         {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},
