@@ -145,8 +145,8 @@ class LiningFeet : public SupportModel<LiningFeet<Dim>, Dim> {
   using typename Base::StiffnessSink;
   using Spring = LiningFootSpring<Dim>;
 
-  LiningFeet(FootBearing law, std::vector<Spring> springs)
-      : law_(std::move(law)), springs_(std::move(springs)) {}
+  LiningFeet(const FootBearing& law, std::vector<Spring> springs)
+      : law_(law), springs_(std::move(springs)) {}
 
   [[nodiscard]] const FootBearing& law() const { return law_; }
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
