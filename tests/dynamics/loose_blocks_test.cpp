@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -15,6 +17,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 
 #include "support/blocks.hpp"
+#include "support/faults.hpp"
 
 namespace loose_blocks_test {
 
@@ -91,6 +94,18 @@ TEST_SUITE("dynamics/loose_blocks") {
     CHECK(run.velocity(late).y() > 1 - 0.125);
     CHECK(run.velocity(late).y() < 1 + 0.125);
     CHECK(run.body(floor).movable() == false);
+  }
+
+  TEST_CASE("a block that lies in another is named, though it presses on nothing") {
+    Dynamics<2, CoulombJoint> run(CoulombJoint({5e9, 5e8, 0.6}), {.gravity = 0});
+    run.add_fixed_block(rectangle({0, -0.5}, 4, 1));
+    run.add_block(rectangle({1.2, 0.6}, 0.5, 0.5), 2700);
+    run.advance(1e-3);
+    const int late = run.add_block(rectangle({-0.5, 0.2}, 1, 1), 2700);  // 30 cm deep, of 71
+    const std::string text = voussoir_test::fault_of([&] { run.advance_steps(200); });
+    CAPTURE(text);
+    CHECK(voussoir_test::says(text, "block " + std::to_string(late) + " at (-0.5, 0.2) m"));
+    CHECK(voussoir_test::says(text, "by 300 mm, more than 30 %"));
   }
 
   TEST_CASE("a sliver is struck as wide as a corner would crush") {

@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/construction.hpp>
@@ -126,6 +127,47 @@ TEST_SUITE("solver/lining_feet") {
       CHECK(foot.settlement > 0);
     }
     CHECK(load_on_lining(weak).norm() < 1e-3 * most);
+  }
+
+  TEST_CASE("a foot presses and never pulls; it turns with what it stands under") {
+    const FootBearing::State<2> fresh{};
+    const auto at = [](double opening, double slip) {
+      return PointLoad<2>{0.2, {}, {opening, Vec<1>(slip)}};
+    };
+    CHECK(strong.force(at(1e-3, 0), fresh).normal == 0);
+    CHECK(strong.force(at(-1e-3, 0), fresh).normal == doctest::Approx(5e9 * 0.2 * 1e-3));
+    CHECK(strong.force(at(-1e-3, 5e-3), fresh).tangential[0] ==
+          doctest::Approx(-std::tan(30 * degree) * 1e6));
+    // A node above rock, pressed by 1 mm and sheared by 0.1 mm; then all is turned by 50 degrees.
+    LiningFootSpring<2> spring;
+    spring.node = 0;
+    spring.rock = 1;
+    spring.arm_node = {0.1, -0.2};
+    spring.arm_rock = {0.1, 0.8};
+    spring.frame << 0, 1, -1, 0;  // down, to the right
+    spring.area = 0.2;
+    spring.offset = {-1e-3, 1e-4};
+    LiningFeet<2> feet(strong, {spring});
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(6);
+    const auto on_rock = [&] {
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(6);
+      feet.add_forces(still.data(), f.data(), nullptr);
+      CHECK((f.segment<2>(0) + f.segment<2>(3)).norm() < 1e-6);
+      return Vec2(f.segment<2>(3));
+    };
+    const Vec2 before = on_rock();
+    CHECK(before.x() == doctest::Approx(-1e5));
+    CHECK(before.y() == doctest::Approx(-1e6));
+    Pose<2> node, rock, turn;
+    node.position = {0, 1};
+    turn.rotation = rotation_by(Spin<2>(50 * degree));
+    feet.to_frames({node, rock}, still.data());
+    for (Pose<2>* pose : {&node, &rock}) {
+      pose->position = turn.rotation * pose->position;
+      pose->rotation = turn.rotation * pose->rotation;
+    }
+    feet.from_frames({node, rock}, still.data());
+    CHECK((on_rock() - turn.rotation * before).norm() < 1e-6 * before.norm());
   }
 
   TEST_CASE("set in motion, and back at rest, feet bear what they bore") {
