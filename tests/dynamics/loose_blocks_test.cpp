@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loose blocks that nobody picked, dropped and poured: no energy is made, whatever the damping, and
-// nobody passes through anybody. Strikes of every kind are damped with the ratio asked for.
+// nobody passes through anybody. Impacts of every kind are damped with the ratio asked for.
 #include "support/loose_blocks.hpp"
 
 #include <doctest/doctest.h>
@@ -30,10 +30,10 @@ namespace {
 
 using Dims = std::tuple<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 
-/// Two bodies that strike each other once: how fast the points that touch part again, over how fast
+/// One impact of two bodies: how fast the points that touch part again, over how fast
 /// they met [-].
 template <int Dim>
-struct Strike {
+struct OneImpact {
   static constexpr double zeta = 0.2;
   Dynamics<Dim, CoulombJoint> run{
       CoulombJoint({5e9, 5e8, 0}),
@@ -141,10 +141,10 @@ TEST_SUITE("dynamics/loose_blocks") {
 
   // Within 1 %: a dashpot sees the velocity of half a step ago, zeta omega h / 2 = 2e-3, and the
   // arm turns a little while it is struck.
-  TEST_CASE("strikes of every kind are damped with the ratio asked for") {
-    const double exact = restitution(Strike<2>::zeta);
+  TEST_CASE("impacts of every kind are damped with the ratio asked for") {
+    const double exact = restitution(OneImpact<2>::zeta);
     SUBCASE("flat, on a smooth wall") {
-      Strike<2> it;
+      OneImpact<2> it;
       it.run.add_wall(rectangle({0, -0.5}, 4, 1));
       const int b = it.run.add_block(rectangle({0, 0.5001}, 1, 1), 2700);
       it.run.set_velocity(b, {0, -1});
@@ -153,7 +153,7 @@ TEST_SUITE("dynamics/loose_blocks") {
     SUBCASE("with a corner on a face, in the middle and beside it") {
       for (const double angle : {0.25 * std::numbers::pi, 0.5, 1.0}) {
         CAPTURE(angle);
-        Strike<2> it;
+        OneImpact<2> it;
         it.run.add_fixed_block(rectangle({0, -0.5}, 4, 1));
         const auto shape = rectangle({0, 2}, 1, 0.7, angle);
         Vec2 low = shape.vertex(0);
@@ -170,7 +170,7 @@ TEST_SUITE("dynamics/loose_blocks") {
       const Rotation<3> on_corner = rotation_by(Spin<3>(0.5, 0.4, 0.2));
       const Rotation<3> on_edge = rotation_by(Spin<3>(0, 0.6, 0));
       for (const Rotation<3>& turn : {on_corner, on_edge}) {
-        Strike<3> it;
+        OneImpact<3> it;
         it.run.add_fixed_block(brick({0, 0, -0.5}, {4, 4, 1}));
         const auto shape = brick({0, 0, 2}, {1, 0.8, 0.6}, turn);
         double low = 2;
@@ -190,7 +190,7 @@ TEST_SUITE("dynamics/loose_blocks") {
         CHECK(it.parting(b, arm, {0, 0, 1}, 0.02) == doctest::Approx(exact).epsilon(0.01));
       }
       // Two ridges that cross at right angles.
-      Strike<3> it;
+      OneImpact<3> it;
       const double half = 0.5 * std::sqrt(2);
       it.run.add_fixed_block(brick({0, 0, -half}, {2, 1, 1}, rotation_by(Spin<3>(0.785398, 0, 0))));
       const int b = it.run.add_block(
@@ -199,7 +199,7 @@ TEST_SUITE("dynamics/loose_blocks") {
       CHECK(it.parting(b, {0, 0, -half}, {0, 0, 1}, 0.03) == doctest::Approx(exact).epsilon(0.01));
     }
     SUBCASE("on a node of a lining") {
-      Strike<2> it;
+      OneImpact<2> it;
       const int b = it.run.add_block(rectangle({0, 0.6}, 1, 1), 2700);
       const int node = it.run.add_lining_nodes(
           {{{0, 0}, {rectangle({0, 0}, 1, 0.198)}, 500, Spin<2>(40)}}, CoulombJoint({5e9, 5e8, 0}));

@@ -14,7 +14,7 @@
 namespace voussoir {
 
 /// The bearing of a foot of a lining on rock: elastic up to the bearing strength, then it settles
-/// without more; no tension; friction in the plane of the foot, an elastic shear spring up to it.
+/// without more; no tension; friction along its base, an elastic shear spring up to it.
 ///
 /// Per area of the foot, as a contact law is, though no policy to compose with: a width times a
 /// metre of tunnel (2-D), or times the stretch of the tunnel that a rib stands for.

@@ -263,12 +263,13 @@ class Dynamics : public MovingBodies<Dim> {
 
   [[nodiscard]] double longest_step() {
     const std::vector<double> sums = stiffness_over_mass();
+    const std::vector<double>& damping = network_.rates(bodies_).damping();
     return detail::stable_time_step(*std::max_element(sums.begin(), sums.end()),
-                                    network_.damping_over_mass(bodies_), settings_);
+                                    *std::max_element(damping.begin(), damping.end()), settings_);
   }
   /// Of every body, all others fixed [1/s^2].
   [[nodiscard]] std::vector<double> stiffness_over_mass() {
-    std::vector<double> sums = network_.stiffness_over_mass(bodies_);
+    std::vector<double> sums = network_.rates(bodies_).stiffness();
     supports_.add_stiffness_over_mass(bodies_, sums);
     return sums;
   }

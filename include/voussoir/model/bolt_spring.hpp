@@ -113,14 +113,6 @@ struct BoltSpring {
     return transposed_product(frame.rotation, v);
   }
   using Lever = Fixed<dof, Dim>;
-  [[nodiscard]] static Lever lever(const Vec<Dim>& arm) {
-    Lever l;
-    for (int k = 0; k < Dim; ++k) {
-      const Vec<Dim> axis = axis_vector<Dim>(k);
-      set_column(l, k, stacked(axis, moment_of(arm, axis)));
-    }
-    return l;
-  }
   /// Of a part of the force with respect to a part of the span, times the share.
   [[nodiscard]] Stress<Dim> derivative(const Law& spring, const BoltSpan<Dim>& at,
                                        const typename Law::State& remembered,
@@ -141,7 +133,8 @@ struct BoltSpring {
   }
   template <class Sink>
   void hand_over(const Stress<Dim>& pull, const Stress<Dim>& dowel, Sink&& sink) const {
-    const Lever pa = lever(arm_a), pb = lever(arm_b), da = lever(joint_a), db = lever(joint_b);
+    const Lever pa = lever_matrix<Dim>(arm_a), pb = lever_matrix<Dim>(arm_b),
+                da = lever_matrix<Dim>(joint_a), db = lever_matrix<Dim>(joint_b);
     const auto block = [&](const Lever& p, const Lever& q, const Lever& d, const Lever& e) {
       return Block(p * pull * transposed(q) + d * dowel * transposed(e));
     };

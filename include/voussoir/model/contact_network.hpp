@@ -17,13 +17,15 @@
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/body_rates.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
 #include <voussoir/model/detail/contact_springs.hpp>
 #include <voussoir/model/detail/contact_sums.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
+#include <voussoir/model/detail/impact.hpp>
 #include <voussoir/model/detail/kept_shear.hpp>
+#include <voussoir/model/detail/left_contact.hpp>
 #include <voussoir/model/detail/limited_energy.hpp>
-#include <voussoir/model/detail/strike.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
@@ -44,7 +46,6 @@ class ContactNetwork {
   using Walls = MovingContacts<Dim, SmoothWall>;
   using Interface = MovingContacts<Dim, InterfaceLaw>;
   using Tracker = ContactTracker<Dim, Detector>;
-  static constexpr int dof = Dim + spin_count<Dim>;
 
   template <class Law>
   using Former = detail::FormerContacts<Dim, typename Law::template State<Dim>>;
@@ -130,9 +131,7 @@ class ContactNetwork {
   bool find(Tracker& tracker, const Bodies& bodies, const std::vector<BodyRole>& roles,
             CutOf&& cut_of, double& gained) {
     // Bodies may have come since.
-    is_stale_.resize(bodies.size(), 1);
-    stiffest_.resize(bodies.size(), 0);
-    most_damped_.resize(bodies.size(), 0);
+    rates_.resize(bodies.size());
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
                                        cut_of,  gained, !sums_.is_listed(bodies.size())};
     detail::ContactShares<Dim, Tracker> shares(tracker);
@@ -161,7 +160,7 @@ class ContactNetwork {
     shares.join([&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
       const std::pair<int, int> both =
           std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b));
-      if (std::exchange(bodies_of_last, both) != both) held = energy_of(left, both);
+      if (std::exchange(bodies_of_last, both) != both) held = detail::energy_left(left, both);
       take_nearest(update, left, pair, found);
       renew(update, pair, found, area, held);
       held = std::max(0.0, held - energy_of(update, pair));
@@ -205,18 +204,21 @@ class ContactNetwork {
   }
 
   /// Bodies have other masses from now on.
-  void forget_masses() { std::fill(is_stale_.begin(), is_stale_.end(), char{1}); }
-
-  /// A bound on the largest eigenvalue of M^-1 K of every body, all others fixed, its contacts
-  /// closed and sticking: the largest sum of a row [1/s^2].
-  [[nodiscard]] const std::vector<double>& stiffness_over_mass(const Bodies& bodies) {
-    bring_up_to_date(bodies);
-    return stiffest_;
-  }
-  /// The same of the dashpots: of M^-1 C, the largest of all bodies [1/s].
-  [[nodiscard]] double damping_over_mass(const Bodies& bodies) {
-    bring_up_to_date(bodies);
-    return *std::max_element(most_damped_.begin(), most_damped_.end());
+  void forget_masses() { rates_.forget(); }
+  /// How stiffly contacts hold every body, up to date.
+  const detail::BodyRates<Dim>& rates(const Bodies& bodies) {
+    rates_.update(bodies, [&](std::size_t b, auto& stiffness, auto& damping) {
+      for (const auto& end : sums_.ends_of(b)) {
+        std::size_t before = 0;
+        each_group([&](const auto& group) {
+          const std::size_t k = end.contact - before;  // wraps where it is of a group before
+          if (k < group.size())
+            detail::add_springs<Dim>(group, k, end.end == 1, bodies, stiffness, damping);
+          before += group.size();
+        });
+      }
+    });
+    return rates_;
   }
 
  private:
@@ -272,16 +274,7 @@ class ContactNetwork {
           cut_of);
     }
   };
-  /// A contact that was, of bodies of several parts: taken up again or dropped.
-  struct Left {
-    std::pair<int, int> bodies;  ///< the lower first
-    std::size_t kind;
-    std::int32_t contact;  ///< -1: taken up
-    double held;           ///< energy of its springs [J]
-    [[nodiscard]] bool operator<(const Left& other) const {
-      return std::tie(bodies, contact) < std::tie(other.bodies, other.contact);
-    }
-  };
+  using Left = detail::LeftContact;
 
   /// Of the springs of a pair's contact [J]; 0 without.
   template <class U>
@@ -293,16 +286,6 @@ class ContactNetwork {
       });
     return held;
   }
-  /// Of all contacts that two bodies had. @param left  in order
-  [[nodiscard]] static double energy_of(const std::vector<Left>& left,
-                                        const std::pair<int, int>& bodies) {
-    auto it = std::lower_bound(left.begin(), left.end(), bodies,
-                               [](const Left& x, const auto& value) { return x.bodies < value; });
-    double sum = 0;
-    for (; it != left.end() && it->bodies == bodies; ++it) sum += it->held;
-    return sum;
-  }
-
   /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
   template <class U>
   void take_nearest(const U& update, std::vector<Left>& left, Pair& pair,
@@ -336,7 +319,7 @@ class ContactNetwork {
       contact.last = contact.first;
     });
     ++unused_;
-    is_stale_[index(it.bodies.first)] = is_stale_[index(it.bodies.second)] = 1;
+    for (const int b : {it.bodies.first, it.bodies.second}) rates_.forget(b);
     update.relisted = update.changed = true;
   }
 
@@ -384,14 +367,17 @@ class ContactNetwork {
     if (renewal.keeps_history())
       detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
                               !known, contact, bodies, points);
-    if (has_started_ && !points.empty()) {
-      contact.least_area =
-          known && held > 0 ? old->least_area : least_area(group, contact, points, bodies);
-      widen(contact, points);
-      detail::limit_energy<Dim>(group, contact, bodies, points, held);
+    if (!points.empty()) {
+      const auto impact = detail::Impact<Dim>::at(contact, points, bodies);
+      const double per_area = group.law_of(contact).joint_normal_stiffness();
+      if (has_started_) {
+        contact.least_area = known && held > 0 ? old->least_area : impact.least_area(per_area);
+        detail::widen(contact, points);
+        detail::limit_energy<Dim>(group, contact, bodies, points, held);
+      }
+      if (viscous_damping_ > 0)
+        contact.viscosity = impact.viscosity(viscous_damping_, per_area * detail::area_of(points));
     }
-    if (viscous_damping_ > 0 && !points.empty())
-      contact.viscosity = viscosity(group, contact, points, bodies);
     return put(update, group, pair, contact, points);
   }
 
@@ -408,7 +394,7 @@ class ContactNetwork {
     const bool fits = group.put(pair.contact, contact, points);
     if (known && !fits) ++unused_;
     update.gained += group.stored_energy(index(pair.contact), bodies);
-    is_stale_[index(contact.a)] = is_stale_[index(contact.b)] = 1;
+    for (const int b : {contact.a, contact.b}) rates_.forget(b);
     return same_side && fits;
   }
 
@@ -426,37 +412,6 @@ class ContactNetwork {
     Vec<Dim> sum = zeros<Vec<Dim>>();
     for (const Vec<Dim>& p : found.polygon) sum += p;
     return sum / static_cast<double>(found.polygon.size());
-  }
-
-  template <class Points>
-  [[nodiscard]] static double area_of(const Points& points) {
-    double sum = 0;
-    for (const auto& p : points) sum += p.weight;
-    return sum;
-  }
-  /// Dashpot over stiffness so that two blocks that strike each other in the middle of this
-  /// contact's points are damped with the ratio wanted: c / k = 2 zeta sqrt(m / k) [s].
-  template <class Group, class Points>
-  [[nodiscard]] double viscosity(const Group& group, const MovingContact<Dim>& c,
-                                 const Points& points, const Bodies& bodies) const {
-    const double stiffness = group.law_of(c).joint_normal_stiffness() * area_of(points);
-    return 2 * viscous_damping_ *
-           std::sqrt(detail::Strike<Dim>::at(c, points, bodies).mass / stiffness);
-  }
-  template <class Group, class Points>
-  [[nodiscard]] static double least_area(const Group& group, const typename Group::Contact& c,
-                                         const Points& points, const Bodies& bodies) {
-    return detail::Strike<Dim>::at(c, points, bodies)
-        .least_area(group.law_of(c).joint_normal_stiffness());
-  }
-  /// Gives the points of a strike that meets less than its least area what is missing.
-  template <class Points>
-  static void widen(const MovingContact<Dim>& c, Points& points) {
-    const double area = area_of(points);
-    if (!(area < c.least_area)) return;
-    for (auto& p : points)
-      if (p.initial.normal != 0) return;
-    for (auto& p : points) p.weight *= c.least_area / area;
   }
 
   /// Lists every body's contacts; those without points are on no list.
@@ -479,31 +434,6 @@ class ContactNetwork {
     unused_ = 0;
   }
 
-  /// Stiffness and damping over mass, of bodies whose contacts have changed.
-  void bring_up_to_date(const Bodies& bodies) {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (is_stale_[b]) {
-        is_stale_[b] = 0;
-        stiffest_[b] = most_damped_[b] = 0;
-        if (bodies[b].movable()) bound_rates_of(b, bodies);
-      }
-  }
-  /// Of a body, all others fixed, its contacts closed and sticking.
-  void bound_rates_of(std::size_t b, const Bodies& bodies) {
-    Fixed<dof, dof> stiffness = zeros<Fixed<dof, dof>>(), damping = stiffness;
-    for (const auto& end : sums_.ends_of(b)) {
-      std::size_t before = 0;
-      each_group([&](const auto& group) {
-        const std::size_t k = end.contact - before;  // wraps where it is of a group before
-        if (k < group.size())
-          detail::add_springs<Dim>(group, k, end.end == 1, bodies, stiffness, damping);
-        before += group.size();
-      });
-    }
-    stiffest_[b] = detail::largest_row(stiffness);
-    most_damped_[b] = detail::largest_row(damping);
-  }
-
   std::tuple<Joints, Walls, Interface> groups_;
   std::tuple<Former<JointLaw>, Former<SmoothWall>, Former<InterfaceLaw>> former_;
   bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
@@ -514,9 +444,7 @@ class ContactNetwork {
   double viscous_damping_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
   detail::ContactSums<Dim> sums_;
-  std::vector<char> is_stale_;       ///< contacts of the body have changed since `stiffest_`
-  std::vector<double> stiffest_;     ///< [1/s^2]
-  std::vector<double> most_damped_;  ///< [1/s]
+  detail::BodyRates<Dim> rates_;
 };
 
 }  // namespace voussoir

@@ -65,7 +65,7 @@ struct LiningFootSpring {
   template <class Sink>
   void hand_over(const Stress<Dim>& local, Sink&& sink) const {
     const Stress<Dim> k = frame * local * transposed(frame);
-    const Lever n = lever(arm_node), r = lever(arm_rock);
+    const Lever n = lever_matrix<Dim>(arm_node), r = lever_matrix<Dim>(arm_rock);
     using Block = Fixed<dof, dof>;
     const auto block = [&](const Lever& p, const Lever& q) { return Block(p * k * transposed(q)); };
     sink(node, rock, block(n, n), Block(-block(n, r)), Block(-block(r, n)), block(r, r));
@@ -101,16 +101,6 @@ struct LiningFootSpring {
     arm_rock = of_rock.rotation * arm_rock;
     offset = zeros<Vec<Dim>>();
     offset = now - motion_at(u);
-  }
-
- private:
-  [[nodiscard]] static Lever lever(const Vec<Dim>& arm) {
-    Lever l;
-    for (int k = 0; k < Dim; ++k) {
-      const Vec<Dim> axis = axis_vector<Dim>(k);
-      set_column(l, k, stacked(axis, moment_of(arm, axis)));
-    }
-    return l;
   }
 };
 

@@ -37,7 +37,7 @@ struct MovingContact {
   bool is_centred = false;   ///< touches in the middle alone: a lining that was installed at rest
   double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
   double uncounted = 0;      ///< of the overlap, that presses on no spring (`limit_energy`) [m]
-  double least_area = 0;     ///< its points' together, since it was struck (`Strike`) [m], [m^2]
+  double least_area = 0;     ///< its points' together, since the impact (`Impact`) [m], [m^2]
 
   /// Where its frame is with its bodies at these poses, and what follows from that.
   struct Place {

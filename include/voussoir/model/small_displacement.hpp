@@ -21,4 +21,15 @@ void add_force_at(double* body, const Vec<Dim>& arm, const Vec<Dim>& force) {
   add_at<spin_count<Dim>>(body + Dim, moment_of(arm, force));
 }
 
+/// What unit forces along the axes at `arm` from the centre are to a body: force and moment.
+template <int Dim>
+[[nodiscard]] Fixed<Dim + spin_count<Dim>, Dim> lever_matrix(const Vec<Dim>& arm) {
+  Fixed<Dim + spin_count<Dim>, Dim> lever;
+  for (int k = 0; k < Dim; ++k) {
+    const Vec<Dim> axis = axis_vector<Dim>(k);
+    set_column(lever, k, stacked(axis, moment_of(arm, axis)));
+  }
+  return lever;
+}
+
 }  // namespace voussoir

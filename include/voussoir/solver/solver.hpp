@@ -19,7 +19,6 @@
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
-#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -90,8 +89,7 @@ class ComposedSolver {
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]; by default
   ///                        see `smallest_piece_of`
   /// @param progress        asked now and then whether to go on
-  /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt or a lining that
-  /// stands
+  /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt or lining that stands
   ///                        holds rock in it; the solver is as it was
   /// @throws Stopped        the same, but before the first round: the solver is then of no more use
   void excavate(const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
@@ -204,10 +202,6 @@ class ComposedSolver {
   [[nodiscard]] std::vector<const LiningType*> linings() const {
     return system_.supports.template all<LiningType>();
   }
-  /// Of those that have feet, in that order.
-  [[nodiscard]] std::vector<const LiningFeet<dim>*> feet() const {
-    return system_.supports.template all<LiningFeet<dim>>();
-  }
   /// The first of them; null without lining.
   [[nodiscard]] const LiningType* lining() const {
     return system_.supports.template first<LiningType>();
@@ -217,8 +211,7 @@ class ComposedSolver {
   [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
-  /// Number of the first node of the first lining among the bodies of the system; -1 without
-  /// lining.
+  /// Number of the first lining's first node among the bodies of the system; -1 without lining.
   [[nodiscard]] int first_lining_node() const {
     return lining() != nullptr ? lining()->first_node() : -1;
   }

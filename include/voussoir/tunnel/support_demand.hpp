@@ -105,7 +105,7 @@ template <class Solver>
     const std::size_t members = lining->members().size();
     condition.lining_lost |= !solver.system().body(lining->first_node()).movable;
     condition.lining_open |= Solver::dim == 2 && !is_joined && !is_bonded &&
-                             solver.feet().empty() && members > 0 &&
+                             foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
   return condition;

@@ -10,6 +10,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 
 namespace voussoir {
@@ -74,7 +75,7 @@ template <int Dim>
 struct FootForce {
   Vec<Dim> place;      ///< where it was installed, in the in-situ state [m]
   double bearing;      ///< on the rock, compression [N]
-  double shear;        ///< in the plane of the foot, magnitude [N]
+  double shear;        ///< along its base, magnitude [N]
   double utilisation;  ///< bearing pressure over bearing strength, 0 to 1 [-]
   double settlement;   ///< that would stay if it were let go [m]
 };
@@ -83,7 +84,7 @@ template <class Solver, int Dim = Solver::SystemType::dim>
 [[nodiscard]] std::vector<FootForce<Dim>> foot_forces(const Solver& solver) {
   std::vector<FootForce<Dim>> forces;
   const auto& system = solver.system();
-  for (const auto* feet : solver.feet())
+  for (const auto* feet : system.supports.template all<LiningFeet<Dim>>())
     for (const auto& foot : feet->springs()) {
       const Vec<Dim> force = foot.force(feet->law(), foot.motion_at(system.displacement.data()));
       const Pose<Dim> then = system.pose_at_update(foot.rock);
