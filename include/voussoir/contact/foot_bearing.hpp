@@ -26,7 +26,6 @@ class FootBearing {
     double strength = std::numeric_limits<double>::infinity();  ///< bearing [Pa], > 0
     double friction_angle;                                      ///< [rad], >= 0 and < pi/2
   };
-  static constexpr const char* name = "FootBearing";
   template <int Dim>
   struct State {
     double settlement = 0;                              ///< that stays [m]
@@ -89,9 +88,6 @@ class FootBearing {
     return 0.5 * (now.normal * now.normal + now.tangential.squaredNorm()) /
            (params_.stiffness * load.weight);
   }
-
-  [[nodiscard]] double joint_normal_stiffness() const { return params_.stiffness; }
-  [[nodiscard]] double joint_shear_stiffness() const { return params_.stiffness; }
 
  private:
   Params params_;
