@@ -28,6 +28,7 @@
 #include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/laboratory/elastic_moduli.hpp>
 #include <voussoir/laboratory/generation_stage.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/lining/beams.hpp>
@@ -54,6 +55,7 @@
 #include <voussoir/theory/smeared_bolts.hpp>
 #include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/boundary_bias.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>

@@ -11,6 +11,8 @@
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/farfield/far_field.hpp>
+#include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
@@ -32,17 +34,24 @@ namespace voussoir {
 ///
 /// @tparam InterfaceLaw  of the linings that it may get
 /// @tparam Detector      of contacts, as in a solver
+/// @param far_field      what the sides of the domain meet
 template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class Geometry,
           class JointLaw>
 [[nodiscard]] auto moving_rock(const RockMass<Geometry>& mass, const LawsBySet<JointLaw>& laws,
-                               const InSitu& in_situ, DynamicsSettings settings = {}) {
+                               const InSitu& in_situ, DynamicsSettings settings = {},
+                               const FarField<Geometry::dim>& far_field = {}) {
   in_situ.check();
+  far_field.check();
   settings.gravity = in_situ.gravity;
   System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
       laws, laws.stiffest());
   std::vector<double> measures;
-  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, settings.points, system);
-  model.run(std::make_shared<const RockMass<Geometry>>(mass), laws, measures);
+  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, far_field, settings.points,
+                                                         system);
+  std::shared_ptr<const GroundAround<Geometry::dim>> around;
+  if (far_field.has(Boundary::elastic))
+    around = std::make_shared<const GroundAround<Geometry::dim>>(mass.domain, far_field);
+  model.run(std::make_shared<const RockMass<Geometry>>(mass), laws, around, measures);
   auto run = set_in_motion(system, settings);
   run.hold();
   return run;
@@ -51,8 +60,10 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
 template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class Geometry,
           class JointLaw>
 [[nodiscard]] auto moving_rock(const RockMass<Geometry>& mass, const JointLaw& law,
-                               const InSitu& in_situ, DynamicsSettings settings = {}) {
-  return moving_rock<InterfaceLaw, Detector>(mass, LawsBySet<JointLaw>(law), in_situ, settings);
+                               const InSitu& in_situ, DynamicsSettings settings = {},
+                               const FarField<Geometry::dim>& far_field = {}) {
+  return moving_rock<InterfaceLaw, Detector>(mass, LawsBySet<JointLaw>(law), in_situ, settings,
+                                             far_field);
 }
 
 /// Installs bolts in the rock as it lies now, free of force but for their pretension.

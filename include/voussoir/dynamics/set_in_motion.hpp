@@ -11,6 +11,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/model/detail/contact_frames.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
+#include <voussoir/model/elastic_edge.hpp>
 #include <voussoir/model/system.hpp>
 
 namespace voussoir {
@@ -42,9 +43,12 @@ class Handover {
     if (system.shapes == nullptr)
       throw InvalidInput("set in motion: the model does not know the shapes of its bodies");
     std::size_t known = system.shapes->size();
+    if (const auto* edge = system.supports.template first<ElasticEdge<dim>>())
+      known += static_cast<std::size_t>(edge->node_count());
     for (const auto& lining : system.linings) known += lining.surface.node_count();
     require(static_cast<int>(known) == system.body_count(), "bodies of the model",
-            system.body_count(), "blocks, the ground and nodes of linings, which have shapes");
+            system.body_count(),
+            "blocks, the ground, nodes of an elastic far field and of linings");
   }
 
   void add_bodies(Run& run) const {
@@ -58,6 +62,7 @@ class Handover {
       else
         run.add_wall(shapes, body.centre);
     }
+    add_nodes_around(run);
     for (const auto& lining : system_.linings) {
       std::vector<LiningNode<dim>> nodes;
       for (std::size_t k = 0; k < lining.surface.node_count(); ++k) {
@@ -73,6 +78,20 @@ class Handover {
     for (int b = 0; b < system_.body_count(); ++b) {
       run.place(b, system_.motion_of(b));
       if (system_.body(b).is_gone) run.leave_out(b);
+    }
+  }
+
+  /// The elastic ground beyond the domain: its nodes weigh together as much as the rock, and are
+  /// carried.
+  void add_nodes_around(Run& run) const {
+    const auto* edge = system_.supports.template first<ElasticEdge<dim>>();
+    if (edge == nullptr) return;
+    double weight = 0;
+    for (int b = 0; b < edge->first_node(); ++b) weight += system_.body(b).weight;
+    const double mass = weight / (run.settings().gravity * edge->node_count());
+    for (int k = 0; k < edge->node_count(); ++k) {
+      const auto& body = system_.body(edge->first_node() + k);
+      run.add_node(body.centre, mass, all_entries<dof - dim>(mass * body.gyration * body.gyration));
     }
   }
 

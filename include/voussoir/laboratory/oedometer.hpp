@@ -8,6 +8,7 @@
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/farfield/far_field.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
@@ -61,8 +62,9 @@ struct Press {
     // The stress is that of the platen alone; the weight is what an out-of-balance force is
     // compared with, that of the stresses that are meant.
     const InSitu meant{.density = 1e4, .gravity = 1};
-    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, ContactPoints::gauss,
-                                                             system);
+    const FarField<dim> rollers;
+    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, rollers,
+                                                             ContactPoints::gauss, system);
     model.add_bodies(measures);
     model.add_contacts(LawsBySet<JointLaw>(joint_law));
     std::fill(system.load.data(), system.load.data() + system.load.size(), 0.0);

@@ -11,6 +11,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/farfield/far_field.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
@@ -25,9 +26,22 @@ namespace voussoir {
 struct WallMotion {
   double angle;  ///< of its middle about `centre_of` the opening, anticlockwise from the right-hand
                  ///< springing [rad], 0 to 2 pi
-  double length;       ///< [m]; in 3-D its area [m^2]
-  double convergence;  ///< towards the axis of the tunnel, positive inwards [m]
+  double length;               ///< [m]; in 3-D its area [m^2]
+  double convergence;          ///< towards the axis of the tunnel, positive inwards [m]
+  Vec2 moved = zeros<Vec2>();  ///< in the section: to the right, up [m]
 };
+
+/// Mean displacement of the wall, pieces by their length: that of the opening as a whole [m]. Not a
+/// number without a wall.
+[[nodiscard]] inline Vec2 mean_displacement(const std::vector<WallMotion>& wall) {
+  Vec2 sum = zeros<Vec2>();
+  double length = 0;
+  for (const WallMotion& piece : wall) {
+    sum += piece.length * piece.moved;
+    length += piece.length;
+  }
+  return sum / length;
+}
 
 namespace detail {
 
@@ -56,7 +70,7 @@ template <class Geometry, class IsCounted, class Displacement>
     double angle = std::atan2(p.y(), p.x());
     if (angle < 0) angle += 2 * std::numbers::pi;
     VOUSSOIR_ASSERT(angle >= 0 && angle <= 2 * std::numbers::pi, "a full circle has all angles");
-    motion.push_back({angle, piece.facet.measure(), -u.dot(normalized(p))});
+    motion.push_back({angle, piece.facet.measure(), -u.dot(normalized(p)), u});
   }
   return motion;
 }
@@ -122,36 +136,54 @@ template <class Geometry, class... Parts>
                                                     double half_window = std::numbers::pi / 15);
 
 /// Convergence of the four named places of the wall [m].
+///
+/// Where the base of the domain is elastic ground, against the mean displacement of the wall: in
+/// 2-D the rise of an opening as a whole, whose rock weighs no more, has no end (`GroundAround`).
 struct Convergence {
   double crown, right_springing, left_springing, invert;
+  double rise = 0;  ///< mean upward displacement of the wall
+
+  [[nodiscard]] double upright() const { return crown + invert; }
+  [[nodiscard]] double across() const { return right_springing + left_springing; }
 };
-[[nodiscard]] inline Convergence convergence_of(const std::vector<WallMotion>& wall) {
+/// @param of_whole  displacement that does not count [m]
+[[nodiscard]] inline Convergence convergence_of(const std::vector<WallMotion>& wall,
+                                                const Vec2& of_whole = zeros<Vec2>()) {
   constexpr double right = 0.5 * std::numbers::pi;
-  return {convergence_at(wall, right), convergence_at(wall, 0.0), convergence_at(wall, 2 * right),
-          convergence_at(wall, 3 * right)};
+  return {convergence_at(wall, right) + of_whole.y(), convergence_at(wall, 0.0) + of_whole.x(),
+          convergence_at(wall, 2 * right) - of_whole.x(),
+          convergence_at(wall, 3 * right) - of_whole.y(), mean_displacement(wall).y()};
 }
+namespace detail {
+template <class Solver>
+[[nodiscard]] Convergence convergence_in(const Solver& solver,
+                                         const std::vector<WallMotion>& wall) {
+  const bool is_fixed = solver.far_field().at(SideOf<Solver::dim>::bottom) == Boundary::rollers;
+  return convergence_of(wall, is_fixed ? zeros<Vec2>() : mean_displacement(wall));
+}
+}  // namespace detail
 template <class Solver>
 [[nodiscard]] Convergence convergence(const Solver& solver) {
-  return convergence_of(wall_motion(solver));
+  return detail::convergence_in(solver, wall_motion(solver));
 }
 /// Of any opening, the outline of several rounds among them.
 template <class Solver>
 [[nodiscard]] Convergence convergence(const Solver& solver,
                                       const typename Solver::Geometry::Opening& opening) {
-  return convergence_of(wall_motion(solver, opening));
+  return detail::convergence_in(solver, wall_motion(solver, opening));
 }
 /// In 3-D at a section of an opening: of the wall within `half_length` of it.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] Convergence
     convergence(const Solver& solver, const PrismaticOpening& opening, double section,
                 double half_length = 1) {
-  return convergence_of(wall_motion(solver, opening, section, half_length));
+  return detail::convergence_in(solver, wall_motion(solver, opening, section, half_length));
 }
 /// The same of the last opening.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] Convergence
     convergence(const Solver& solver, double section, double half_length = 1) {
-  return convergence_of(wall_motion(solver, section, half_length));
+  return detail::convergence_in(solver, wall_motion(solver, section, half_length));
 }
 /// Of rock that moves.
 template <class Geometry, class... Parts>

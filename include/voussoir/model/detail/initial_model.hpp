@@ -9,7 +9,10 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/progress.hpp>
+#include <voussoir/farfield/far_field.hpp>
+#include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/model/contact_points.hpp>
+#include <voussoir/model/elastic_edge.hpp>
 #include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
@@ -29,16 +32,20 @@ template <class Detector, class Geometry>
   }
 }
 
-/// The shapes of the bodies and, last, of the ground around the domain. They keep the rock alive.
+/// The shapes of the bodies and, last, of the ground around the domain, where that is rollers. They
+/// keep the rock alive.
 template <class System>
 [[nodiscard]] std::shared_ptr<const typename System::Shapes> shapes_of(
-    std::shared_ptr<const RockMass<typename System::GeometryType>> mass) {
+    std::shared_ptr<const RockMass<typename System::GeometryType>> mass,
+    const FarField<System::dim>& far_field) {
   struct Shapes {
     std::shared_ptr<const RockMass<typename System::GeometryType>> mass;
     decltype(edge_slabs(mass->domain)) slabs;
     typename System::Shapes of_body;
   };
-  auto slabs = edge_slabs(mass->domain);
+  auto slabs = edge_slabs(mass->domain, [&](int axis, bool upper) {
+    return far_field.at(axis, upper) == Boundary::rollers;
+  });
   const auto shapes = std::make_shared<Shapes>(Shapes{std::move(mass), std::move(slabs), {}});
   shapes->of_body.reserve(shapes->mass->bodies.size() + 1);
   for (const auto& body : shapes->mass->bodies) shapes->of_body.emplace_back(body.parts);
@@ -55,11 +62,13 @@ class InitialModel {
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
-  /// Rock and model must outlive this.
-  InitialModel(const RockMass<Geometry>& mass, const InSitu& in_situ, ContactPoints points,
-               System& system, Progress progress = {})
+  /// Rock and model must outlive this, and the far field.
+  InitialModel(const RockMass<Geometry>& mass, const InSitu& in_situ,
+               const FarField<dim>& far_field, ContactPoints points, System& system,
+               Progress progress = {})
       : mass_(mass),
         in_situ_(in_situ),
+        far_field_(far_field),
         kind_(points),
         system_(system),
         progress_(std::move(progress)),
@@ -67,15 +76,18 @@ class InitialModel {
 
   /// All of it.
   /// @param mass      the same as above, to be kept alive for its shapes
+  /// @param around    the elastic ground beyond; null: there is none
   /// @param measures  of bodies, in place of what is there [m^2 or m^3]
   template <class LawsOfSets>
   void run(std::shared_ptr<const RockMass<Geometry>> mass, const LawsOfSets& laws,
-           std::vector<double>& measures) {
+           std::shared_ptr<const GroundAround<dim>> around, std::vector<double>& measures) {
     add_bodies(measures);
     add_contacts(laws);
     add_edges();
-    system_.shapes = shapes_of<System>(std::move(mass));
+    system_.shapes = shapes_of<System>(std::move(mass), far_field_);
     set_initial_stress();
+    if (around != nullptr) glue_to(std::move(around));
+    measures.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
   }
 
   /// The bodies, and as the last the ground, which is fixed.
@@ -120,21 +132,52 @@ class InitialModel {
     system_.law_of_cut = std::make_shared<const std::vector<int>>(std::move(law_of_cut));
   }
 
-  /// The surcharge on the top; contacts with the ground at the other edges, and the shear there.
+  /// Contacts with the ground where the edge is rollers, which are smooth: there the shear of the
+  /// in-situ stress acts as a load, and all of it on other sides.
   void add_edges() {
     visit_joined(boundary_facets(mass_), [&](int body, SideOf<dim> side, const auto& area) {
       stop_();
       place_points_on(area, kind_, points_);
       const Vec<dim>& centre = system_.body(body).centre;
-      if (side == SideOf<dim>::top) {
-        const Vec<dim> pressure = -in_situ_.surcharge * area.area_vector();
-        add_force_at<dim>(system_.load.data() + dof * body, area.centre_from(centre), pressure);
-        add_edge_shear(body, area);
-      } else {
+      const bool is_smooth = far_field_.at(side) == Boundary::rollers;
+      if (is_smooth)
         system_.boundary.add(body, ground(), area, centre, system_.body(ground()).centre, points_);
-        add_edge_shear(body, area);
+      add_edge_load(body, area, is_smooth);
+    });
+  }
+
+  /// The elastic ground beyond, its nodes as bodies behind those that there are: rock at the edge
+  /// is glued to it by springs as stiff as walls are.
+  void glue_to(std::shared_ptr<const GroundAround<dim>> around) {
+    const EdgeMesh<dim>& mesh = around->mesh();
+    const int first = system_.body_count();
+    const double stiffness = system_.boundary.laws().front().joint_normal_stiffness();
+    std::vector<EdgeSpring<dim>> springs;
+    visit_joined(boundary_facets(mass_), [&](int body, SideOf<dim> side, const auto& area) {
+      if (far_field_.at(side) != Boundary::elastic) return;
+      stop_();
+      place_points_on(area, kind_, points_);
+      const Vec<dim>& centre = system_.body(body).centre;
+      const Vec<dim> middle = area.centre_from(centre);
+      for (const FacetPoint<dim>& p : points_) {
+        EdgeSpring<dim> spring;
+        spring.rock = body;
+        spring.arm = middle + p.offset;
+        const auto place = mesh.place_of_point(side, Vec<dim>(centre + spring.arm));
+        for (std::size_t k = 0; k < spring.nodes.size(); ++k)
+          spring.nodes[k] = first + place.nodes[k];
+        spring.shares = place.shares;
+        spring.stiffness = stiffness * p.weight;
+        springs.push_back(spring);
       }
     });
+    const auto edge =
+        std::make_shared<ElasticEdge<dim>>(around, std::move(springs), ground(), first);
+    std::vector<SystemBody<dim>> nodes;
+    for (const Vec<dim>& place : mesh.nodes())
+      nodes.push_back({place, 0.0, edge->cell_length(), true, false});
+    system_.add_bodies(nodes);
+    system_.supports.add(edge);
   }
 
   /// What the in-situ stress exerts in every contact.
@@ -152,25 +195,26 @@ class InitialModel {
   /// Its number: that of the last body.
   [[nodiscard]] int ground() const { return static_cast<int>(mass_.bodies.size()); }
 
-  /// The edge of the domain is smooth: where the in-situ stress has shear on it, that goes on
-  /// acting as a load.
+  /// What the in-situ stress exerts on a piece of the edge.
+  /// @param shear_alone  without what is at right angles to it
   template <class Area>
-  void add_edge_shear(int body, const Area& area) {
+  void add_edge_load(int body, const Area& area, bool shear_alone) {
     const Vec<dim> normal = area.area_vector().normalized();
     const Vec<dim>& centre = system_.body(body).centre;
     const Vec<dim> middle = area.centre_from(centre);
     for (const FacetPoint<dim>& p : points_) {
       const Vec<dim> arm = middle + p.offset;
-      const Vec<dim> traction =
+      Vec<dim> traction =
           in_situ_.template stress<dim>(mass_.domain.depth(Vec<dim>(centre + arm))) * normal;
-      const Vec<dim> shear = traction - normal.dot(traction) * normal;
-      if (!is_zero(shear))
-        add_force_at<dim>(system_.load.data() + dof * body, arm, Vec<dim>(-p.weight * shear));
+      if (shear_alone) traction -= normal.dot(traction) * normal;
+      if (!is_zero(traction))
+        add_force_at<dim>(system_.load.data() + dof * body, arm, Vec<dim>(-p.weight * traction));
     }
   }
 
   const RockMass<Geometry>& mass_;
   const InSitu& in_situ_;
+  const FarField<dim>& far_field_;
   ContactPoints kind_;
   System& system_;
   Progress progress_;
