@@ -63,23 +63,32 @@ struct Excavated {
   Tunnel tunnel;
   std::vector<JointSource> joints;
   SimplePolygon opening;
+  ChosenBoundary boundary;
   double in_situ_unbalance;
   std::vector<std::string> warnings;
 };
 
-Excavated excavate(const Input& input, const Report& report) {
+/// @param wants_bias  see `bounded_tunnel`
+Excavated excavate(const Input& input, bool wants_bias, const Report& report) {
   const Progress progress = [&](double fraction) { return report("blocks", fraction); };
   const SimplePolygon opening = opening_of(input);
-  GeneratedRock rock = rock_of(input, progress);
-  Tunnel tunnel(std::move(rock.mass), laws_of(input),
-                {.density = input.rock.density,
-                 .k0 = input.stress.K0,
-                 .surcharge = input.stress.surcharge,
-                 .gravity = input.model.gravity},
-                ContactPoints::gauss, progress);
-  const double unbalance = tunnel.out_of_balance_ratio();
-  tunnel.excavate(opening, input.blocks.min_wall_area, progress);
-  return {std::move(tunnel), std::move(rock.joints), opening, unbalance, std::move(rock.warnings)};
+  const GeneratedRock rock = rock_of(input, progress);
+  const LawsBySet<CoulombJoint> laws = laws_of(input);
+  double unbalance = 0;
+  const auto tunnel_of = [&](const FarField<2>& far_field) {
+    Tunnel tunnel(rock.mass, laws,
+                  {.density = input.rock.density,
+                   .k0 = input.stress.K0,
+                   .surcharge = input.stress.surcharge,
+                   .gravity = input.model.gravity},
+                  ContactPoints::gauss, progress, far_field);
+    unbalance = tunnel.out_of_balance_ratio();
+    tunnel.excavate(opening, input.blocks.min_wall_area, progress);
+    return tunnel;
+  };
+  BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
+  return {std::move(bounded.tunnel),   rock.joints, opening,
+          std::move(bounded.boundary), unbalance,   rock.warnings};
 }
 
 std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
@@ -406,8 +415,8 @@ RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
-  Excavated excavated = excavate(input, report);
-  RunResult run{std::move(excavated.tunnel), excavated.opening};
+  Excavated excavated = excavate(input, true, report);
+  RunResult run{std::move(excavated.tunnel), excavated.opening, excavated.boundary};
   run.warnings = run.rock_warnings = std::move(excavated.warnings);
   run.joints = std::move(excavated.joints);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
@@ -434,7 +443,7 @@ DiagramResult computed_diagram(const Input& input, unsigned threads, const Repor
   const auto start = std::chrono::steady_clock::now();
   check_bolts(input, input.diagram->spacing);
   report("blocks", -1.0);
-  const Excavated excavated = excavate(input, report);
+  const Excavated excavated = excavate(input, false, report);
   const DiagramInput& axes = *input.diagram;
   const std::size_t count = axes.spacing.size() * axes.thickness.size();
   std::atomic<bool> go_on{true};
@@ -457,6 +466,7 @@ DiagramResult computed_diagram(const Input& input, unsigned threads, const Repor
     return diagram_point_of(tunnel, built);
   };
   DiagramResult result;
+  result.boundary = excavated.boundary;
   result.warnings = excavated.warnings;
   result.blocks = excavated.tunnel.mass().bodies.size();
   result.points =

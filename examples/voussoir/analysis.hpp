@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/tunnel/construction.hpp>
 
+#include "boundary.hpp"
 #include "input.hpp"
 #include "models.hpp"
 
@@ -41,6 +42,7 @@ struct RockfallRange {
 struct RunResult {
   Tunnel tunnel;
   SimplePolygon opening;
+  ChosenBoundary boundary = {};
   ConstructionResult<Planar> built = {};
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
   std::vector<JointSource> joints = {};
@@ -59,8 +61,9 @@ struct RunResult {
 
 /// A finished interaction diagram.
 struct DiagramResult {
-  std::vector<std::string> warnings;  ///< about the rock, and values that are unusual
-  std::vector<DiagramPoint> points;   ///< spacing by spacing, thickness running faster
+  ChosenBoundary boundary = {};
+  std::vector<std::string> warnings = {};  ///< about the rock, and values that are unusual
+  std::vector<DiagramPoint> points = {};   ///< spacing by spacing, thickness running faster
   std::size_t blocks = 0;
   double seconds = 0;
 };

@@ -35,6 +35,7 @@ constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // o
 constexpr Range bond_range{.low = 100, .high = 1e9};       // of a lining to rock [Pa]
 constexpr Range bearing_range{.low = 1e3, .high = 1e12};   // strength under a foot [Pa]
 constexpr Range thickness_range{.low = 1e-3, .high = 10};  // of a lining [m]
+constexpr Range ground_range{.low = 1e3, .high = 1e13};    // modulus of ground [Pa]
 
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
@@ -45,6 +46,28 @@ void read_model(Section& s, ModelInput& model) {
   s.quantity("gravity", model.gravity, dimension::acceleration, gravity_range, Need::optional);
   if (const auto value = s.find("origin", Need::optional))
     model.origin = value->as_point().value_or(model.origin);
+}
+
+void read_boundary(Section& s, BoundaryInput& boundary) {
+  using Choice = std::optional<Boundary>;
+  (void)s.choice<Choice>("sides", boundary.sides,
+                         {{"automatic", std::nullopt},
+                          {"rollers", Boundary::rollers},
+                          {"stress", Boundary::stress},
+                          {"elastic", Boundary::elastic}},
+                         Need::optional);
+  (void)s.choice<Choice>(
+      "base", boundary.base,
+      {{"automatic", std::nullopt}, {"rollers", Boundary::rollers}, {"elastic", Boundary::elastic}},
+      Need::optional);
+  (void)s.choice<bool>("top", boundary.ground_above, {{"surface", false}, {"elastic", true}},
+                       Need::optional);
+  s.quantity("E", boundary.young_modulus, dimension::pressure, ground_range);
+  s.only_with(s.has("E"), "E", [&] {
+    s.number("nu", boundary.poisson_ratio,
+             {.low = -1, .high = 0.5, .low_included = false, .high_included = false},
+             Need::required);
+  });
 }
 
 /// Twice the area, positive when anticlockwise, about the first vertex (site coordinates).
@@ -436,6 +459,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     s.quantity("surcharge", input.stress.surcharge, dimension::pressure, surcharge_range,
                Need::optional);
   });
+  file.table("boundary", [&](Section& s) { read_boundary(s, input.boundary); });
   file.tables("joint_set", [&](Section& s, std::size_t i) {
     JointSetInput& set = input.joint_sets.emplace_back();
     set.name = "set " + std::to_string(i + 1);
@@ -493,6 +517,27 @@ void check_opening(Checker& checker, const Input& input) {
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
     checker.report("diagram.thickness", "fills the opening", below);
+}
+
+void check_boundary(Checker& checker, const Input& input) {
+  if (checker.faulty("boundary")) return;
+  const BoundaryInput& boundary = input.boundary;
+  if (boundary.sides.has_value() != boundary.base.has_value()) {
+    const bool has_sides = boundary.sides.has_value();
+    checker.report(has_sides ? "boundary.sides" : "boundary.base",
+                   std::string("is given, and ") +
+                       (has_sides ? "boundary.base" : "boundary.sides") + " is left to be chosen",
+                   "both, or neither");
+  } else if (boundary.sides == Boundary::stress && boundary.base == Boundary::rollers) {
+    checker.report("boundary.base",
+                   "on rollers leaves the rock free to slide between sides under stress",
+                   R"("elastic", or other sides)");
+  }
+  if (boundary.ground_above && input.stress.surcharge == 0 && !checker.faulty("stress"))
+    checker.report("boundary.top",
+                   "says that ground goes on above the domain, and stress.surcharge that it weighs "
+                   "nothing",
+                   R"(stress.surcharge = its weight, or "surface")");
 }
 
 void check_size(Checker& checker, const Input& input) {
@@ -688,6 +733,7 @@ Input read_input_text(std::string_view text, const std::string& name,
   Section file(checker, &document.root, "");
   read_all(file, input, directory);
   check_opening(checker, input);
+  check_boundary(checker, input);
   check_size(checker, input);
   if (input.bolts) check_bolts(checker, *input.bolts);
   check_stages(checker, input);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 #include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/farfield/far_field.hpp>
 #include <voussoir/linear/linear_method.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
@@ -64,6 +65,16 @@ struct RockInput {
 struct StressInput {
   double K0 = 0;         ///< horizontal / vertical [-], 0 to 10
   double surcharge = 0;  ///< on the ground surface [Pa], 0 to 1e9
+};
+
+/// [boundary] What the sides of the domain meet. Sides and base are given together.
+struct BoundaryInput {
+  std::optional<Boundary> sides;  ///< none: rollers, or elastic where these would bias the closure
+  std::optional<Boundary> base;   ///< the same; rollers or elastic
+  bool ground_above = false;      ///< top: the ground goes on, stress.surcharge is its weight
+  /// E of the ground beyond [Pa], 1e3 to 1e13; none: moduli are measured on the rock.
+  std::optional<double> young_modulus;
+  double poisson_ratio = 0;  ///< nu, with E [-], -1 < . < 0.5
 };
 
 /// [[joint_set]] One family of random joints. Exactly one of intensity and spacing is given.
@@ -184,6 +195,7 @@ struct Input {
   TunnelInput tunnel;
   RockInput rock;
   StressInput stress;
+  BoundaryInput boundary;
   std::vector<JointSetInput> joint_sets;
   std::filesystem::path joints_file;  ///< measured traces, resolved, not opened; empty: none
   JointInput joint;

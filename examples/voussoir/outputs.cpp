@@ -141,7 +141,28 @@ nlohmann::json convergence_json(const Convergence& c) {
   return {{"crown_mm", 1e3 * c.crown},
           {"right_springing_mm", 1e3 * c.right_springing},
           {"left_springing_mm", 1e3 * c.left_springing},
-          {"invert_mm", 1e3 * c.invert}};
+          {"invert_mm", 1e3 * c.invert},
+          {"rise_of_opening_mm", 1e3 * c.rise}};
+}
+
+nlohmann::json boundary_json(const ChosenBoundary& boundary) {
+  nlohmann::json json = {{"sides", to_string(boundary.field.at(Side::left))},
+                         {"base", to_string(boundary.field.at(Side::bottom))},
+                         {"top", to_string(boundary.field.at(Side::top))},
+                         {"chosen_by_the_program", boundary.is_automatic}};
+  if (boundary.bias)
+    json["bias_of_closure"] = {{"upright", boundary.bias->upright},
+                               {"across", boundary.bias->across}};
+  if (boundary.moduli) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (int i = 0; i < 3; ++i) {
+      nlohmann::json row = nlohmann::json::array();
+      for (int j = 0; j < 3; ++j) row.push_back(1e-9 * (*boundary.moduli)(i, j));
+      rows.push_back(row);
+    }
+    json["moduli_GPa_xx_yy_xy"] = rows;
+  }
+  return json;
 }
 
 }  // namespace
@@ -170,6 +191,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"detached_area_m2", run.fallen_measure()},
       {"detached_blocks", detached_json(run)},
       {"convergence", convergence_json(run.convergence())},
+      {"boundary", boundary_json(run.boundary)},
       {"stages", stages},
       {"rock",
        {{"joints", mass.slicing.joints},
@@ -341,6 +363,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "joints   " + s.name + ": " + std::to_string(s.asked) + " joints, " +
            std::to_string(s.used) + " used, " + std::to_string(s.refused) + " without room, " +
            std::to_string(s.outside) + " outside\n";
+  out += "boundary " + boundary_text(run.boundary) + "\n";
   for (const StageResult& stage : run.built.stages) {
     out += "stage    " + stage.name + ": " + to_string(stage.report) +
            text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
@@ -368,6 +391,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
          millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
          " mm, invert " + millimetres_text(c.invert) + " mm";
   const bool fallen = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
+  if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
+    out += ", against the opening as a whole, which rises by " + millimetres_text(c.rise) + " mm";
   out += fallen ? " (-: the wall there is detached)\n" : "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
@@ -415,6 +440,7 @@ std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
     }
     out += "\n";
   }
+  out += "boundary " + boundary_text(diagram.boundary) + "\n";
   for (const std::string& warning : diagram.warnings) out += "warning  " + warning + "\n";
   return out;
 }

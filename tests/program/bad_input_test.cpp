@@ -78,6 +78,26 @@ TEST_SUITE("program/bad_input") {
         {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},
         {"\"0.2 m\"", "\"3 m\"", {"blocks.min_inscribed_radius", "3 m", "below 2 m"}},
         {"seed = 3", "seed = -1", {"model.seed = -1", "0"}},
+        {"[model]",
+         "#\nboundary = { sides = \"springs\" }\n[model]",
+         {"boundary.sides", "springs", "rollers"}},
+        {"[model]",
+         "#\nboundary = { sides = \"elastic\" }\n[model]",
+         {"boundary.sides", "boundary.base is left to be chosen", "both, or neither"}},
+        {"[model]",
+         "#\nboundary = { sides = \"rollers\", base = \"stress\" }\n[model]",
+         {"boundary.base", "stress", "elastic"}},
+        {"[model]",
+         "#\nboundary = { sides = \"stress\", base = \"rollers\" }\n[model]",
+         {"boundary.base", "free to slide", "elastic"}},
+        {"[model]",
+         "#\nboundary = { top = \"elastic\" }\n[model]",
+         {"boundary.top", "stress.surcharge", "weighs nothing"}},
+        {"[model]",
+         "#\nboundary = { E = \"5 GPa\", nu = 0.5 }\n[model]",
+         {"boundary.nu", "0.5", "below 0.5"}},
+        {"[model]", "#\nboundary = { E = \"5 GPa\" }\n[model]", {"boundary.nu is missing"}},
+        {"[model]", "#\nboundary = { nu = 0.2 }\n[model]", {"boundary.nu", "E"}},
     };
     for (const Fault& fault : faults) {
       CAPTURE(fault.to);
@@ -98,6 +118,20 @@ TEST_SUITE("program/bad_input") {
       CHECK(outcome.err.find("case.toml:" + line + ":") != std::string::npos);
       CHECK(contents(out) == before);
     }
+  }
+
+  TEST_CASE("elastic ground around rock whose moduli cannot be measured: what to give") {
+    const Folder folder;
+    InputText one_block;
+    one_block.joints = "";
+    const Outcome outcome = run_program({"run", write_file(folder / "case.toml", one_block.text()),
+                                         "--out", folder / "out", "--set", "boundary.sides=elastic",
+                                         "--set", "boundary.base=elastic"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("moduli of the rock cannot be measured") != std::string::npos);
+    CHECK(outcome.err.find("boundary.E and boundary.nu") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
   }
 
   TEST_CASE("a fault in --set names the override") {

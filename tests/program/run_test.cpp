@@ -146,24 +146,59 @@ TEST_SUITE("program/run") {
     const std::vector sets = {JointSet{"a", 70 * deg, DipDirection::east, 1 * deg, 1, 0, 2},
                               JointSet{"b", 20 * deg, DipDirection::west, 0, 1, 0, 2}};
     const auto rock = slice(ground, joint_network(sets, ground, 3), {0.2, 5});
-    Twin tunnel(rock, CoulombJoint({5e9, 5e8, 35 * deg}), {.density = 2700, .k0 = 1});
-    tunnel.excavate(opening, 0.02);
-    const AxialBolt bolt({.axial_stiffness = 2e8, .rupture_force = 2e5});
-    for (const Segment& bar : bolt_bars({.length = 2, .angular_spacing = 30 * deg}, opening))
-      tunnel.install_bolt(bar, bolt);
-    tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 24}),
-                          LiningSection::rectangular(0.08, 25e9),
-                          CoulombJoint({1e9, 1e9, 30 * deg}));
-    REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
+    const CoulombJoint joint({5e9, 5e8, 35 * deg});
+    const InSitu in_situ{.density = 2700, .k0 = 1};
+    // Of its own accord the program takes what the elastic closure asks for.
+    Twin held(rock, joint, in_situ), free = held;
+    const FarField<2> elastic = FarField<2>::elastic(elastic_moduli(rock, joint));
+    free = Twin(rock, joint, in_situ, ContactPoints::gauss, {}, elastic);
+    held.excavate(opening, 0.02);
+    free.excavate(opening, 0.02);
+    const BoundaryBias bias = boundary_bias(elastic_wall_motion(held), elastic_wall_motion(free));
+    REQUIRE(bias.largest() > 0.02);
+    for (const bool automatic : {false, true}) {
+      CAPTURE(automatic);
+      Twin& tunnel = automatic ? free : held;
+      const AxialBolt bolt({.axial_stiffness = 2e8, .rupture_force = 2e5});
+      for (const Segment& bar : bolt_bars({.length = 2, .angular_spacing = 30 * deg}, opening))
+        tunnel.install_bolt(bar, bolt);
+      tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 24}),
+                            LiningSection::rectangular(0.08, 25e9),
+                            CoulombJoint({1e9, 1e9, 30 * deg}));
+      REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
 
-    const Results r = results_of(supported);
-    CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
-    const Convergence c = convergence(tunnel);
-    // The program composes AxialShearBolt without shear and TimoshenkoBeam without shear
-    // deformation: equal but for roundings, which the search amplifies less than its tolerance.
-    CHECK(std::abs(crown(r) - 1e3 * c.crown) < 1e-6 * crown(r));
-    CHECK(std::abs(r.json.at("convergence").at("invert_mm").get<double>() - 1e3 * c.invert) <
-          1e-6 * crown(r));
+      std::vector<std::string> kind;
+      if (!automatic) kind = {"--set", "boundary.sides=rollers", "--set", "boundary.base=rollers"};
+      const Results r = results_of(supported, kind);
+      CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
+      const Convergence c = convergence(tunnel);
+      // The program composes AxialShearBolt without shear and TimoshenkoBeam without shear
+      // deformation: equal but for roundings, which the search amplifies less than its tolerance.
+      CHECK(std::abs(crown(r) - 1e3 * c.crown) < 1e-6 * crown(r));
+      CHECK(std::abs(r.json.at("convergence").at("invert_mm").get<double>() - 1e3 * c.invert) <
+            1e-6 * crown(r));
+      const Json& boundary = r.json.at("boundary");
+      CHECK(boundary.at("chosen_by_the_program") == automatic);
+      CHECK(boundary.at("base") == (automatic ? "elastic" : "rollers"));
+      // Elastic solves of two models to 1e-6 each.
+      CHECK(std::abs(boundary.at("bias_of_closure").at("across").get<double>() - bias.across) <
+            1e-5);
+      CHECK(r.outcome.out.find(automatic ? "against the opening as a whole"
+                                         : "rollers at sides and base: against ground") !=
+            std::string::npos);
+    }
+  }
+
+  TEST_CASE("rock whose moduli cannot be measured keeps its rollers, and it is said") {
+    InputText input;
+    input.joints = "";
+    const Results r = results_of(input.text());
+    CHECK(r.json.at("boundary").at("base") == "rollers");
+    CHECK(r.outcome.out.find("moduli of the rock cannot be measured") != std::string::npos);
+    const Results given = results_of(
+        input.text(), {"--set", "boundary.sides=elastic", "--set", "boundary.base=elastic", "--set",
+                       "boundary.E=5 GPa", "--set", "boundary.nu=0.25"});
+    CHECK(given.json.at("boundary").at("sides") == "elastic");
   }
 
   TEST_CASE("the same seed gives the same bytes, another seed another rock") {
