@@ -115,7 +115,7 @@ Answer build(const FailureCase& rock, const SupportCase& support) {
     }
     const auto built = construct(tunnel, plan);
     const SupportDemand demand = support_demand(tunnel);
-    answer.verdict = to_string(built.verdict(), built.fallen_measure());
+    answer.verdict = to_string(built.verdict(), built.fallen_measure(), built.has_lost_lining());
     if (built.verdict() == Verdict::undecided)
       std::fprintf(stderr, "case %d: %s\n", rock.number, built.last().reason.c_str());
     answer.fallen = built.fallen_measure();

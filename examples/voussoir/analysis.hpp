@@ -52,7 +52,7 @@ struct RunResult {
   std::optional<RockfallRange> rockfall = {};  ///< where rock has come off
 
   [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
-  /// In words: `to_string(verdict(), fallen_measure())`.
+  /// In words: `to_string(verdict(), fallen_measure(), built.has_lost_lining())`.
   [[nodiscard]] Verdict verdict() const { return built.verdict(); }
   [[nodiscard]] double fallen_measure() const { return built.fallen_measure(); }
   /// At the end [m].

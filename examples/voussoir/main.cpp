@@ -56,7 +56,8 @@ ExitStatus status_of(const RunResult& run) {
     case voussoir::Verdict::collapse:
       return collapsed;
     case voussoir::Verdict::stable:
-      return run.fallen_measure() > 0 ? stands_after_rockfall : finished;
+      return run.fallen_measure() > 0 || run.built.has_lost_lining() ? stands_after_rockfall
+                                                                     : finished;
   }
   return not_decided;
 }

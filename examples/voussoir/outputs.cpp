@@ -186,7 +186,8 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"title", input.title},
       {"models", composition_of(input)},
       {"seed", input.model.seed},
-      {"verdict", to_string(run.verdict(), run.fallen_measure())},
+      {"verdict", to_string(run.verdict(), run.fallen_measure(), run.built.has_lost_lining())},
+      {"lost_lining", run.built.has_lost_lining()},
       {"error_estimate", run.last().error_estimate},
       {"detached_area_m2", run.fallen_measure()},
       {"detached_blocks", detached_json(run)},
@@ -371,7 +372,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
       out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
     out += "; crown " + millimetres_text(stage.convergence.crown) + " mm\n";
   }
-  out += std::string("verdict  ") + to_string(last.verdict, run.fallen_measure());
+  out += std::string("verdict  ") +
+         to_string(last.verdict, run.fallen_measure(), run.built.has_lost_lining());
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
     out += " of " + text("%.2f m2", run.fallen_measure());
   if (run.rockfall && run.rockfall->is_marginal()) out += ", marginal";

@@ -65,6 +65,22 @@ TEST_SUITE("dynamics/bolts") {
     CHECK(std::abs(run.position(block).y()) < 1e-5);
   }
 
+  TEST_CASE("a block that is taken out holds nothing any more by its bolts") {
+    Run run(joint, {.safety = 0.1});
+    const int held = run.add_block(rectangle({0, 3}, 1, 1), 2700);
+    const int block = run.add_block(rectangle({0, 0}, 1, 1), 2700);
+    run.add_support(between(run, held, block, {0, -3}, AxialBolt({.axial_stiffness = 2e6})));
+    run.fix(held);
+    run.advance(0.1);
+    const double speed = run.velocity(block).y(), place = run.position(block).y();
+    run.remove(held);
+    run.advance(0.1);
+    // Free fall, to rounding; and the energy of the bolt is no loss of the run.
+    CHECK(run.position(block).y() ==
+          doctest::Approx(place + 0.1 * speed - 0.5 * 9.81 * 0.01).epsilon(1e-9));
+    CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
+  }
+
   TEST_CASE("a run that goes back to its last sound state takes its bolts with it") {
     Run run(joint, {.gravity = 0, .speed_limit = 10});
     const int a = run.add_fixed_block(rectangle({0, 0}, 1, 1));

@@ -104,6 +104,9 @@ TEST_SUITE("io/solved_picture") {
           "balance by 0.2 % of its weight.");
     CHECK_FALSE(banner_of(report.verdict, 0, "m²").has_value());
     CHECK(banner_of(report.verdict, 1.234, "m²")->word == "STABLE AFTER ROCKFALL");
+    CHECK(banner_of(report.verdict, 0, "m²", true)->word == "STABLE WITHOUT ITS LINING");
+    CHECK(verdict_sentence(report, 1.234, "m²", true)
+              .starts_with("Verdict: stable without its lining, after rockfall of 1.23 m²"));
     CHECK(banner_of(report.verdict, 1.234, "m³")->line ==
           "1.23 m³ of rock detached before the rest came to rest");
     report.error_estimate = std::numeric_limits<double>::quiet_NaN();

@@ -84,9 +84,15 @@ TEST_SUITE("solver/lining_feet") {
       on_feet.install_lining(frame, shotcrete(), rough, strong);
       hung.install_lining(frame, shotcrete(), rough);
       REQUIRE(on_feet.equilibrium(0, {}, tight).verdict == Verdict::stable);
-      // Nothing holds the other: it slides off the wall, and the report says what is missing.
-      const EquilibriumReport report = hung.equilibrium();
-      CHECK(report.verdict == Verdict::undecided);
+      // Nothing holds the other: it slides off the wall and is taken out. The report says what is
+      // missing, and the rock is what it is without a lining.
+      auto bare = excavated(circular_opening(5, 36), seed);
+      const EquilibriumReport report = hung.equilibrium(), without = bare.equilibrium();
+      CHECK(report.verdict == without.verdict);
+      CHECK(report.fallen_measure == without.fallen_measure);
+      CHECK(report.lost_nodes.size() == frame.nodes.size());
+      if (report.verdict == Verdict::stable)
+        CHECK(std::string(to_string(report)) == "stable without its lining");
       CAPTURE(report.reason);
       CHECK(says(report.reason, "the lining comes off the wall: at ("));
       CHECK(says(report.reason, "give its ends feet"));

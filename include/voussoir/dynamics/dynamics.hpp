@@ -94,11 +94,15 @@ class Dynamics : public MovingBodies<Dim> {
     for (const auto& node : nodes) this->add_node(node, BodyRole::lining);
     return first;
   }
-  /// Takes a block out, with its contacts: an excavation. Its energy goes with it.
+  /// Takes a body out, with its contacts and what supports are to it: an excavation. Its energy
+  /// goes with it.
   void remove(int b) { remove(std::vector<int>{b}); }
   void remove(const std::vector<int>& gone) {
     if (gone.empty()) return;
     begin();
+    BodyMarks marks(bodies_.size(), 0);
+    for (const int b : gone) marks[index(b)] = 1;
+    supports_.remove(marks, bodies_);
     for (const int b : gone) leave_out(b);
     forget();
     find_contacts();

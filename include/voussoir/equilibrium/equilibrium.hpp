@@ -32,12 +32,16 @@ enum class Verdict {
   return "undecided";
 }
 
-/// The verdict as people read it. A tunnel that stands after rock has detached from it is other
-/// news than one that stands: everything that is shown or written takes its word from here.
+/// The verdict as people read it. A tunnel that stands after rock has detached from it, or without
+/// the lining that it was to have, is other news than one that stands: everything that is shown or
+/// written takes its word from here.
 /// @param fallen_measure  rock that detached on the way, over all stages [m^2], [m^3]
-[[nodiscard]] constexpr const char* to_string(Verdict verdict, double fallen_measure) {
-  return verdict == Verdict::stable && fallen_measure > 0 ? "stable after rockfall"
-                                                          : to_string(verdict);
+/// @param lost_lining     a lining came off its wall
+[[nodiscard]] constexpr const char* to_string(Verdict verdict, double fallen_measure,
+                                              bool lost_lining) {
+  if (verdict != Verdict::stable) return to_string(verdict);
+  if (lost_lining) return "stable without its lining";
+  return fallen_measure > 0 ? "stable after rockfall" : to_string(verdict);
 }
 
 /// A limit of displacements that is chosen from the size of the blocks and the elastic movement of
@@ -85,7 +89,11 @@ struct EquilibriumReport {
   LinearReport linear;        ///< how the elastic solves were done
   std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
-  int broken_bolts = 0;       ///< bolt springs that ruptured
+  /// Nodes of linings that came off their wall and were taken out, in this search; what happened,
+  /// in a sentence.
+  std::vector<int> lost_nodes;
+  std::string lost_lining;
+  int broken_bolts = 0;                 ///< bolt springs that ruptured
   ContactUpdateReport contact_updates;  ///< what they gave to the springs, and how forces jumped
   /// The state is where blocks came to rest in motion: some were caught on their way, and their
   /// displacements are those of that way, its overshoot and its rounding in them.
@@ -95,7 +103,7 @@ struct EquilibriumReport {
 
 /// The verdict of one search as people read it.
 [[nodiscard]] inline const char* to_string(const EquilibriumReport& report) {
-  return to_string(report.verdict, report.fallen_measure);
+  return to_string(report.verdict, report.fallen_measure, !report.lost_nodes.empty());
 }
 
 /// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.

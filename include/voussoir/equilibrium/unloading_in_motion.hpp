@@ -119,7 +119,8 @@ class UnloadingInMotion {
       }
       ask_to_go_on(context_);
       take_out(report);
-      if (has_collapsed<dim>(report, context_) || lining_comes_off(report)) return false;
+      take_out_linings(report);
+      if (has_collapsed<dim>(report, context_)) return false;
       if (done >= 1 && rests()) return true;
     }
     report.reason =
@@ -143,20 +144,28 @@ class UnloadingInMotion {
     run_.remove(off);
   }
 
-  /// A lining that slides off its wall as a whole carries nothing and is no block that could be
-  /// taken out.
-  [[nodiscard]] bool lining_comes_off(EquilibriumReport& report) const {
-    for (int b = 0; b < run_.body_count(); ++b) {
-      if (!run_.body(b).movable() || run_.role(b) != BodyRole::lining) continue;
-      const double moved = (run_.position(b) - system_.body(b).centre).norm();
-      if (!(moved > limit_)) continue;
-      report.reason = message({"the lining comes off the wall: at ",
-                               text_of<dim>(system_.body(b).centre), " m it has moved ", moved,
-                               " m, more than the displacement limit; give its ends feet, close "
-                               "it, or bond it to the rock"});
-      return true;
+  /// Takes out linings that have come off: one that slides off its wall carries nothing, and holds
+  /// nothing that could be taken for support.
+  void take_out_linings(EquilibriumReport& report) {
+    std::vector<int> off;
+    for (const auto& lining : system_.linings) {
+      const int count = static_cast<int>(lining.surface.node_count());
+      for (int b = lining.first; b < lining.first + count; ++b) {
+        if (!run_.body(b).movable()) continue;
+        const double moved = (run_.position(b) - system_.body(b).centre).norm();
+        if (!(moved > limit_)) continue;
+        report.lost_lining =
+            message({"the lining comes off the wall: at ", text_of<dim>(system_.body(b).centre),
+                     " m it has moved ", moved,
+                     " m, more than the displacement limit; give its ends feet, "
+                     "close it, bond it to the rock, or make it stiffer"});
+        for (int node = lining.first; node < lining.first + count; ++node) off.push_back(node);
+        break;
+      }
     }
-    return false;
+    report.lost_nodes.insert(report.lost_nodes.end(), off.begin(), off.end());
+    gone_.insert(gone_.end(), off.begin(), off.end());
+    run_.remove(off);
   }
 
   [[nodiscard]] bool rests() {

@@ -35,12 +35,15 @@ struct TunnelPictureText {
 /// reason why it is another.
 /// @param fallen  over all stages [m^2], [m^3]
 /// @param unit    of it: "m²"
+/// @param lost_lining  a lining came off, in any stage
 [[nodiscard]] VOUSSOIR_INLINE std::string verdict_sentence(const EquilibriumReport& last,
-                                                           double fallen, const std::string& unit);
+                                                           double fallen, const std::string& unit,
+                                                           bool lost_lining = false);
 
 /// What must not be overlooked in a picture; none: the tunnel stands, all of it.
 [[nodiscard]] VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double fallen,
-                                                                     const std::string& unit);
+                                                                     const std::string& unit,
+                                                                     bool lost_lining = false);
 
 /// "3.29" for 3.29e-3 m; "-" where the wall is detached.
 [[nodiscard]] inline std::string millimetres_text(double metres) {
@@ -50,10 +53,12 @@ struct TunnelPictureText {
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE std::string verdict_sentence(const EquilibriumReport& last, double fallen,
-                                             const std::string& unit) {
+                                             const std::string& unit, bool lost_lining) {
   const bool stands = last.verdict == Verdict::stable;
-  std::string sentence = std::string("Verdict: ") + to_string(last.verdict, fallen);
-  if (stands && fallen > 0) sentence += " of " + fixed_text(fallen, 2) + " " + unit;
+  std::string sentence = std::string("Verdict: ") + to_string(last.verdict, fallen, lost_lining);
+  if (stands && fallen > 0)
+    sentence +=
+        (lost_lining ? ", after rockfall of " : " of ") + fixed_text(fallen, 2) + " " + unit;
   if (!stands) return sentence + ": " + last.reason + ".";
   sentence += std::isfinite(last.error_estimate)
                   ? ". Estimated error of the displacements " +
@@ -64,12 +69,14 @@ VOUSSOIR_INLINE std::string verdict_sentence(const EquilibriumReport& last, doub
 }
 
 VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double fallen,
-                                                       const std::string& unit) {
-  if (verdict == Verdict::stable && !(fallen > 0)) return std::nullopt;
-  std::string word = to_string(verdict, fallen);
+                                                       const std::string& unit, bool lost_lining) {
+  if (verdict == Verdict::stable && !(fallen > 0) && !lost_lining) return std::nullopt;
+  std::string word = to_string(verdict, fallen, lost_lining);
   for (char& c : word)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   const std::string rock = fixed_text(fallen, 2) + " " + unit + " of rock detached";
+  if (verdict == Verdict::stable && lost_lining)
+    return PictureBanner{word, "the lining came off the wall; " + rock, "#b45309"};
   if (verdict == Verdict::stable)
     return PictureBanner{word, rock + " before the rest came to rest", "#b45309"};
   if (verdict == Verdict::collapse) return PictureBanner{word, rock + ": no equilibrium"};
@@ -128,10 +135,10 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   detail::keep_bolts_from(result.first_bolt, state.bolts);
   BlocksPicture picture = picture_of(state, solver.mass(), result.bars, text.lining_thickness);
   picture.header.title = text.title;
-  picture.header.lines = {verdict_sentence(result.last(), fallen, "m²")};
+  picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result);
-  picture.banner = banner_of(result.verdict(), fallen, "m²");
+  picture.banner = banner_of(result.verdict(), fallen, "m²", result.has_lost_lining());
   if (const auto opening = bounding_rect(picture.outline); picture.lining && opening)
     picture.lining->reference_thrust = detail::reference_thrust_of(solver, *opening);
   return draw_blocks_picture(picture);
@@ -147,10 +154,10 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   detail::keep_bolts_from(result.first_bolt, state.bolts);
   TunnelView view = picture_of(state, result.bars);
   view.header.title = text.title;
-  view.header.lines = {verdict_sentence(result.last(), fallen, "m³")};
+  view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
   view.header.key_numbers = detail::key_numbers_of(solver, result);
-  view.banner = banner_of(result.verdict(), fallen, "m³");
+  view.banner = banner_of(result.verdict(), fallen, "m³", result.has_lost_lining());
   return draw_tunnel_view(solver.mass(), view);
 }
 

@@ -199,6 +199,13 @@ class SupportSet {
     force += loads_[b].force;
     moment += loads_[b].moment;
   }
+  /// Forgets what supports were to bodies that are taken out; the energy of that goes with them.
+  void remove(const BodyMarks& gone, const Bodies& bodies) {
+    at_start_ -= sum(bodies);
+    for (const auto& support : supports_) support->remove(gone);
+    at_start_ += sum(bodies);
+    std::fill(loads_.begin(), loads_.end(), Load<Dim>{});  // nobody writes what nobody holds now
+  }
   /// Stored, and lost to yield, since each of them was added or `start` was called [J].
   [[nodiscard]] double energy(const Bodies& bodies) const { return sum(bodies) - at_start_; }
   void start(const Bodies& bodies) { at_start_ = sum(bodies); }

@@ -136,13 +136,18 @@ struct ConstructionResult {
   /// Of the last stage that was begun. @pre there is one
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
   /// That of the last stage; a stage that does not end stable ends the construction. In words:
-  /// `to_string(verdict(), fallen_measure())`.
+  /// `to_string(verdict(), fallen_measure(), has_lost_lining())`.
   [[nodiscard]] Verdict verdict() const { return last().verdict; }
   /// Over all stages [m^2], [m^3].
   [[nodiscard]] double fallen_measure() const {
     double sum = 0;
     for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
     return sum;
+  }
+  /// Whether a lining came off its wall, in any stage.
+  [[nodiscard]] bool has_lost_lining() const {
+    return std::any_of(stages.begin(), stages.end(),
+                       [](const StageResult& stage) { return !stage.report.lost_nodes.empty(); });
   }
 };
 

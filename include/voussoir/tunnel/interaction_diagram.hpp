@@ -25,9 +25,10 @@ struct DiagramPoint {
   double largest_moment = 0;   ///< absolute value, of the lining [N m/m]
   EquilibriumReport report;
 
-  /// Rock detached, or no equilibrium was found: not a design.
+  /// Rock detached, the lining came off, or no equilibrium was found: not a design.
   [[nodiscard]] bool failed() const {
-    return report.verdict != Verdict::stable || report.fallen_measure > 0;
+    return report.verdict != Verdict::stable || report.fallen_measure > 0 ||
+           !report.lost_nodes.empty();
   }
 };
 

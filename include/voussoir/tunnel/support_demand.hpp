@@ -51,13 +51,15 @@ template <class Solver>
 }
 
 /// A constructed tunnel as a point of an interaction diagram; `interaction_diagram` adds where in
-/// it. Rock lost counts over all stages.
+/// it. Rock and linings lost count over all stages.
 template <class Solver>
 [[nodiscard]] DiagramPoint diagram_point_of(
     const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
   DiagramPoint point{};
   point.report = result.last();
   point.report.fallen_measure = result.fallen_measure();
+  for (const StageResult& stage : result.stages)
+    if (point.report.lost_nodes.empty()) point.report.lost_nodes = stage.report.lost_nodes;
   point.crown_convergence = result.stages.back().convergence.crown;
   const SupportDemand demand = support_demand(solver);
   point.largest_bolt_force = demand.largest_bolt_force;

@@ -34,8 +34,9 @@ template <class System, class Search>
 void search_or_follow(System& system, const SearchContext& context, const MotionTuning* tuning,
                       Search&& search, EquilibriumReport& report) {
   const auto say_why = [&] {
-    if (report.verdict == Verdict::stable && !report.fallen.empty())
-      report.reason = "within all limits after blocks had detached";
+    if (report.verdict != Verdict::stable) return;
+    if (!report.fallen.empty()) report.reason = "within all limits after blocks had detached";
+    if (!report.lost_nodes.empty()) report.reason = "within all limits, but " + report.lost_lining;
   };
   if (tuning == nullptr || !can_be_set_in_motion(system, context)) {
     (void)search(AtAFall::goes_on, system, report);
@@ -60,7 +61,7 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
   const System moved(system);
   const std::vector<int> fallen = report.fallen;
   const double measure = report.fallen_measure;
-  if (fallen.size() == fallen_before.size()) {
+  if (fallen.size() == fallen_before.size() && report.lost_nodes.empty()) {
     // Nothing comes off: the search may take its time, for the shaking of the run breaks joints
     // that a gradual unloading spares.
     back_to(start, fallen_before, measure_before);
@@ -69,8 +70,10 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
       return say_why();
   } else {
     back_to(start, fallen_before, measure_before);
-    drop(system, {fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before.size()), fallen.end()},
-         context, report);
+    std::vector<int> off = report.lost_nodes;
+    off.insert(off.end(), fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before.size()),
+               fallen.end());
+    drop(system, off, context, report);
     const bool is_same = report.fallen.size() == fallen.size() &&
                          search(AtAFall::gives_up, System(system), report) == SearchEnd::decided &&
                          report.verdict == Verdict::stable && report.fallen.size() == fallen.size();
