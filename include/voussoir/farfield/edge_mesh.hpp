@@ -29,16 +29,21 @@ class EdgeMesh {
     std::array<double, corners> shares;
   };
 
-  /// Cells along the longest axis: with them the stiffness for motions that vary once or twice
-  /// round the opening is within a percent (tests/farfield).
-  static constexpr int cells_of_longest = Dim == 2 ? 12 : 6;
+  /// Cells along the longest axis, at least and at most: with the least the stiffness for motions
+  /// that vary once or twice round the opening is within a few percent (tests/farfield). A domain
+  /// that is narrow one way is near to its opening there, and has more.
+  static constexpr int least_cells = Dim == 2 ? 12 : 6, most_cells = Dim == 2 ? 48 : 10;
+  /// The same along the shortest axis, if that is not too many along the longest.
+  static constexpr int cells_of_shortest = Dim == 2 ? 6 : 3;
 
   /// @pre  field.check() has passed
   EdgeMesh(const Domain<Dim>& domain, const FarField<Dim>& field) : domain_(domain), field_(field) {
-    const double longest = largest_entry(domain.size());
+    const double longest = largest_entry(domain.size()), shortest = smallest_entry(domain.size());
+    const double cell = std::max(longest / most_cells,
+                                 std::min(longest / least_cells, shortest / cells_of_shortest));
     for (int axis = 0; axis < Dim; ++axis)
-      cells_along_[at(axis)] = std::max(
-          2, static_cast<int>(std::lround(cells_of_longest * domain.size()[axis] / longest)));
+      cells_along_[at(axis)] =
+          std::max(2, static_cast<int>(std::lround(domain.size()[axis] / cell)));
     for (int axis = 0; axis < Dim; ++axis)
       for (const bool upper : {false, true})
         if (field.at(axis, upper) == Boundary::elastic) add_side(axis, upper);
