@@ -99,6 +99,7 @@ Section interaction(Study& study) {
     const auto high = static_cast<Eigen::Index>(p->spacings.size());
     p->values.resize(wide, high);
     p->failed.resize(wide, high);
+    p->collapsed.resize(wide, high);
   }
   Table crowns{
       "Crown convergence, mm; R: blocks detach in some realisation, C: some realisation collapses",
@@ -124,6 +125,7 @@ Section interaction(Study& study) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
       picture.values(row, column) = u.mean();
       picture.failed(row, column) = sheds;
+      picture.collapsed(row, column) = u.collapsed > 0;
       const char* mark = u.collapsed > 0 ? " C" : sheds ? " R" : "";
       u_row.push_back(u.values.empty() ? "C" : printed_text(1e3 * u.mean()) + mark);
       if (v.bolts) {
@@ -131,6 +133,7 @@ Section interaction(Study& study) {
             study.measure(v, [](const Outcome& o) { return o.mean_force(); }).mean();
         force_picture.values(row, column) = force;
         force_picture.failed(row, column) = sheds;
+        force_picture.collapsed(row, column) = u.collapsed > 0;
         f_row.push_back(printed_text(1e-3 * force));
       } else {
         f_row.emplace_back();
@@ -140,6 +143,7 @@ Section interaction(Study& study) {
             study.measure(v, [t](const Outcome& o) { return largest_stress(o, t); }).mean();
         stress_picture.values(row - 1, column) = stress;
         stress_picture.failed(row - 1, column) = sheds;
+        stress_picture.collapsed(row - 1, column) = u.collapsed > 0;
         s_row.push_back(printed_text(1e-6 * stress));
       } else {
         s_row.emplace_back();

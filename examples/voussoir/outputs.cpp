@@ -258,6 +258,10 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
       sentence.replace(at, 2, "m²");  // a picture has what a terminal may not
     text.remarks.push_back(std::move(sentence));
   }
+  if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
+    text.remarks.push_back(
+        "On elastic ground: convergence is counted against the opening as a whole, which rises by " +
+        millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, text);
 }
@@ -304,6 +308,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
   const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
   picture.values.resize(columns, rows);
   picture.failed.resize(columns, rows);
+  picture.collapsed.resize(columns, rows);
   picture.undecided.resize(columns, rows);
   for (const DiagramPoint& p : diagram.points) {
     const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
@@ -314,6 +319,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
         standing ? p.crown_convergence : std::numeric_limits<double>::quiet_NaN();
     picture.undecided(i, j) = p.report.verdict == Verdict::undecided;
     picture.failed(i, j) = p.failed() && !picture.undecided(i, j);
+    picture.collapsed(i, j) = p.report.verdict == Verdict::collapse;
     undecided += picture.undecided(i, j);
     failed += picture.failed(i, j);
     if (standing && std::isfinite(p.report.error_estimate)) {
@@ -329,7 +335,7 @@ std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
       (estimated
            ? "Largest estimated error of the displacements " + text("%.2g", 100 * worst) + " %. "
            : "Error of the displacements not estimated. ") +
-      "Red circles: rockfall or collapse."};
+      "Arrows: rock falls, the rest stands; red crosses: collapse."};
   picture.header.key_numbers = {
       {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
       {"tunnels with detached blocks",

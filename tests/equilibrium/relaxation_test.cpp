@@ -12,13 +12,14 @@ namespace relaxation_test {
 using namespace voussoir_test;
 
 TEST_SUITE("equilibrium/relaxation") {
-  TEST_CASE("a committing relaxation overshoots as a sudden excavation does") {
-    // It commits slip on the way; hence it only finds out what detaches. Measured crown: +13 %.
+  TEST_CASE("a committing relaxation overshoots a little") {
+    // It commits slip on the way. Measured crown: +1.3 %; +13 %, as a sudden excavation, where it
+    // does not begin with the elastic displacements.
     Solver<> tunnel = bolted_tunnel();
     const EquilibriumReport report = find(tunnel, Relaxation{});
     CHECK(report.verdict == Verdict::stable);
-    CHECK(crown_ratio(tunnel) > 1.02);
-    CHECK(crown_ratio(tunnel) < 1.3);
+    CHECK(crown_ratio(tunnel) > 1);
+    CHECK(crown_ratio(tunnel) < 1.03);
   }
 
   TEST_CASE("a committing relaxation agrees if the wall is unloaded in small steps") {

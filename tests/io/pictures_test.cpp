@@ -217,6 +217,22 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
   }
 
+  TEST_CASE("rock that falls from a tunnel that stands is told from a collapse") {
+    InteractionPicture picture = small_diagram();
+    picture.failed(1, 2) = true;
+    const std::string alike = draw_interaction_picture(picture);
+    CHECK(contains(alike, ">blocks detach<"));
+    picture.collapsed.setConstant(3, 3, false);
+    picture.collapsed(0, 2) = true;
+    const std::string apart = draw_interaction_picture(picture);
+    CHECK(xml_fault(apart) == "");
+    CHECK(contains(apart, ">collapse<"));
+    CHECK(contains(apart, ">rock falls, the rest stands<"));
+    CHECK_FALSE(contains(apart, ">blocks detach<"));
+    picture.collapsed.setConstant(2, 3, false);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
+  }
+
   TEST_CASE("another quantity has its own name and unit") {
     InteractionPicture picture = small_diagram();
     picture.values *= 1e7;  // 40 to 300 kN

@@ -99,11 +99,12 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   check_interaction(picture);
   const InteractionQuantity shown = picture.shown();
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  bool any_missing = false, any_failed = false, any_undecided = false;
+  bool any_missing = false, any_failed = false, any_shedding = false, any_undecided = false;
   for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
     for (std::size_t j = 0; j < picture.spacings.size(); ++j) {
       const double value = picture.at(i, j) * shown.contour_scale;
-      any_failed = any_failed || picture.is_failed(i, j);
+      any_shedding = any_shedding || picture.is_shedding(i, j);
+      any_failed = any_failed || (picture.is_failed(i, j) && !picture.is_shedding(i, j));
       any_undecided = any_undecided || picture.is_undecided(i, j);
       any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j) &&
                                     !picture.is_undecided(i, j));
@@ -134,7 +135,10 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   std::vector<LegendItem> items = {
       {"computed, " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
-  if (any_failed) items.push_back({"blocks detach", draw_failed_mark});
+  if (any_shedding) items.push_back({"rock falls, the rest stands", draw_shedding_mark});
+  if (any_failed)
+    items.push_back(
+        {picture.collapsed.size() > 0 ? "collapse" : "blocks detach", draw_failed_mark});
   if (any_undecided) items.push_back({"undecided: no result", draw_undecided_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
   if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});

@@ -50,6 +50,9 @@ struct InteractionPicture {
   /// (thickness, spacing): blocks detach. Empty: nowhere. A failed point counts in the contours
   /// only if it has a value.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> failed = {};
+  /// (thickness, spacing), of the failed ones: collapsed; of the others some rock came off and the
+  /// rest stands. Empty: not told apart.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> collapsed = {};
   /// (thickness, spacing): sought and not found, neither an equilibrium nor detached blocks. Such a
   /// point has no value and is not failed. Empty: nowhere.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> undecided = {};
@@ -69,6 +72,11 @@ struct InteractionPicture {
   }
   [[nodiscard]] bool is_failed(std::size_t i, std::size_t j) const {
     return failed.size() > 0 && failed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  /// Failed, and known to stand but for what came off.
+  [[nodiscard]] bool is_shedding(std::size_t i, std::size_t j) const {
+    return is_failed(i, j) && collapsed.size() > 0 &&
+           !collapsed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   [[nodiscard]] bool is_undecided(std::size_t i, std::size_t j) const {
     return undecided.size() > 0 &&
@@ -95,7 +103,8 @@ VOUSSOIR_INLINE void check_interaction(const InteractionPicture& picture) {
     return marks.size() > 0 && (marks.rows() != columns || marks.cols() != rows);
   };
   if (picture.values.rows() != columns || picture.values.cols() != rows ||
-      has_another_size(picture.failed) || has_another_size(picture.undecided)) {
+      has_another_size(picture.failed) || has_another_size(picture.collapsed) ||
+      has_another_size(picture.undecided)) {
     throw InvalidInput("interaction picture: tables must be thicknesses x spacings");
   }
   for (std::size_t i = 0; i + 1 < picture.thicknesses.size(); ++i) {

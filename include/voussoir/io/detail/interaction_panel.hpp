@@ -41,6 +41,14 @@ inline void draw_failed_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 7, {.fill = "white", .stroke = "#c8102e", .stroke_width = 2});
   draw_cross(canvas, at, 4.6, {.stroke = "#c8102e", .stroke_width = 2});
 }
+/// Rock that falls: what stands is told from a collapse by shape as well as by colour.
+inline void draw_shedding_mark(SvgCanvas& canvas, const Vec2& at) {
+  const SvgStyle style{.stroke = "#b45309", .stroke_width = 2};
+  canvas.circle(at, 7, {.fill = "white", .stroke = "#b45309", .stroke_width = 2});
+  canvas.line(at - Vec2(0, 4), at + Vec2(0, 4), style);
+  canvas.line(at + Vec2(-3, 1), at + Vec2(0, 4), style);
+  canvas.line(at + Vec2(3, 1), at + Vec2(0, 4), style);
+}
 inline void draw_missing_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 3.2, {.fill = "white", .stroke = "#666", .stroke_width = 1.2});
 }
@@ -138,6 +146,8 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
     for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
       if (picture.is_undecided(i, panel.rows[k])) {
         draw_undecided_mark(canvas, place(i, k));
+      } else if (picture.is_shedding(i, panel.rows[k])) {
+        draw_shedding_mark(canvas, place(i, k));
       } else if (picture.is_failed(i, panel.rows[k])) {
         draw_failed_mark(canvas, place(i, k));
       } else if (std::isfinite(picture.at(i, panel.rows[k]))) {
