@@ -167,7 +167,7 @@ void design_rock() {
   std::puts(
       "seed,k0,support,boundary,width_m,below_invert_m,verdict,height_mm,width_mm,"
       "crown_against_opening_mm,rise_mm,crown_mm,same_rock_within_20_m");
-  for (const std::uint64_t seed : {1, 2, 3})
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
     for (const double k0 : {1.0, 0.5}) {
       // The same joints in every domain: those of the largest.
       const auto joints = joint_network(sets, domain_around(opening, 70, 20, 70), seed);

@@ -80,10 +80,11 @@ FarField<Geometry::dim> around_tunnel() {
 
 TEST_SUITE("solver/far_field") {
   // Blocks of a fifth and a tenth of the radius, extrapolated to none: the remainder goes with
-  // their square, 0.3 % (docs/far-field.md).
+  // their square, 0.3 % (docs/validation.md).
   TEST_CASE("a hole in uniform stress moves as Kirsch says, however near the edge") {
-    for (const auto& [half_width, turn] : {std::pair{6.0, 0.0}, std::pair{3.0, 20 * degree}})
+    for (const bool is_near : {false, true})
       for (const double k0 : {0.5, 2.0}) {
+        const double half_width = is_near ? 3 : 6, turn = is_near ? 20 * degree : 0;
         CAPTURE(half_width);
         CAPTURE(k0);
         const FarStress far{1e6, k0};
