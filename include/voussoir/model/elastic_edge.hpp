@@ -98,6 +98,7 @@ class ElasticEdge : public SupportModel<ElasticEdge<Dim>, Dim> {
   }
   [[nodiscard]] std::vector<std::pair<int, int>> links() const override {
     std::vector<std::pair<int, int>> pairs;
+    pairs.reserve(index(node_count()) + springs_.size());
     for (int k = 0; k < node_count(); ++k) pairs.emplace_back(first_ + k, ground_);
     for (const Spring& s : springs_) pairs.emplace_back(s.rock, s.nodes.front());
     return pairs;
