@@ -18,7 +18,7 @@ std::string percent(double part) {
 }
 
 std::string closure_text(const BoundaryBias& bias) {
-  return percent(bias.upright) + " of the height, " + percent(bias.across) + " of the width";
+  return percent(bias.upright) + " in height, " + percent(bias.across) + " in width";
 }
 
 FarField<2> on_all_sides(const ElasticMatrix<2>& moduli, const BoundaryInput& input) {

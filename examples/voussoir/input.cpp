@@ -529,8 +529,7 @@ void check_boundary(Checker& checker, const Input& input) {
                        (has_sides ? "boundary.base" : "boundary.sides") + " is left to be chosen",
                    "both, or neither");
   } else if (boundary.sides == Boundary::stress && boundary.base == Boundary::rollers) {
-    checker.report("boundary.base",
-                   "on rollers leaves the rock free to slide between sides under stress",
+    checker.report("boundary.base", "leaves the rock free to slide between sides under stress",
                    R"("elastic", or other sides)");
   }
   if (boundary.ground_above && input.stress.surcharge == 0 && !checker.faulty("stress"))
