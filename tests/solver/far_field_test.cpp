@@ -117,6 +117,22 @@ TEST_SUITE("solver/far_field") {
     CHECK(of_near.across == doctest::Approx(of_deep.across).epsilon(0.01));
     CHECK(convergence_of(near, mean_displacement(near)).crown ==
           doctest::Approx(convergence_of(deep, mean_displacement(deep)).crown).epsilon(0.01));
+    // Moved as a whole it is the same wall.
+    auto shifted = near;
+    const Vec2 by(0.3, -0.7);
+    for (WallMotion& piece : shifted) {
+      piece.moved += by;
+      piece.convergence -= by.dot(Vec2(std::cos(piece.angle), std::sin(piece.angle)));
+    }
+    const Convergence is = convergence_of(near, mean_displacement(near)),
+                      was = convergence_of(shifted, mean_displacement(shifted));
+    // Within the window of 12 degrees the direction turns: 0.2 of the shift, and less in the
+    // median.
+    CHECK(std::abs(is.crown - was.crown) < 0.15);
+    CHECK(std::abs(is.invert - was.invert) < 0.15);
+    CHECK(std::abs(is.left_springing - was.left_springing) < 0.15);
+    CHECK(std::abs(is.right_springing - was.right_springing) < 0.15);
+    CHECK(was.rise - is.rise == doctest::Approx(by.y()).epsilon(1e-9));
     // Rollers do not have that.
     CHECK(boundary_bias(motion(24, 9, false), motion(24, 9, true)).largest() > 0.03);
   }
