@@ -6,14 +6,11 @@
 //   failure_table [FIRST] [COUNT] [THREADS] [REFERENCES]      default: 0 200 1 2; hours
 // With 1 reference the finer one is left out, with 0 both: minutes.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <mutex>
 #include <numbers>
 #include <string>
-#include <system_error>
 #include <vector>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
@@ -24,6 +21,7 @@
 #include <voussoir/tunnel/construction.hpp>
 
 #include "failure_cases.hpp"
+#include "whole_number.hpp"
 
 namespace {
 
@@ -181,14 +179,6 @@ void print_counts(const std::vector<std::vector<Answer>>& all) {
                  count([&](const auto& a) { return a[m].verdict == a[reference].verdict; }),
                  all.size());
   }
-}
-
-/// -1 for what is no whole number.
-int number_of(const char* word) {
-  int number = -1;
-  const char* const end = word + std::strlen(word);
-  const auto [last, error] = std::from_chars(word, end, number);
-  return error == std::errc() && last == end ? number : -1;
 }
 
 }  // namespace

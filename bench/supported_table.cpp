@@ -9,12 +9,10 @@
 //            GPa, friction 20 to 40 degrees, bond in half of the cases
 //   stages   the wall relaxes to 0.4 to 0.9 of its traction, then it is supported
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -30,6 +28,7 @@
 #include <voussoir/tunnel/support_demand.hpp>
 
 #include "failure_cases.hpp"
+#include "whole_number.hpp"
 
 namespace {
 
@@ -136,13 +135,6 @@ Answer build(const FailureCase& rock, const SupportCase& support) {
 double apart(double a, double b) {
   const double largest = std::max(std::abs(a), std::abs(b));
   return largest > 0 ? std::abs(a - b) / largest : 0;
-}
-
-int number_of(const char* word) {
-  int number = -1;
-  const char* const end = word + std::strlen(word);
-  const auto [last, error] = std::from_chars(word, end, number);
-  return error == std::errc() && last == end ? number : -1;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,10 +15,12 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/dynamics/added_inertia.hpp>
 #include <voussoir/dynamics/dynamics_settings.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/dynamics/run_diagnostics.hpp>
 #include <voussoir/dynamics/run_sizes.hpp>
+#include <voussoir/dynamics/sound_state.hpp>
 #include <voussoir/dynamics/stepping.hpp>
 #include <voussoir/dynamics/time_step.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
@@ -125,8 +126,7 @@ class Dynamics : public MovingBodies<Dim> {
     this->stop(b);
     forget();
   }
-  /// Makes the bodies that allow only short steps more inert, their weight kept, so that all allow
-  /// the step of the rest: what rests, rests as before; what moves, moves later.
+  /// See `detail::add_inertia`: what rests, rests as before; what moves, moves later.
   /// @param share  of all bodies, that are the first to be made so [-], >= 0 and < 1
   void add_inertia(double share);
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
@@ -188,9 +188,11 @@ class Dynamics : public MovingBodies<Dim> {
     const auto [force, moment] = network_.gather(index(b));
     return {force, moment};
   }
-  /// Force and moment out of balance over the weight, the worst block [-]; a moment counts as a
-  /// force at the radius.
-  [[nodiscard]] double unbalance_over_weight();
+  /// See `detail::ForcesOnBodies::unbalance_over_weight` [-].
+  [[nodiscard]] double unbalance_over_weight() {
+    begin();
+    return forces().unbalance_over_weight();
+  }
 
   /// Where energy has gone since the beginning.
   [[nodiscard]] EnergyBalance energy() {
@@ -223,16 +225,7 @@ class Dynamics : public MovingBodies<Dim> {
   }
 
  private:
-  /// All that a run goes back to when it goes bad.
-  struct Sound {
-    std::vector<Body> bodies;
-    Network network;
-    ContactTracker<Dim, Detector> tracker;
-    EnergyBalance audit;
-    SupportSet<Dim> supports;
-    double kinetic_given, time;
-    std::int64_t steps;
-  };
+  using Sound = detail::SoundState<Dim, Network, ContactTracker<Dim, Detector>>;
 
   /// Before anything is asked: bodies that are new are taken in, and forces computed.
   void begin() {
@@ -321,18 +314,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) 
   require(share >= 0 && share < 1, "share of bodies with more inertia", share, ">= 0 and < 1");
   begin();
   const double kinetic = this->kinetic_energy();
-  const std::vector<double> sums = stiffness_over_mass();
-  std::vector<double> sorted = sums;
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  const double most = sorted[static_cast<std::size_t>(share * static_cast<double>(sums.size()))];
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    Body& body = bodies_[b];
-    if (!body.movable() || !(sums[b] > most) || !(most > 0)) continue;
-    const double factor = sums[b] / most;
-    loads_[b].force[Dim - 1] += (factor - 1) * body.mass * settings_.gravity;
-    body.mass *= factor;
-    body.inertia *= factor;
-  }
+  detail::add_inertia(stiffness_over_mass(), share, settings_.gravity, bodies_, loads_);
   network_.forget_masses();
   kinetic_given_ += this->kinetic_energy() - kinetic;
   forget();
@@ -347,21 +329,6 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
     held_[b].force[Dim - 1] += bodies_[b].mass * settings_.gravity;
   }
   set_held(1);
-}
-
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::unbalance_over_weight() {
-  begin();
-  const auto all = forces();
-  double worst = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Body& body = bodies_[b];
-    if (!body.movable() || body.radius == 0) continue;
-    const Load<Dim> total = all.total(b);
-    worst = std::max(worst, (total.force.norm() + total.moment.norm() / body.radius) /
-                                (body.mass * settings_.gravity));
-  }
-  return worst;
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>

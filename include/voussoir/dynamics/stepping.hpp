@@ -44,6 +44,19 @@ struct ForcesOnBodies {
     supports.add_load_on(b, force, moment);
     return {force, moment};
   }
+  /// Force and moment out of balance over the weight, the worst block [-]; a moment counts as a
+  /// force at the radius.
+  [[nodiscard]] double unbalance_over_weight() const {
+    double worst = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const MovingBody<Dim>& body = bodies[b];
+      if (!body.movable() || body.radius == 0) continue;
+      const Load<Dim> sum = total(b);
+      worst = std::max(
+          worst, (sum.force.norm() + sum.moment.norm() / body.radius) / (body.mass * gravity));
+    }
+    return worst;
+  }
 };
 
 /// Steps of velocity Verlet, shared by a team of threads: kick, drift, forces at the new place,
