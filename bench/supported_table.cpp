@@ -2,7 +2,8 @@
 // Supported tunnels that nobody picked: the rock of failure_cases.hpp with bolts and linings drawn
 // from the number of the case, built in two stages, by TwoLevel and by Explicit. One line a case as
 // CSV; counts at the end on the error stream.
-//   supported_table [FIRST] [COUNT] [THREADS]      default: 0 200 1
+//   supported_table [FIRST] [COUNT] [THREADS] [STEPS]      default: 0 200 1 1
+// With STEPS each of the two stages is unloaded in so many equal steps: what hangs on the path.
 //
 //   bolts    in three of four cases: 0.3 to 0.6 spans long, 0.8 to 2 m apart, over the roof
 //   lining   closed ring, arch on feet, or two arcs with a gap at the crown; 5 to 30 cm of 10 to 30
@@ -73,8 +74,28 @@ struct Answer {
   double seconds = 0;
 };
 
+/// The same with every stage in equal steps of its traction.
+template <class Tunnel>
+Construction<Tunnel> in_steps(const Construction<Tunnel>& plan, int steps) {
+  Construction<Tunnel> divided = plan;
+  divided.stages.clear();
+  double from = 1;
+  for (auto stage : plan.stages) {
+    const double to = stage.wall_traction;
+    for (int k = 1; k <= steps; ++k) {
+      stage.wall_traction = k == steps ? to : from + (to - from) * k / steps;
+      divided.stages.push_back(stage);
+      stage.rounds.clear();
+      stage.bolts.clear();
+      stage.linings.clear();
+    }
+    from = to;
+  }
+  return divided;
+}
+
 template <class Method>
-Answer build(const FailureCase& rock, const SupportCase& support) {
+Answer build(const FailureCase& rock, const SupportCase& support, int steps) {
   using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, Method>;
   const auto start = std::chrono::steady_clock::now();
   Answer answer;
@@ -112,7 +133,7 @@ Answer build(const FailureCase& rock, const SupportCase& support) {
       line(0, 80, false);
       line(100, 180, false);
     }
-    const auto built = construct(tunnel, plan);
+    const auto built = construct(tunnel, in_steps(plan, steps));
     const SupportDemand demand = support_demand(tunnel);
     answer.verdict = to_string(built.verdict(), built.fallen_measure(), built.has_lost_lining());
     if (built.verdict() == Verdict::undecided)
@@ -141,9 +162,11 @@ double apart(double a, double b) {
 
 int main(int argc, char** argv) {
   const int first = argc > 1 ? number_of(argv[1]) : 0, count = argc > 2 ? number_of(argv[2]) : 200,
-            threads = argc > 3 ? number_of(argv[3]) : 1;
-  if (argc > 4 || first < 0 || count < 1 || threads < 1)
-    return std::fputs("usage: supported_table [FIRST >= 0] [COUNT >= 1] [THREADS >= 1]\n", stderr),
+            threads = argc > 3 ? number_of(argv[3]) : 1, steps = argc > 4 ? number_of(argv[4]) : 1;
+  if (argc > 5 || first < 0 || count < 1 || threads < 1 || steps < 1)
+    return std::fputs(
+               "usage: supported_table [FIRST >= 0] [COUNT >= 1] [THREADS >= 1] [STEPS >= 1]\n",
+               stderr),
            2;
   std::puts(
       "case,shape,span_m,cover_m,k0,friction_deg,lining,thickness_m,bond_MPa,bolt_length_m,relaxed,"
@@ -154,7 +177,8 @@ int main(int argc, char** argv) {
   parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
     const FailureCase rock = failure_case(first + static_cast<int>(k));
     const SupportCase support = support_case(rock);
-    const Answer a = build<TwoLevel>(rock, support), b = build<Explicit>(rock, support);
+    const Answer a = build<TwoLevel>(rock, support, steps),
+                 b = build<Explicit>(rock, support, steps);
     const std::scoped_lock lock(guard);
     std::printf("%d,%s,%.2f,%.1f,%.2f,%.1f,%s,%.3f,%.2f,%.2f,%.2f", rock.number, rock.shape.c_str(),
                 rock.span, rock.cover, rock.k0, rock.joint.friction_angle / degree,
