@@ -69,7 +69,7 @@ enum class Way {
   /// As near as can be told to how the paper ran it: explicit stepping, all rock taken out at once,
   /// local damping of 0.1, one point a contact.
   as_the_paper,
-  /// Explicit stepping that takes the rock out over 2000 steps, well damped: to check the search.
+  /// Explicit stepping that takes the rock out slowly, well damped: to check the search.
   slow_explicit,
 };
 

@@ -42,7 +42,7 @@ Section solution_checks(Study& study) {
         [&](Variant& v) { v.extent = extent; });
   for (const double tolerance : {1e-2, 1e-4, 1e-6})
     changed("tolerance " + power_text(tolerance), [&](Variant& v) { v.tolerance = tolerance; });
-  changed("explicit stepping, excavated over 2000 steps",
+  changed("explicit stepping, excavated over 8000 steps",
           [](Variant& v) { v.way = Way::slow_explicit; });
   std::vector<Variant> variants;
   for (const auto& [name, variant] : rows) variants.push_back(variant);

@@ -178,7 +178,7 @@ struct RunInput {
   /// Moved so far, contacts are updated [m], > 0; left out: chosen by the rock.
   double contact_update_limit = by_the_rock;
   double damping = 0.7;   ///< local damping, explicit only [-], 0 to 0.95
-  int ramp_steps = 2000;  ///< steps over which the wall is unloaded, explicit only; 0 = at once
+  int ramp_steps = 8000;  ///< steps over which the wall is unloaded, explicit only; 0 = at once
   std::optional<std::int64_t> max_steps;  ///< > 0
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 #include <voussoir/dynamics/moving_rock.hpp>
@@ -16,6 +17,7 @@
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 
 #include "support/faults.hpp"
@@ -125,12 +127,14 @@ TEST_SUITE("solver/lining_feet") {
     REQUIRE(tunnel.equilibrium(0, {}, tight).verdict == Verdict::stable);
     const auto full = foot_forces(tunnel);
     const double most = 0.5 * std::min(full[0].bearing, full[1].bearing);
+    // In one step: on its way a foot that has yielded may be relieved again.
+    const TwoLevel in_one_step({.increments = 1});
     weak.install_lining(frame, shotcrete(), smooth,
                         FootBearing({.width = 0.2,
                                      .stiffness = 5e9,
                                      .strength = most / 0.2,
                                      .friction_angle = 30 * degree}));
-    REQUIRE(weak.equilibrium(0, {}, tight).verdict == Verdict::stable);
+    REQUIRE(weak.equilibrium(0, in_one_step, tight).verdict == Verdict::stable);
     for (const auto& foot : foot_forces(weak)) {
       CHECK(foot.bearing == doctest::Approx(most).epsilon(1e-9));
       CHECK(foot.utilisation == doctest::Approx(1).epsilon(1e-9));
@@ -267,6 +271,48 @@ TEST_SUITE("solver/lining_feet") {
     CHECK_THROWS_AS(FootBearing({.width = 0, .stiffness = 1e9, .friction_angle = 0}), InvalidInput);
     CHECK_THROWS_AS(FootBearing({.width = 1, .stiffness = 1e9, .strength = 0, .friction_angle = 0}),
                     InvalidInput);
+  }
+
+  TEST_CASE("a foot whose rock has fallen is left out, is told, and the construction goes on") {
+    Construction<Solver<>> plan;
+    plan.acceptance.collapse_measure = 1e3;
+    const auto opening = circular_opening(5, 36);
+    plan.add_stage("excavation", 0).excavate(opening);
+    const auto loose = [&] {
+      return Solver<>(jointed_rock(domain_around(opening, 20, 7, 7), 4),
+                      CoulombJoint({5e9, 5e8, 20 * degree}), {.density = 2700});
+    };
+    auto bare = loose();
+    REQUIRE(construct(bare, plan).verdict() == Verdict::stable);
+    REQUIRE(!bare.fallen().empty());
+    // An arc that begins on the wall of a block that has fallen, and ends where none has.
+    const auto is_gone = [&](int body) {
+      return std::count(bare.fallen().begin(), bare.fallen().end(), body) > 0;
+    };
+    const auto hanging_at = [&](double from) {
+      const auto frame = lining_frame(bare.mass(), {.from = from, .to = from + 120 * degree});
+      const auto standing =
+          std::count_if(frame.contacts.begin(), frame.contacts.end(),
+                        [&](const auto& contact) { return !is_gone(contact.body); });
+      return is_gone(frame.ends[0].body) && frame.ends[1].body >= 0 &&
+             !is_gone(frame.ends[1].body) && 2 * standing > std::ssize(frame.contacts);
+    };
+    double angle = 0;
+    while (angle < 360 * degree && !hanging_at(angle)) angle += 1 * degree;
+    REQUIRE(hanging_at(angle));
+    plan.add_stage("support").install_lining(
+        {{.from = angle, .to = angle + 120 * degree}, {shotcrete()}, rough, {}, strong});
+    auto tunnel = loose();
+    const auto built = construct(tunnel, plan);
+    REQUIRE(built.stages.size() == 2);
+    CHECK(foot_forces(tunnel).size() == 1);
+    REQUIRE(built.hanging_ends.size() == 1);
+    CHECK((built.hanging_ends[0] - Vec2(2.5 * std::cos(angle), 2.5 * std::sin(angle))).norm() <
+          0.02);  // the chord of a node is 36 facets of the circle, 1 cm inside
+    const auto remarks = remarks_on(support_condition(tunnel, built));
+    CHECK(std::any_of(remarks.begin(), remarks.end(), [](const std::string& text) {
+      return says(text, "the rock there had fallen before it was installed");
+    }));
   }
 
   TEST_CASE("ribs in 3-D stand on feet, each for its stretch of the tunnel") {

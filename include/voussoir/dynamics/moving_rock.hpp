@@ -149,8 +149,8 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   if (!feet) return lining;
   std::vector<LiningFootSpring<dim>> springs;
   for (const LiningEnd<Geometry>& end : frame.ends) {
-    LiningFootSpring<dim> spring =
-        foot_spring(end, first + end.node, *feet, [&](int b) { return run.body(b).is_gone; });
+    if (end.body >= 0 && run.body(end.body).is_gone) continue;  // the end hangs free
+    LiningFootSpring<dim> spring = foot_spring(end, first + end.node, *feet);
     const auto k = static_cast<std::size_t>(end.node);
     spring.arm_node = end.place - frame.nodes[k];
     const Pose<dim> rock = run.pose(end.body);

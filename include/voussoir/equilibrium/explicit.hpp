@@ -37,7 +37,7 @@ class Explicit {
 
   struct Params {
     double damping = 0.7;   ///< local damping alpha [-], 0 <= alpha < 1
-    int ramp_steps = 2000;  ///< over which the wall traction goes; 0: sudden
+    int ramp_steps = 8000;  ///< over which the wall traction goes; 0: sudden
     double safety = 0.9;    ///< of the stable step [-], 0 < safety <= 1
     int max_steps = 200000;
     int check_every = 50;
@@ -137,7 +137,8 @@ detail::SearchEnd Explicit::step_on(System& system, const SearchContext& context
     stop();
     VOUSSOIR_ASSERT(done > 0 && done <= 1, "a ramp goes from its beginning to its end");
     VOUSSOIR_ASSERT(step > 0, "time goes on");
-    system.wall_fraction = from + (to - from) * done;
+    // Without a jump in the rate at either end, which would set the rock swinging.
+    system.wall_fraction = from + (to - from) * done * done * (3 - 2 * done);
     system.template forces<Committing>(u, f);
     ++report.steps;
     ++made;

@@ -167,7 +167,10 @@ class TwoLevel {
                      report.fallen.end()});
         continue;
       }
-      // Nothing detached: the search goes on from the slip that the fallback has committed.
+      // Nothing detached: the fallback may have found the state; or the search goes on from the
+      // slip that it has committed.
+      if (detail::GlobalSearch<System>(system, effort(), context, elastic, report).accepts_start())
+        break;
       if (attempt > 0 && follow_to <= accept.unbalance_over_weight) {
         report.reason = "neither an equilibrium nor detached blocks were found";
         break;

@@ -105,14 +105,12 @@ struct LiningFootSpring {
 };
 
 /// The spring under an end of a lining, its arms left to be set.
-/// @param node     that the end is, among the bodies
-/// @param is_gone  is_gone(body): that body has fallen
+/// @param node  that the end is, among the bodies
 /// @throws InvalidInput  no rock there
-template <class Geometry, class IsGone>
+template <class Geometry>
 [[nodiscard]] LiningFootSpring<Geometry::dim> foot_spring(const LiningEnd<Geometry>& end, int node,
-                                                          const FootBearing& bearing,
-                                                          IsGone&& is_gone) {
-  if (end.body < 0 || is_gone(end.body))
+                                                          const FootBearing& bearing) {
+  if (end.body < 0)
     throw InvalidInput(
         message({"lining: there is no rock under the foot at ", text_of<Geometry::dim>(end.place),
                  " m: end the arc on rock, or leave the feet out"}));

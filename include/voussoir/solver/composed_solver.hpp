@@ -118,21 +118,25 @@ class ComposedSolver {
   /// One that begins where another ends joins it (`LiningFrame::neighbours`).
   /// @param interface_law  rock on lining
   /// @param feet  on which those ends stand that do not go on in a lining; none: they hang free
-  /// @throws InvalidInput  a member has no length, no rock touches it, or none is under its feet
-  void install_lining(const LiningFrame<Geometry>& frame, const LiningSection& section,
-                      const InterfaceLaw& interface_law,
-                      const std::optional<FootBearing>& feet = {}) {
-    install_lining(frame, std::vector<LiningSection>{section}, interface_law, feet);
+  /// @return  ends that hang free because the rock under their foot has fallen [m]
+  /// @throws InvalidInput  a member has no length, no rock touches it, or was ever under its feet
+  std::vector<Vec<dim>> install_lining(const LiningFrame<Geometry>& frame,
+                                       const LiningSection& section,
+                                       const InterfaceLaw& interface_law,
+                                       const std::optional<FootBearing>& feet = {}) {
+    return install_lining(frame, std::vector<LiningSection>{section}, interface_law, feet);
   }
   /// The same with members of several sections: ribs and what joins them.
-  void install_lining(const LiningFrame<Geometry>& frame,
-                      const std::vector<LiningSection>& sections, const InterfaceLaw& interface_law,
-                      const std::optional<FootBearing>& feet = {}) {
-    detail::LiningAssembly<Lining, SystemType>(system_, in_situ_.gravity,
-                                               1e3 * mass_->domain.tolerance())
-        .run(frame, sections, interface_law, feet);
+  std::vector<Vec<dim>> install_lining(const LiningFrame<Geometry>& frame,
+                                       const std::vector<LiningSection>& sections,
+                                       const InterfaceLaw& interface_law,
+                                       const std::optional<FootBearing>& feet = {}) {
+    detail::LiningAssembly<Lining, SystemType> assembly(system_, in_situ_.gravity,
+                                                        1e3 * mass_->domain.tolerance());
+    std::vector<Vec<dim>> hanging = assembly.run(frame, sections, interface_law, feet);
     measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
     started_ = true;
+    return hanging;
   }
 
   /// Lets the rock and its supports find their equilibrium at a residual wall traction

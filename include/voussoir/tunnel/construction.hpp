@@ -131,6 +131,8 @@ struct ConstructionResult {
   std::vector<StageResult> stages;            ///< those that were begun
   std::vector<typename Geometry::Line> bars;  ///< of the bolts, in the order of installation
   std::vector<int> crossings;                 ///< joints that each crossed when it was installed
+  /// Ends of linings without the foot that they were to have: the rock there had fallen [m].
+  std::vector<Vec<Geometry::dim>> hanging_ends;
   int first_bolt = 0;  ///< number of the first of them in the solver, which may have had others
 
   /// Of the last stage that was begun. @pre there is one
@@ -171,10 +173,11 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
       result.bars.push_back(bar);
     }
   for (const auto& lining : stage.linings)
-    solver.install_lining(lining.opening
-                              ? lining_frame(solver.mass(), *lining.opening, lining.layout)
-                              : lining_frame(solver.mass(), lining.layout),
-                          lining.sections, lining.interface_law, lining.feet);
+    for (const auto& end : solver.install_lining(
+             lining.opening ? lining_frame(solver.mass(), *lining.opening, lining.layout)
+                            : lining_frame(solver.mass(), lining.layout),
+             lining.sections, lining.interface_law, lining.feet))
+      result.hanging_ends.push_back(end);
 }
 
 }  // namespace detail

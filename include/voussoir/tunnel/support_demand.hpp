@@ -72,12 +72,13 @@ template <class Solver>
 /// What has become of the supports: nothing of this shows in the forces of those that are left.
 struct SupportCondition {
   int bolts = 0;
-  int idle = 0;              ///< bolts that crossed no joint when they were installed
-  int lost = 0;              ///< bolts that went with the rock they held
-  int ruptured = 0;          ///< joints at which a bolt has broken
-  int yielded = 0;           ///< joints at which one has yielded and holds
-  bool lining_lost = false;  ///< the rock that held one is gone
-  bool lining_open = false;  ///< 2-D: an arc, of which the feet stand on nothing
+  int idle = 0;                           ///< bolts that crossed no joint when they were installed
+  int lost = 0;                           ///< bolts that went with the rock they held
+  int ruptured = 0;                       ///< joints at which a bolt has broken
+  int yielded = 0;                        ///< joints at which one has yielded and holds
+  bool lining_lost = false;               ///< the rock that held one is gone
+  bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
+  std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
 };
 
 template <class Solver>
@@ -85,6 +86,8 @@ template <class Solver>
     const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
   SupportCondition condition;
   condition.bolts = static_cast<int>(result.bars.size());
+  for (const auto& end : result.hanging_ends)
+    condition.hanging_ends.push_back(text_of<Solver::dim>(end));
   std::vector<int> held(result.bars.size(), 0);
   for (const CrossingForce& c : bolt_forces(solver)) {
     if (c.bolt < result.first_bolt) continue;
@@ -125,6 +128,9 @@ template <class Solver>
         "the lining is open and its ends stand on nothing: it carries what friction on the rock "
         "gives it, next to no thrust; give them feet, or bond it ([support.lining.feet], "
         "interface.shear_bond)");
+  for (const std::string& place : condition.hanging_ends)
+    remarks.push_back("the lining has no foot at " + place +
+                      " m: the rock there had fallen before it was installed; that end hangs free");
   const std::string of_all = " of " + std::to_string(condition.bolts) + " bolts ";
   if (condition.idle > 0)
     remarks.push_back(std::to_string(condition.idle) + of_all + "cross no joint and hold nothing");

@@ -90,6 +90,16 @@ class GlobalSearch {
     return SearchEnd::open;
   }
 
+  /// Judges the state as it is, without a search: one that a fallback has brought to rest.
+  /// @return  true: accepted, and what has slipped is committed
+  bool accepts_start() {
+    system_.wall_fraction = context_.wall_fraction;
+    prepare();
+    find_correction();
+    judge(0);
+    return is_accepted() && system_.commit() == 0 && rests();
+  }
+
  private:
   /// Of bodies and contacts, between a local search and its correction.
   enum class Change { none, some, too_often, collapse };

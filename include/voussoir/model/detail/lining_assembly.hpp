@@ -41,9 +41,14 @@ class LiningAssembly {
       : system_(system), gravity_(gravity), near_(near) {}
 
   /// @param feet  on which ends stand that do not go on in a lining; none: they hang free
-  /// @throws InvalidInput  a member has no length, no rock touches the lining, or is under its feet
-  void run(const LiningFrame<Geometry>& wanted, const std::vector<LiningSection>& sections,
-           const InterfaceLaw& interface_law, const std::optional<FootBearing>& feet) {
+  /// @return  ends without a foot because the rock under them has fallen [m]
+  /// @throws InvalidInput  a member has no length, no rock touches the lining, or was ever under
+  /// its
+  ///                       feet
+  std::vector<Vec<dim>> run(const LiningFrame<Geometry>& wanted,
+                            const std::vector<LiningSection>& sections,
+                            const InterfaceLaw& interface_law,
+                            const std::optional<FootBearing>& feet) {
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
@@ -57,11 +62,13 @@ class LiningAssembly {
     });
     first_node_ = system_.body_count();
     std::vector<LiningFootSpring<dim>> springs;
-    if (feet) springs = feet_of(wanted, frame, *feet, first_node_);
+    std::vector<Vec<dim>> hanging;
+    if (feet) springs = feet_of(wanted, frame, *feet, first_node_, hanging);
     add_nodes(frame, node_shares(frame, sections), standing);
     add_members(frame, sections, standing);
     if (feet) add_feet(*feet, std::move(springs));
     add_surface(frame, sections, interface_law);
+    return hanging;
   }
 
  private:
@@ -107,17 +114,21 @@ class LiningAssembly {
       system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
   }
 
-  /// @param first  body that the first node will be
+  /// @param first    body that the first node will be
+  /// @param hanging  is told the ends under which the rock has fallen
   [[nodiscard]] std::vector<LiningFootSpring<dim>> feet_of(const LiningFrame<Geometry>& wanted,
                                                            const LiningFrame<Geometry>& frame,
-                                                           const FootBearing& bearing,
-                                                           int first) const {
+                                                           const FootBearing& bearing, int first,
+                                                           std::vector<Vec<dim>>& hanging) const {
     if (wanted.ends.empty())
       throw InvalidInput("lining: it is closed and has no ends that feet could stand under");
     std::vector<LiningFootSpring<dim>> springs;
     for (const LiningEnd<Geometry>& end : frame.ends) {
-      springs.push_back(foot_spring(end, first + end.node, bearing,
-                                    [this](int b) { return system_.body(b).is_gone; }));
+      if (end.body >= 0 && system_.body(end.body).is_gone) {
+        hanging.push_back(end.place);
+        continue;
+      }
+      springs.push_back(foot_spring(end, first + end.node, bearing));
       springs.back().arm_node = end.place - frame.nodes[static_cast<std::size_t>(end.node)];
       springs.back().arm_rock = system_.arm(end.body, end.place);
     }
