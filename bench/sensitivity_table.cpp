@@ -141,9 +141,18 @@ void add_parts(std::vector<Knob>& all) {
   using R = RestartTuning;
   restart.add("follow_to", &R::follow_to);
   restart.add("follow_closer", &R::follow_closer);
+  restart.add("increments", &R::increments, 1);
   restart.add("increment_ratio", &R::increment_ratio);
   restart.add("updates", &R::updates);
   restart.add("updates_on_the_way", &R::updates_on_the_way);
+
+  const Members<PathTuning> path{all, "PathTuning", &TwoLevel::Params::path};
+  using P = PathTuning;
+  path.add("one_step_share", &P::one_step_share);
+  path.add("looseness", &P::looseness, 1);
+  path.add("burst_steps", &P::burst_steps, 1);
+  path.add("turn", &P::turn);
+  path.add("halvings", &P::halvings, 1);
 
   const Members<MotionTuning> motion{all, "MotionTuning", &TwoLevel::Params::motion};
   using M = MotionTuning;

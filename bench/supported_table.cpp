@@ -152,10 +152,12 @@ Answer build(const FailureCase& rock, const SupportCase& support, int steps) {
   return answer;
 }
 
-/// Of two values, over the larger.
-double apart(double a, double b) {
-  const double largest = std::max(std::abs(a), std::abs(b));
-  return largest > 0 ? std::abs(a - b) / largest : 0;
+/// Of two values, over the larger, but no less than a floor: a hundredth of next to nothing is no
+/// difference. Not a number in both (no block at the crown) is none.
+double apart(double a, double b, double floor) {
+  if (std::isnan(a) && std::isnan(b)) return 0;
+  const double largest = std::max({std::abs(a), std::abs(b), floor});
+  return std::abs(a - b) / largest;
 }
 
 }  // namespace
@@ -173,7 +175,7 @@ int main(int argc, char** argv) {
       "two_level,two_level_m2,two_level_crown_mm,two_level_thrust_kN,two_level_bolts_kN,two_level_s,"
       "explicit,explicit_m2,explicit_crown_mm,explicit_thrust_kN,explicit_bolts_kN,explicit_s");
   std::mutex guard;
-  int same = 0, undecided = 0, stable = 0, close = 0;
+  int same = 0, undecided = 0, stable = 0, close = 0, near = 0;
   parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
     const FailureCase rock = failure_case(first + static_cast<int>(k));
     const SupportCase support = support_case(rock);
@@ -193,12 +195,16 @@ int main(int argc, char** argv) {
     undecided += (a.verdict == "undecided") + (b.verdict == "undecided");
     if (a.verdict != "stable" || b.verdict != "stable") return;
     ++stable;
-    close += std::max({apart(a.crown, b.crown), apart(a.thrust, b.thrust),
-                       apart(a.bolts, b.bolts)}) <= 0.01;
+    // Forces are counted from the weight of a mean block on.
+    const double weight = 9.81 * rock.in_situ.density * rock.spacing * rock.spacing;
+    const double worst = std::max({apart(a.crown, b.crown, 0), apart(a.thrust, b.thrust, weight),
+                                   apart(a.bolts, b.bolts, weight)});
+    close += worst <= 0.01;
+    near += worst <= 0.05;
   });
   std::fprintf(stderr,
                "%d cases: same verdict in %d, undecided answers %d; stable in both %d, crown, mean "
-               "thrust and bolts within 1 %% in %d of these\n",
-               count, same, undecided, stable, close);
+               "thrust and bolts within 1 %% in %d of these, within 5 %% in %d\n",
+               count, same, undecided, stable, close, near);
   return 0;
 }

@@ -52,7 +52,7 @@ Section lining_thrust(Study& study) {
   for (const Swept* s : {&mean, &sudden}) draw(by_stiffness, *s);
 
   Plot around{"lining_thrust_around",
-              "Thrust around the ring, mean of the realisations that stand",
+              "Thrust around the ring: mean and standard deviation",
               "angle from the right-hand springing, degrees",
               "N / (p_0 D)",
               {}};
@@ -65,6 +65,7 @@ Section lining_thrust(Study& study) {
       if (m.values.empty()) continue;
       s.x.push_back(angle);
       s.y.push_back(m.mean() / force_unit);
+      s.spread.push_back(m.deviation() / force_unit);
     }
     around.series.push_back(s);
   }

@@ -153,13 +153,18 @@ std::string plot_script(const Plot& plot) {
   std::size_t k = 0, first = 0;  // the rows of a series lie together
   for (const Series& s : plot.series) {
     if (s.x.empty()) continue;  // nothing failed, say
-    const std::string rows = "every ::" + std::to_string(first) +
-                             "::" + std::to_string(first + s.x.size() - 1) + " using 2:3";
+    const std::string rows = "'" + plot.name + ".csv' skip 1 every ::" + std::to_string(first) +
+                             "::" + std::to_string(first + s.x.size() - 1) + " using 2:";
     first += s.x.size();
+    if (s.mark == Mark::line && !s.spread.empty()) {
+      script += next + rows + "($3-$4):($3+$4) with filledcurves fs transparent solid 0.18" +
+                " noborder lc rgb '" + colour(k) + "' notitle";
+      next = ", \\\n  ";
+    }
     const bool error_bars =
         !s.spread.empty() && (s.mark == Mark::points || s.mark == Mark::linked_points);
-    script += std::string(next) + "'" + plot.name + ".csv' skip 1 " + rows +
-              (error_bars ? ":4 " : " ") + drawn_as(s, k) + " title " + script_text(s.name);
+    script += next + rows + (error_bars ? "3:4 " : "3 ") + drawn_as(s, k) + " title " +
+              script_text(s.name);
     next = ", \\\n  ";
     k += s.mark != Mark::failed;
   }

@@ -10,7 +10,7 @@ namespace voussoir::paper {
 
 /// How a series is drawn.
 enum class Mark {
-  line,         ///< a theory
+  line,         ///< a theory; with spreads a mean, in a band of them
   dashed_line,  ///< another
   points,       ///< measured, with the standard deviation over realisations if there is one
   linked_points,

@@ -471,15 +471,16 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
   header.key_numbers = {{"runs", std::to_string(results.size())},
                         {"roof named as in the paper", of_all(roofs)},
                         {"walls named as in the paper", of_all(walls)}};
-  constexpr int columns = 4;
+  constexpr int columns = 3;
   const double width = (picture_width - 2 * picture_margin) / columns, side = width - 12;
-  const double row = side + 84;
+  constexpr double letters = 14.5, line = 1.25 * letters;  // to be read at the width of a page
+  const double row = side + 5.5 * line + 12;
   const auto rows = static_cast<double>((by_case.size() + columns - 1) / columns);
   header.lines = {
       "The first realisation of each case. Below it what the paper sees at the roof and at the walls, and "
       "what realisations 1 to 3 do, with m\u00b2 lost."};
   std::map<int, std::vector<std::string>> captions;
-  double size = 10.5;  // one for all captions
+  double size = letters;  // one for all captions
   for (const auto& [number, runs] : by_case) {
     const PatternCase& c = pattern_cases()[static_cast<std::size_t>(number - 1)];
     std::vector<std::string>& lines = captions[number];
@@ -491,8 +492,8 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
     for (const std::string& text : lines)
       size = std::min(
           size,
-          10.5 * side /
-              std::max(1.0, text_width(text, {.size = 10.5, .bold = &text == &lines.front()})));
+          letters * side /
+              std::max(1.0, text_width(text, {.size = letters, .bold = &text == &lines.front()})));
   }
   const double top = header.height() + 6;
   SvgCanvas canvas(picture_width, top + rows * row + 10, picture_printed_width, header.title);
@@ -506,7 +507,7 @@ std::string patterns_sheet(const std::vector<PatternResult>& results) {
                  "c" + std::to_string(number));
     double y = side;
     for (const std::string& text : captions[number])
-      canvas.text(low + Vec2(0, y += 13.0), text,
+      canvas.text(low + Vec2(0, y += line), text,
                   {.size = size, .bold = &text == &captions[number].front()});
     ++place;
   }

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/core/random.hpp>
 
 namespace mohr_coulomb_joint_test {
 
@@ -72,6 +73,64 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
       CHECK((mine.tangential - theirs.tangential).norm() < 1e-9);
       CHECK(law.commit(load, state) == doctest::Approx(plain.commit(load, other)).epsilon(1e-9));
     }
+  }
+
+  // Strength and flow are linear, so along a straight path what is solved at its end is what small
+  // steps come to; in the last of them, as far as they go.
+  TEST_CASE_TEMPLATE("dilation may hold shut what is pulled open: one step is as good as 4 000", D,
+                     Dimension<2>, Dimension<3>) {
+    constexpr int dim = D::value;
+    Random random(71);
+    int held = 0, open = 0;
+    for (int k = 0; k < 100; ++k) {
+      const double limit = random.uniform() < 0.5 ? 1e-3 : 1;
+      const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                  .joint_shear_stiffness = ks,
+                                  .friction_angle = 35 * degree,
+                                  .dilation_angle = (2 + 18 * random.uniform()) * degree,
+                                  .dilation_limit = limit});
+      const double normal = 1e5 * random.uniform(), slip = 4e-3 * random.uniform(),
+                   opening = 1e-3 * random.uniform();
+      MohrCoulombJoint::State<dim> at_once, by_steps;
+      const auto end = point<dim>(normal, opening, slip);
+      const PointForce<dim> one = law.force(end, at_once);
+      PointForce<dim> many;
+      constexpr int steps = 4000;
+      for (int n = 1; n <= steps; ++n) {
+        const auto load = point<dim>(normal, opening * n / steps, slip * n / steps);
+        many = law.force(load, by_steps);
+        (void)law.commit(load, by_steps);
+      }
+      const bool is_pulled = normal < kn * w * opening;
+      held += is_pulled && one.normal > 0;
+      open += one.normal == 0;
+      CAPTURE(k);
+      const double last_step = (kn * opening + ks * slip) * w / steps;
+      CHECK(std::abs(one.normal - many.normal) <= last_step);
+      CHECK((one.tangential - many.tangential).norm() <= last_step);
+    }
+    CHECK(held >= 10);
+    CHECK(open >= 10);
+  }
+
+  TEST_CASE_TEMPLATE("force is a continuous function of motion", D, Dimension<2>, Dimension<3>) {
+    constexpr int dim = D::value;
+    const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                .joint_shear_stiffness = ks,
+                                .friction_angle = 35 * degree,
+                                .dilation_angle = 10 * degree,
+                                .dilation_limit = 1e-3});
+    const MohrCoulombJoint::State<dim> state;
+    // Nowhere does it change faster than the joint is stiff: slip less than motion, and what
+    // dilation adds to the normal force no more than friction turns into shear.
+    constexpr double step = 1e-6;
+    for (double slip = 0; slip < 5e-3; slip += 5e-4)
+      for (double opening = -1e-4; opening < 1e-3; opening += step) {
+        const auto a = law.force(point<dim>(1e5, opening, slip), state),
+                   b = law.force(point<dim>(1e5, opening + step, slip), state);
+        CHECK(std::abs(a.normal - b.normal) <= kn * w * step * (1 + 1e-9));
+        CHECK((a.tangential - b.tangential).norm() <= kn * w * step * (1 + 1e-9));
+      }
   }
 
   TEST_CASE_TEMPLATE("peak strength c + sigma tan(phi), then the residual", D, Dimension<2>,

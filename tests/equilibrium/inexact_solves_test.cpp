@@ -23,8 +23,10 @@ using namespace voussoir_test;
 
 namespace {
 
-const TwoLevel iterative({.linear = {.method = LinearMethod::iterative}});
-const TwoLevel direct({.linear = {.method = LinearMethod::direct}});
+// In one step: the estimate is that of one search. What increments have committed on the way, each
+// within the tolerance of the way, is not in it.
+const TwoLevel iterative({.increments = 1, .linear = {.method = LinearMethod::iterative}});
+const TwoLevel direct({.increments = 1, .linear = {.method = LinearMethod::direct}});
 
 /// Largest difference of the translation of a block [m].
 template <class Tunnel>

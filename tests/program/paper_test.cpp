@@ -176,6 +176,11 @@ TEST_SUITE("program/paper") {
     CHECK(script.find("every ::3::4 using 2:3:4") != std::string::npos);
     CHECK(script.find("every ::5::5") != std::string::npos);
     CHECK(script.find("nothing failed") == std::string::npos);
+    CHECK(script.find("filledcurves") == std::string::npos);
+    Plot banded = plot;
+    banded.series[0].spread = {0, 0.1, 0.2};
+    CHECK(plot_script(banded).find("every ::0::2 using 2:($3-$4):($3+$4) with filledcurves") !=
+          std::string::npos);
     const auto section_of = [](std::vector<Plot> plots) {
       Section section{"s", "S", "", {}};
       section.plots = std::move(plots);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -271,6 +272,38 @@ TEST_SUITE("solver/lining_feet") {
     CHECK_THROWS_AS(FootBearing({.width = 0, .stiffness = 1e9, .friction_angle = 0}), InvalidInput);
     CHECK_THROWS_AS(FootBearing({.width = 1, .stiffness = 1e9, .strength = 0, .friction_angle = 0}),
                     InvalidInput);
+  }
+
+  TEST_CASE(
+      "where a piece at the wall is too small for a block, the foot stands on what is behind") {
+    int ends = 0, beside_a_hole = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(seed);
+      const auto opening = horseshoe_opening(2.2, 2, 36);
+      Solver<> tunnel(jointed_rock(domain_around(opening, 12, 5, 5), seed), joint, in_situ);
+      tunnel.excavate(opening);
+      const auto frame = lining_frame(tunnel.mass(), arch);
+      const double stretch = opening.perimeter() / 72;
+      for (const auto& end : frame.ends) {
+        ++ends;
+        REQUIRE(end.body >= 0);
+        const Vec2 outward = Vec2(end.place.x() > 0 ? 1 : -1, 0);
+        beside_a_hole += detail::body_at<Planar>(
+                             tunnel.mass(), Vec2(end.place + 0.06 * stretch * outward)) != end.body;
+        // The rock is no further than the corner of a stretch: brute force over a fine grid.
+        double nearest = 10 * stretch;
+        for (int i = -40; i <= 40; ++i)
+          for (int k = -40; k <= 40; ++k) {
+            const Vec2 way(i * stretch / 20, k * stretch / 20);
+            if (way.norm() < nearest &&
+                detail::body_at<Planar>(tunnel.mass(), Vec2(end.place + way)) == end.body)
+              nearest = way.norm();
+          }
+        CHECK(nearest <= std::sqrt(2) * stretch);
+      }
+    }
+    CHECK(ends == 40);
+    CHECK(beside_a_hole >= 3);
   }
 
   TEST_CASE("a foot whose rock has fallen is left out, is told, and the construction goes on") {

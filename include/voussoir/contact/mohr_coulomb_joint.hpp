@@ -17,9 +17,10 @@ namespace voussoir {
 ///   d = tan(psi) min(Q, Q_max), Q the length of the path of q
 ///
 /// Symbols as in CoulombJoint; d dilation, psi its angle. While a point slips, dilation presses the
-/// joint shut, which raises the strength in the same step. A point that has reached its strength
-/// has failed: from the next commit on cohesion and friction are the residual ones, and there is no
-/// tensile strength. With c = sigma_t = psi = 0 it is a CoulombJoint.
+/// joint shut, which raises the strength in the same step, and may keep it from opening: force is a
+/// continuous function of motion until cohesion or tensile strength is lost. A point that has
+/// reached its strength has failed: from the next commit on cohesion and friction are the residual
+/// ones, and there is no tensile strength. With c = sigma_t = psi = 0 it is a CoulombJoint.
 ///
 /// Weakening changes the force at a commit: a search for equilibrium goes on after it
 /// (`System::commit` counts such points).
@@ -195,29 +196,26 @@ class MohrCoulombJoint {
   template <int Dim>
   [[nodiscard]] Response<Dim> respond(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const double w = load.weight, kn = p_.joint_normal_stiffness * w,
-                 ks = p_.joint_shear_stiffness * w, mu = friction_coefficient(state.failed);
+                 ks = p_.joint_shear_stiffness * w, mu = friction_coefficient(state.failed),
+                 cohesion = w * (state.failed ? p_.residual_cohesion : p_.cohesion),
+                 least_normal = -tensile_strength(w, state.failed);
     Response<Dim> r;
     r.force = elastic_force(load, state);
-    if (r.force.normal < -tensile_strength(w, state.failed)) {
-      r.force = {};
-      r.opens = true;
-      return r;
-    }
     const double shear = r.force.tangential.norm();
-    const double over = shear - shear_strength(r.force.normal, w, state.failed);
-    if (!(over > 0)) return r;
     // |T| - k_s dq = c + mu (N + k_n tan(psi) dq), as long as there is dilation left; then without.
-    const double left = std::max(0.0, p_.dilation_limit - state.path);
-    double slip = over / (ks + mu * kn * tan_dilation_);
-    if (slip > left || tan_dilation_ == 0) {
-      const double dilating = tan_dilation_ == 0 ? 0.0 : left;
-      slip = (over - mu * kn * tan_dilation_ * dilating) / ks;
-      r.force.normal += kn * tan_dilation_ * dilating;
-    } else {
-      r.force.normal += kn * tan_dilation_ * slip;
+    // Below zero too: slip on the way to an opening may hold the joint shut.
+    const double over = shear - (cohesion + mu * r.force.normal);
+    if (over > 0) {
+      const double left = tan_dilation_ == 0 ? 0.0 : std::max(0.0, p_.dilation_limit - state.path);
+      r.slip = over / (ks + mu * kn * tan_dilation_);
+      if (r.slip > left) r.slip = (over - mu * kn * tan_dilation_ * left) / ks;
+      r.force.normal += kn * tan_dilation_ * std::min(r.slip, left);
+      r.force.tangential *= shear > 0 ? std::max(0.0, shear - ks * r.slip) / shear : 0.0;
     }
-    r.slip = slip;
-    r.force.tangential *= shear > 0 ? std::max(0.0, shear - ks * slip) / shear : 0.0;
+    if (r.force.normal < least_normal) {
+      r = {};
+      r.opens = true;
+    }
     return r;
   }
   Params p_;

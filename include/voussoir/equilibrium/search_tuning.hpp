@@ -88,7 +88,10 @@ struct RestartTuning {
   /// The fallback follows falling blocks until the others are out of balance by no more than this
   /// [-]: it mostly has to tell what detaches, and what is a tenth of its weight out does not.
   double follow_to = 0.1;
-  double follow_closer = 0.3;    ///< times that, when nothing had detached [-], > 0 and < 1
+  double follow_closer = 0.3;  ///< times that, when nothing had detached [-], > 0 and < 1
+  /// Unloading in which blocks may detach on the way, in so many increments. Most happens when
+  /// little traction is left: the increments shrink with it.
+  int increments = 5;
   double increment_ratio = 0.4;  ///< of the traction left at the ends of two increments [-]
   /// Contact updates in a search: so many, and so many more for each time that the displacement
   /// limit holds that of updates. A block that needs more makes no progress.
@@ -98,10 +101,34 @@ struct RestartTuning {
   void check() const {
     require(follow_to > 0, "follow_to", follow_to, "> 0");
     require(follow_closer > 0 && follow_closer < 1, "follow_closer", follow_closer, "> 0 and < 1");
+    require(increments > 0, "increments", increments, "> 0");
     require(increment_ratio > 0 && increment_ratio < 1, "increment_ratio", increment_ratio,
             "> 0 and < 1");
     require(updates >= 0, "updates", updates, ">= 0");
     require(updates_on_the_way >= 0, "updates_on_the_way", updates_on_the_way, ">= 0");
+  }
+};
+
+/// Of an unloading that is followed in increments, because friction remembers the path.
+struct PathTuning {
+  /// One step is enough where no more than this part of the movement is slip and opening [-].
+  double one_step_share = 0.2;
+  /// On the way states are accepted with so many times the error and the out-of-balance force ratio
+  /// of the last one [-], >= 1 ...
+  double looseness = 30;
+  int burst_steps = 20;  ///< ... after local searches of so many steps, > 0
+  /// An increment is halved where more than this part of its movement is not that of the increment
+  /// before, in proportion to their lengths [-], > 0; doubled again below a quarter of it ...
+  double turn = 0.3;
+  int halvings = 3;  ///< ... so many times at most, 0 to 10
+
+  /// @throws InvalidInput  a value out of range
+  void check() const {
+    require(one_step_share >= 0, "one_step_share", one_step_share, ">= 0");
+    require(looseness >= 1, "looseness", looseness, ">= 1");
+    require(burst_steps > 0, "burst_steps", burst_steps, "> 0");
+    require(turn > 0, "turn", turn, "> 0");
+    require(halvings >= 0 && halvings <= 10, "halvings", halvings, "0 to 10");
   }
 };
 

@@ -32,7 +32,9 @@ namespace voussoir {
 /// The local search settles slip and openings: a burst of FIRE and, once the estimate is small,
 /// anchored Newton steps with the unsymmetric tangent. The elastic solve settles what is
 /// long-ranged, and its correction d measures the error of the displacements. The history is frozen
-/// during the search, so the answer does not depend on the path the search took.
+/// during the search, so the answer does not depend on the path the search took. On the path of the
+/// rock it does depend: where much slips, the unloading is followed in increments (`PathTuning`).
+/// What is committed on the way is not in the error estimate, which is of the last search.
 ///
 /// d is blind to mechanisms: a key block that detaches has a tiny elastic correction. Hence the
 /// test on every block's out-of-balance force ratio. A block that nothing holds runs away under the
@@ -51,7 +53,7 @@ class TwoLevel {
     double newton_below = 3e-3;  ///< error estimate from which on Newton steps are tried [-]
     int rings = 2;               ///< generations of neighbours searched with a body out of balance
     int max_bursts = 14;         ///< local searches without detachment or end before the fallback
-    int increments = 5;          ///< of the unloading, where one step finds no end
+    int increments = 16;         ///< of the unloading, where one step is not enough
     int max_restarts = 8;        ///< searches after the first, without what is detached
     LinearSettings linear{};     ///< of the elastic solves
     Fire::Params fire{};
@@ -60,6 +62,7 @@ class TwoLevel {
     CorrectionTuning correction{};
     DetachmentTuning detachment{};
     RestartTuning restart{};
+    PathTuning path{};
     MotionTuning motion{};  ///< of a stage in which rock fails
   };
   TwoLevel() = default;
@@ -70,13 +73,15 @@ class TwoLevel {
     require(params.newton_below >= 0, "newton_below", params.newton_below, ">= 0");
     require(params.rings >= 0, "rings", params.rings, ">= 0");
     require(params.max_bursts > 0, "max_bursts", params.max_bursts, "> 0");
-    require(params.increments > 0, "increments", params.increments, "> 0");
+    require(params.increments > 0 && params.increments <= 1'000'000, "increments",
+            params.increments, "1 to 1000000");
     require(params.max_restarts >= 0, "max_restarts", params.max_restarts, ">= 0");
     params.fire.check();
     params.local.check();
     params.correction.check();
     params.detachment.check();
     params.restart.check();
+    params.path.check();
     params.motion.check();
   }
 
@@ -84,55 +89,114 @@ class TwoLevel {
   [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
  private:
-  /// One search; without an end where something falls. Where none is found though nothing falls,
-  /// the unloading is followed in increments: the elastic start of one large step breaks and opens
-  /// joints that a gradual unloading spares. Most happens when little traction is left: the
-  /// increments shrink with it.
+  /// One search; without an end where something falls. Where much of the movement is slip and
+  /// opening, or one step finds no end though nothing falls, the unloading is followed in
+  /// increments: friction remembers the path, and the elastic start of one large step breaks and
+  /// opens joints that a gradual unloading spares. Where increments find no end though nothing
+  /// falls, the equilibrium that one step found is kept.
   template <class System>
   [[nodiscard]] detail::SearchEnd search_once(System& system, const SearchContext& context,
                                               const System& start,
                                               detail::ElasticCorrections<System>& elastic,
                                               EquilibriumReport& report) const {
-    const double from = system.wall_fraction, to = context.wall_fraction;
-    const std::vector<int> fallen_before = report.fallen;
-    const double measure_before = report.fallen_measure;
-    const auto run = [&](double wall_fraction) {
-      SearchContext part = context;
-      part.wall_fraction = wall_fraction;
-      return detail::GlobalSearch<System>(system, effort(), part, elastic, report)
-          .run(detail::AtAFall::gives_up);
+    const bool is_divisible =
+        system.wall_fraction != context.wall_fraction && params_.increments > 1;
+    const auto falls = [&] {
+      return !(system.largest_translation(system.displacement) <=
+               context.acceptance.displacement_limit);
     };
-    if (run(to) == detail::SearchEnd::decided) return detail::SearchEnd::decided;
+    const EquilibriumReport before = report;
+    detail::GlobalSearch<System> one_step(system, effort(), context, elastic, report);
+    const detail::SearchEnd end = one_step.run(detail::AtAFall::gives_up);
+    const bool is_open = end == detail::SearchEnd::open;
+    if (!is_divisible || (is_open ? falls()
+                                  : report.verdict != Verdict::stable ||
+                                        one_step.unforeseen_share() <= params_.path.one_step_share))
+      return end;
+    const System found(system);
+    const EquilibriumReport by_one_step = report;
+    go_back(system, report, start, before);
+    if (follow_unloading(system, context, elastic, report) == detail::SearchEnd::decided)
+      return detail::SearchEnd::decided;
+    if (is_open || falls()) return detail::SearchEnd::open;
+    go_back(system, report, found, by_one_step);
+    report.reason += "; in one step: increments of the unloading found no end";
+    return detail::SearchEnd::decided;
+  }
+
+  /// To an earlier state and its report; what was spent since stays spent.
+  template <class System>
+  static void go_back(System& system, EquilibriumReport& report, const System& state,
+                      EquilibriumReport then) {
+    then.steps = report.steps;
+    then.elastic_solves = report.elastic_solves;
+    then.factorisations = report.factorisations;
+    report = std::move(then);
+    system = System(state);  // moved: less code than an assignment of every part
+  }
+
+  /// The unloading in increments. On the way states are accepted loosely, and a search begins with
+  /// the movement of the increment before. Where the movement turns, joints begin to slip, open or
+  /// stick: the increment is halved there, as an integrator halves its step.
+  template <class System>
+  [[nodiscard]] detail::SearchEnd follow_unloading(System& system, const SearchContext& context,
+                                                   detail::ElasticCorrections<System>& elastic,
+                                                   EquilibriumReport& report) const {
+    const PathTuning& path = params_.path;
+    const double from = system.wall_fraction, to = context.wall_fraction;
     const double limit = context.acceptance.displacement_limit;
-    if (from == to || params_.increments == 1 ||
-        !(system.largest_translation(system.displacement) <= limit))
-      return detail::SearchEnd::open;
-    system = System(start);  // moved: less code than an assignment of every part
-    report.fallen = fallen_before;
-    report.fallen_measure = measure_before;
-    for (int k = 1; k <= params_.increments; ++k) {
+    // In parts of the unloading as long as the shortest increment.
+    const int longest = 1 << path.halvings, all = longest * params_.increments;
+    Eigen::VectorXd movement;  // in the increment before
+    for (int done = 0, parts = longest, parts_before = longest; done < all;) {
+      parts = std::min(parts, all - done);
+      const bool is_last = done + parts == all;
+      SearchContext part = context;
+      part.wall_fraction = is_last ? to : from + (to - from) * (done + parts) / all;
+      detail::SearchEffort spent = effort();
+      if (!is_last) {
+        part.acceptance.error_estimate *= path.looseness;
+        part.acceptance.unbalance_over_weight *= path.looseness;
+        spent.local.burst_steps = std::min(path.burst_steps, params_.burst_steps);
+      }
+      const System start(system);
+      const EquilibriumReport before = report;
       report.verdict = Verdict::undecided;
-      if (run(end_of_increment(k, from, to)) == detail::SearchEnd::open)
-        return detail::SearchEnd::open;
+      detail::GlobalSearch<System> search(system, spent, part, elastic, report);
+      const Eigen::VectorXd foreseen = movement * (static_cast<double>(parts) / parts_before);
+      const bool is_open =
+          search.run(detail::AtAFall::gives_up, foreseen) == detail::SearchEnd::open;
+      if (is_open && !(system.largest_translation(system.displacement) <= limit))
+        return detail::SearchEnd::open;  // something falls
+      const double turn = search.unforeseen_share();
+      if ((is_open || turn > path.turn) && parts > 1) {
+        go_back(system, report, start, before);
+        parts /= 2;
+        continue;
+      }
+      if (is_open) return detail::SearchEnd::open;
       if (report.verdict != Verdict::stable) break;
+      done += parts;
+      parts_before = parts;
+      set_to_sum(movement, system.displacement, -1, start.displacement);
+      if (report.fallen.size() != before.fallen.size()) movement.resize(0);
+      if (turn < 0.25 * path.turn) parts = std::min(2 * parts, longest);
     }
     return detail::SearchEnd::decided;
   }
-  [[nodiscard]] double end_of_increment(int k, double from, double to) const {
-    return k == params_.increments
-               ? to
-               : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
-  }
 
-  /// The same in increments, with the fallback where one has no end; what detaches is taken out.
+  /// A search that takes out what detaches on its way: in increments, with the fallback where one
+  /// has no end.
   template <class System>
   [[nodiscard]] detail::SearchEnd search_on(System& system, const SearchContext& context,
                                             detail::ElasticCorrections<System>& elastic,
                                             EquilibriumReport& report) const {
     const double from = system.wall_fraction, to = context.wall_fraction;
     SearchContext part = context;
-    for (int k = from == to ? params_.increments : 1; k <= params_.increments; ++k) {
-      part.wall_fraction = end_of_increment(k, from, to);
+    const int increments = params_.increments == 1 ? 1 : params_.restart.increments;
+    for (int k = from == to ? increments : 1; k <= increments; ++k) {
+      part.wall_fraction =
+          k == increments ? to : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
       report.verdict = Verdict::undecided;
       (void)search_anew(system, part, elastic, report);
       if (report.verdict != Verdict::stable) break;

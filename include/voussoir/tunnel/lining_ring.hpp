@@ -133,7 +133,9 @@ template <class Geometry>
 }
 
 /// The end of an arc, as far as half a stretch beyond its last node, and the rock that it may stand
-/// on: what is under the lining within a stretch, else what is straight ahead or beside.
+/// on: what is under the lining within a stretch, else what is straight ahead or beside; else,
+/// where a piece of the wall has been left out because it is too small for a block, what is nearest
+/// behind it within a stretch, for concrete fills such a hole.
 /// @param direction  in which the end goes on;  @param inward  at right angles, into the opening
 /// @param end  its node, neighbour, the place of the node and the length are given
 template <class Geometry>
@@ -141,19 +143,28 @@ template <class Geometry>
                                           const Vec<Geometry::dim>& direction,
                                           const Vec<Geometry::dim>& inward, double stretch) {
   using Point = Vec<Geometry::dim>;
-  end.place += 0.5 * stretch * direction;
+  const Point last = end.place + 0.5 * stretch * direction;
+  end.place = last;
   end.direction = direction;
   end.body = -1;
-  const Point last = end.place;
   const auto look = [&](double ahead, double side) {
     if (end.body >= 0) return;
     const Point here = last + stretch * (ahead * direction + side * inward);
     end.body = body_at<Geometry>(mass, here);
     if (end.body >= 0) end.place = here;
   };
-  for (const double ahead : {0.05, 0.35, 0.65, 1.0}) look(ahead, 0.05);
+  const double distances[] = {0.05, 0.35, 0.65, 1};
+  for (const double ahead : distances) look(ahead, 0.05);
   look(0.05, -0.05);
   look(0.05, 0);
+  if (end.body >= 0) return end;
+  for (const double behind : distances) {
+    for (const double ahead : distances)
+      if (ahead <= behind) look(ahead, -behind);
+    for (const double side : distances)
+      if (side < behind) look(behind, -side);
+  }
+  if (end.body >= 0) end.place = last + 0.05 * stretch * direction;  // the foot is on the axis
   return end;
 }
 

@@ -49,14 +49,22 @@ class GlobalSearch {
                                  accept.contact_update_limit);
   }
 
+  /// @param predicted  movement to begin with; empty: an elastic step
   /// @throws NumericalFault, Stopped, FreeBody, NotEnoughMemory
-  SearchEnd run(AtAFall at_a_fall) {
+  SearchEnd run(AtAFall at_a_fall, const Eigen::VectorXd& predicted = {}) {
     system_.wall_fraction = context_.wall_fraction;
     prepare();
     Eigen::VectorXd& u = system_.displacement;
-    find_correction();
-    u += d_;
-    left_ = elastic_.residual();
+    start_ = u;
+    if (predicted.size() == u.size()) {
+      first_ = predicted;
+      left_ = zeros(u.size());
+    } else {
+      find_correction();
+      first_ = d_;
+      left_ = elastic_.residual();
+    }
+    u += first_;
     for (int burst = 1; burst <= effort_.max_bursts; ++burst) {
       local_.settle(elastic_.fire(), estimate_, left_, f_, report_);
       // A maximum would not tell: it passes over what is not a number.
@@ -98,6 +106,20 @@ class GlobalSearch {
     find_correction();
     judge(0);
     return is_accepted() && system_.commit() == 0 && rests();
+  }
+
+  /// Part of the movement that the first step has not foreseen: of an elastic one, slip and
+  /// opening; of a movement that was predicted, its turn. Norms of all translations [-].
+  [[nodiscard]] double unforeseen_share() const {
+    constexpr int dof = System::dof;
+    double unforeseen = 0, all = 0;
+    for (int b = 0; b < system_.body_count(); ++b) {
+      const Vec<System::dim> moved =
+          part<System::dim>(system_.displacement, dof * b) - part<System::dim>(start_, dof * b);
+      unforeseen += (moved - part<System::dim>(first_, dof * b)).squaredNorm();
+      all += moved.squaredNorm();
+    }
+    return all > 0 ? std::sqrt(unforeseen / all) : 0.0;
   }
 
  private:
@@ -204,10 +226,11 @@ class GlobalSearch {
   EquilibriumReport& report_;
   LocalSearch<System> local_;
   Eigen::VectorXd f_, d_, trial_;
-  Eigen::VectorXd left_;  ///< of elastic solves: for the next to take
-  double inexact_ = 0;    ///< error of the last correction [m]
-  double estimate_ = 1;   ///< of the error of the displacements [-]
-  int may_find_ = 0;      ///< contact updates that are left
+  Eigen::VectorXd start_, first_;  ///< where the search began, and its first step
+  Eigen::VectorXd left_;           ///< of elastic solves: for the next to take
+  double inexact_ = 0;             ///< error of the last correction [m]
+  double estimate_ = 1;            ///< of the error of the displacements [-]
+  int may_find_ = 0;               ///< contact updates that are left
 };
 
 }  // namespace voussoir::detail
