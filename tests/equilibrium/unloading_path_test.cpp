@@ -70,7 +70,7 @@ TEST_SUITE("equilibrium/unloading_path") {
         REQUIRE(stages.equilibrium(relaxed - relaxed * k / 32, in_one_step).verdict ==
                 Verdict::stable);
       ++compared;
-      // A fifth of the 1 % that procedures may differ; 32 stages are as near to 64.
+      // A fifth of the 1 % by which procedures may differ.
       CHECK(apart(one_call, stages) <= 2e-3);
       one_step_apart += apart(one_step, stages) > 2e-3;
     }
