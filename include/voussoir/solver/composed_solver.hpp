@@ -166,38 +166,14 @@ class ComposedSolver {
     started_ = true;
   }
 
-  /// What `creep` found at a time.
-  struct CreepState {
-    double time;  ///< since the call [s]
-    EquilibriumReport report;
-  };
-  /// Lets joints creep, a new equilibrium after every step: convergence against time.
-  /// A step is a fifth of the shortest creep time: longer ones overshoot where blocks cannot
-  /// follow.
-  /// @param duration  [s], > 0
-  /// @param seen      called after every equilibrium; returns false to stop
-  /// @return  the states; the last is at `duration` unless one was not stable, which ends it
-  /// @throws InvalidInput  duration out of range
-  template <class Seen>
-  std::vector<CreepState> creep(double duration, Seen&& seen, const Method& method = {},
-                                const Acceptance& acceptance = {}) requires
-      CreepingLaw<JointLaw, dim> {
-    require(duration > 0 && std::isfinite(duration), "duration of creep", duration, "> 0 s");
-    std::vector<CreepState> states;
-    double longest = duration;
-    for (const JointLaw& law : joint_laws_.all())
-      longest = std::min(longest, 0.2 * law.creep_time());
-    for (double time = 0; time < duration;) {
-      const double step = std::min(longest, duration - time);
-      system_.joints.creep(system_.displacement.data(), step);
-      time = duration - time <= longest ? duration : time + step;
-      states.push_back({time, equilibrium(walls_.fractions(), method, acceptance)});
-      if (states.back().report.verdict != Verdict::stable || !seen(states.back())) break;
-    }
-    return states;
+  /// Lets joints creep under the forces that they carry now; `creep` finds the equilibria.
+  /// @param time  [s]
+  void creep_joints(double time) requires CreepingLaw<JointLaw, dim> {
+    system_.joints.creep(system_.displacement.data(), time);
   }
 
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
+  [[nodiscard]] const LawsBySet<JointLaw>& joint_laws() const { return joint_laws_; }
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
   [[nodiscard]] const FarField<dim>& far_field() const { return far_field_; }
   /// What the bodies, contacts and supports are and where they stand; only the solver changes it.
