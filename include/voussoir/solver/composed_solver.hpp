@@ -168,9 +168,9 @@ class ComposedSolver {
 
   /// Lets joints creep under the forces that they carry now; `creep` finds the equilibria.
   /// @param time  [s]
-  void creep_joints(double time) requires CreepingLaw<JointLaw, dim> {
-    system_.joints.creep(system_.displacement.data(), time);
-  }
+  template <class Law = JointLaw>  // a template: clang++ 14 instantiates the others unasked
+  requires CreepingLaw<Law, dim>
+  void creep_joints(double time) { system_.joints.creep(system_.displacement.data(), time); }
 
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const LawsBySet<JointLaw>& joint_laws() const { return joint_laws_; }
