@@ -141,8 +141,6 @@ void add_parts(std::vector<Knob>& all) {
   using R = RestartTuning;
   restart.add("follow_to", &R::follow_to);
   restart.add("follow_closer", &R::follow_closer);
-  restart.add("increments", &R::increments, 1);
-  restart.add("increment_ratio", &R::increment_ratio);
   restart.add("updates", &R::updates);
   restart.add("updates_on_the_way", &R::updates_on_the_way);
 

@@ -148,12 +148,15 @@ LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, doubl
     ring.to = lining.arc->to;
   }
   LiningInstallation<Tunnel> made{ring, {section_of(lining, thickness)}, interface_of(lining)};
-  if (const auto& feet = lining.feet)
+  if (const auto& feet = lining.feet) {
+    // Under a rib the beam settles and presses by so much more than all along.
+    const double peak = feet->on_beam().settlement;
     made.feet.emplace(FootBearing::Params{
         .width = feet->width,
-        .stiffness = feet->stiffness,
-        .strength = feet->strength.value_or(std::numeric_limits<double>::infinity()),
+        .stiffness = feet->stiffness / peak,
+        .strength = feet->strength.value_or(std::numeric_limits<double>::infinity()) / peak,
         .friction_angle = feet->friction_angle});
+  }
   return made;
 }
 

@@ -32,10 +32,11 @@ constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};      // below it roun
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};  // [m]
 constexpr Range surcharge_range{.low = 0, .high = 1e9};         // [Pa]
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
-constexpr Range bond_range{.low = 100, .high = 1e9};       // of a lining to rock [Pa]
-constexpr Range bearing_range{.low = 1e3, .high = 1e12};   // strength under a foot [Pa]
-constexpr Range thickness_range{.low = 1e-3, .high = 10};  // of a lining [m]
-constexpr Range ground_range{.low = 1e3, .high = 1e13};    // modulus of ground [Pa]
+constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
+constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
+constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};  // along the tunnel [m]
+constexpr Range thickness_range{.low = 1e-3, .high = 10};      // of a lining [m]
+constexpr Range ground_range{.low = 1e3, .high = 1e13};        // modulus of ground [Pa]
 
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
@@ -338,6 +339,12 @@ void read_lining(Section& s, LiningInput& lining) {
     feet.friction_angle = lining.interface_friction_angle;
     table.quantity("friction", feet.friction_angle, dimension::angle, angle_below_90(),
                    Need::optional);
+    table.optional_table("beam", [&](Section& under) {
+      FootBeam& beam = feet.beam.emplace();
+      under.quantity("depth", beam.depth, dimension::length, thickness_range, Need::required);
+      under.quantity("E", beam.modulus, dimension::pressure, modulus_range, Need::required);
+      under.quantity("spacing", beam.spacing, dimension::length, rib_spacing_range, Need::required);
+    });
   });
   if (lining.feet && !lining.arc)
     s.complain("feet", "stand under the ends of an arc, and a full ring has none",

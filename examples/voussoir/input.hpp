@@ -13,6 +13,7 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/linear/linear_method.hpp>
+#include <voussoir/theory/foot_beam.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
 ///
@@ -140,6 +141,14 @@ struct FeetInput {
   double stiffness = 0;            ///< bearing pressure over settlement [Pa/m], 1e3 to 1e12
   std::optional<double> strength;  ///< bearing [Pa], 1e3 to 1e12; none: no end to it
   double friction_angle = 0;       ///< [rad], 0 <= . < pi/2; default interface.friction
+  /// A beam along the tunnel on which ribs stand, as wide as the feet; none: the lining stands on
+  /// the rock all along. depth [m], 1e-3 to 10; E [Pa], 1e6 to 1e12; spacing [m], 0.01 to 1000.
+  std::optional<FootBeam> beam;
+
+  /// What the beam makes of the feet; nothing without one.
+  [[nodiscard]] FeetOnBeam on_beam() const {
+    return beam ? feet_on_beam(stiffness, *beam) : FeetOnBeam{1, 0};
+  }
 };
 
 /// [support.lining]

@@ -22,6 +22,12 @@ namespace voussoir::program {
 
 namespace {
 
+/// Of the beam under feet, under a rib [N m].
+/// @param bearing  of a foot [N/m]
+double beam_moment(const FeetInput& feet, double bearing) {
+  return feet.on_beam().moment * bearing * feet.beam->spacing * feet.beam->spacing;
+}
+
 constexpr double degree = std::numbers::pi / 180;
 
 std::string text(const char* format, double value) {
@@ -232,13 +238,17 @@ std::string run_json(const Input& input, const RunResult& run) {
     json["lining"] = {{"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
-  for (const auto& foot : foot_forces(run.tunnel))
+  for (const auto& foot : foot_forces(run.tunnel)) {
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
                                       {"y_m", foot.place.y()},
                                       {"bearing_kN_per_m", 1e-3 * foot.bearing},
                                       {"shear_kN_per_m", 1e-3 * foot.shear},
                                       {"of_its_strength", foot.utilisation},
                                       {"settlement_mm", 1e3 * foot.settlement}});
+    if (input.lining->feet->beam)
+      json["lining"]["feet"].back()["beam_moment_kNm"] =
+          1e-3 * beam_moment(*input.lining->feet, foot.bearing);
+  }
   return json.dump(2) + "\n";
 }
 
@@ -416,6 +426,14 @@ std::string run_summary(const Input& input, const RunResult& run) {
       out += (&foot == &feet.front() ? " " : ", ") + text("%.0f kN/m", 1e-3 * foot.bearing) +
              (foot.utilisation > 0 ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
                                    : std::string());
+    const FeetInput& made = *input.lining->feet;
+    if (made.beam) {
+      double most = 0;
+      for (const auto& foot : feet) most = std::max(most, beam_moment(made, foot.bearing));
+      out += text("; beam under ribs %.3g m apart", made.beam->spacing) +
+             text(": moment up to %.0f kN m, ", 1e-3 * most) +
+             text("rock under a rib pressed by %.2f of the mean", made.on_beam().settlement);
+    }
     out += "\n";
   }
   for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";

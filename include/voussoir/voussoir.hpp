@@ -47,6 +47,7 @@
 #include <voussoir/theory/bolts_and_lining.hpp>
 #include <voussoir/theory/circular_opening.hpp>
 #include <voussoir/theory/equivalent_moduli.hpp>
+#include <voussoir/theory/foot_beam.hpp>
 #include <voussoir/theory/ground_reaction.hpp>
 #include <voussoir/theory/grouted_bolt.hpp>
 #include <voussoir/theory/initial_friction.hpp>
@@ -67,3 +68,4 @@
 #include <voussoir/tunnel/support_demand.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
+#include <voussoir/tunnel/wall_motion.hpp>

@@ -37,8 +37,6 @@ TEST_SUITE("equilibrium/search_tuning") {
                              [](Params& p) { p.detachment.second_look = 0; },
                              [](Params& p) { p.restart.follow_to = 0; },
                              [](Params& p) { p.restart.follow_closer = 1; },
-                             [](Params& p) { p.restart.increments = 0; },
-                             [](Params& p) { p.restart.increment_ratio = 1; },
                              [](Params& p) { p.path.one_step_share = -0.1; },
                              [](Params& p) { p.path.looseness = 0.9; },
                              [](Params& p) { p.path.burst_steps = 0; },

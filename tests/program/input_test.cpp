@@ -335,6 +335,19 @@ TEST_SUITE("program/input") {
     CHECK(feet.stiffness == 2e9);
     CHECK(feet.strength.value() == 5e6);
     CHECK(feet.friction_angle == lining.interface_friction_angle);
+    CHECK(feet.on_beam().settlement == 1);
+    const FeetInput on_beam =
+        read(
+            good,
+            {"support.lining.arc=[\"-30 deg\", \"210 deg\"]",
+             "support.lining.feet.stiffness=2 GPa/m",
+             "support.lining.feet.beam={ depth = \"40 cm\", E = \"25 GPa\", spacing = \"1.5 m\" }"})
+            .lining.value()
+            .feet.value();
+    CHECK(on_beam.beam.value().depth == 0.4);
+    CHECK(on_beam.beam.value().modulus == 25e9);
+    CHECK(on_beam.beam.value().spacing == 1.5);
+    CHECK(on_beam.on_beam().settlement == feet_on_beam(2e9, {0.4, 25e9, 1.5}).settlement);
     CHECK(lining.poisson_ratio == 0.25);
     CHECK(lining.beam == LiningBeam::timoshenko);
     CHECK(lining.nodes == 90);

@@ -146,8 +146,6 @@ TEST_SUITE("tunnel/outline_convergence") {
       mean += piece.length * piece.convergence;
       area += piece.length;
     }
-    // Pieces count whole if their middle lies within: blocks of 2.5 m that stick out at two ends of
-    // 10 m, and move by a fifth more or less than the mean.
     CHECK(mean > 0);
     CHECK(std::abs(outline_convergence(tunnel, whole, one)[0] / (mean / area) - 1) < 0.05);
   }

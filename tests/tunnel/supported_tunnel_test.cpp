@@ -73,17 +73,6 @@ TEST_SUITE("tunnel/supported_tunnel") {
       CHECK(at.report.axial <= 2e8 * 0.5 * 0.0672 * 1e-6);
   }
 
-  TEST_CASE("the wall is measured once, all of it, and without what is detached") {
-    Solver<> tunnel = tunnel_in_rock();
-    const auto pieces = wall_pieces(tunnel.mass());
-    CHECK(wall_motion(tunnel).size() == pieces.size());
-    const int gone = pieces.front().body;
-    std::size_t lost = 0;
-    for (const auto& piece : pieces) lost += piece.body == gone;
-    detail::SystemOf::in(tunnel).remove({gone});
-    CHECK(wall_motion(tunnel).size() == pieces.size() - lost);
-  }
-
   TEST_CASE("bolt forces come bolt by bolt from head to tip, of one bolt whatever their spacing") {
     Solver<> tunnel = tunnel_in_rock();
     const auto bars =

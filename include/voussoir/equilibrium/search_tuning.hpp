@@ -89,10 +89,6 @@ struct RestartTuning {
   /// [-]: it mostly has to tell what detaches, and what is a tenth of its weight out does not.
   double follow_to = 0.1;
   double follow_closer = 0.3;  ///< times that, when nothing had detached [-], > 0 and < 1
-  /// Unloading in which blocks may detach on the way, in so many increments. Most happens when
-  /// little traction is left: the increments shrink with it.
-  int increments = 5;
-  double increment_ratio = 0.4;  ///< of the traction left at the ends of two increments [-]
   /// Contact updates in a search: so many, and so many more for each time that the displacement
   /// limit holds that of updates. A block that needs more makes no progress.
   int updates = 4, updates_on_the_way = 8;
@@ -101,9 +97,6 @@ struct RestartTuning {
   void check() const {
     require(follow_to > 0, "follow_to", follow_to, "> 0");
     require(follow_closer > 0 && follow_closer < 1, "follow_closer", follow_closer, "> 0 and < 1");
-    require(increments > 0, "increments", increments, "> 0");
-    require(increment_ratio > 0 && increment_ratio < 1, "increment_ratio", increment_ratio,
-            "> 0 and < 1");
     require(updates >= 0, "updates", updates, ">= 0");
     require(updates_on_the_way >= 0, "updates_on_the_way", updates_on_the_way, ">= 0");
   }

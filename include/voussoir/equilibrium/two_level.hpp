@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -92,8 +91,9 @@ class TwoLevel {
   /// One search; without an end where something falls. Where much of the movement is slip and
   /// opening, or one step finds no end though nothing falls, the unloading is followed in
   /// increments: friction remembers the path, and the elastic start of one large step breaks and
-  /// opens joints that a gradual unloading spares. Where increments find no end though nothing
-  /// falls, the equilibrium that one step found is kept.
+  /// opens joints that a gradual unloading spares. Where the shortest increment finds no end though
+  /// nothing falls, the rest is one step; where that finds none either, the equilibrium that one
+  /// step found from the beginning is kept.
   template <class System>
   [[nodiscard]] detail::SearchEnd search_once(System& system, const SearchContext& context,
                                               const System& start,
@@ -148,6 +148,7 @@ class TwoLevel {
     // In parts of the unloading as long as the shortest increment.
     const int longest = 1 << path.halvings, all = longest * params_.increments;
     Eigen::VectorXd movement;  // in the increment before
+    bool is_rest = false;      // all that is left, in one step
     for (int done = 0, parts = longest, parts_before = longest; done < all;) {
       parts = std::min(parts, all - done);
       const bool is_last = done + parts == all;
@@ -169,18 +170,21 @@ class TwoLevel {
       if (is_open && !(system.largest_translation(system.displacement) <= limit))
         return detail::SearchEnd::open;  // something falls
       const double turn = search.unforeseen_share();
-      if ((is_open || turn > path.turn) && parts > 1) {
+      const bool is_shortest = parts == 1 || is_rest;
+      if (is_open || (turn > path.turn && !is_shortest)) {
+        if (is_last && is_shortest) return detail::SearchEnd::open;
         go_back(system, report, start, before);
-        parts /= 2;
+        is_rest = is_shortest;
+        parts = is_rest ? all - done : parts / 2;
         continue;
       }
-      if (is_open) return detail::SearchEnd::open;
       if (report.verdict != Verdict::stable) break;
       done += parts;
       parts_before = parts;
       set_to_sum(movement, system.displacement, -1, start.displacement);
       if (report.fallen.size() != before.fallen.size()) movement.resize(0);
       if (turn < 0.25 * path.turn) parts = std::min(2 * parts, longest);
+      if (is_rest) report.reason += "; the last of it in one step: shorter increments found no end";
     }
     return detail::SearchEnd::decided;
   }
@@ -193,10 +197,9 @@ class TwoLevel {
                                             EquilibriumReport& report) const {
     const double from = system.wall_fraction, to = context.wall_fraction;
     SearchContext part = context;
-    const int increments = params_.increments == 1 ? 1 : params_.restart.increments;
+    const int increments = params_.increments;
     for (int k = from == to ? increments : 1; k <= increments; ++k) {
-      part.wall_fraction =
-          k == increments ? to : to + (from - to) * std::pow(params_.restart.increment_ratio, k);
+      part.wall_fraction = k == increments ? to : from + (to - from) * k / increments;
       report.verdict = Verdict::undecided;
       (void)search_anew(system, part, elastic, report);
       if (report.verdict != Verdict::stable) break;

@@ -7,7 +7,7 @@
 #include <vector>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/model/small_displacement.hpp>
-#include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/wall_motion.hpp>
 
 namespace voussoir {
 
@@ -26,8 +26,7 @@ template <class Solver>
   system.forces(system.displacement, u);
   (void)system.elastic_solver(linear, progress).solve_in_place(u, {.relative = 1e-6}, progress);
   return detail::wall_motion_of(
-      solver.mass(), solver.mass().openings.back(),
-      [&](int b, const auto&) { return system.body(b).movable; },
+      solver.mass(), solver.mass().openings.back(), [&](int b) { return system.body(b).movable; },
       [&](int b, const auto& p) {
         return displacement_at<dim>(u.data() + dof * b, Vec<dim>(p - system.body(b).centre));
       });

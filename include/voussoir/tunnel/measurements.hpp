@@ -19,117 +19,13 @@
 #include <voussoir/tunnel/opening_centre.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
+#include <voussoir/tunnel/wall_motion.hpp>
 
 namespace voussoir {
 
-/// Movement of a piece of the wall.
-struct WallMotion {
-  double angle;  ///< of its middle about `centre_of` the opening, anticlockwise from the right-hand
-                 ///< springing [rad], 0 to 2 pi
-  double length;               ///< [m]; in 3-D its area [m^2]
-  double convergence;          ///< towards the axis of the tunnel, positive inwards [m]
-  Vec2 moved = zeros<Vec2>();  ///< in the section: to the right, up [m]
-};
-
-/// Mean displacement of the wall, pieces by their length: that of the opening as a whole [m]. Not a
-/// number without a wall.
-[[nodiscard]] inline Vec2 mean_displacement(const std::vector<WallMotion>& wall) {
-  Vec2 sum = zeros<Vec2>();
-  double length = 0;
-  for (const WallMotion& piece : wall) {
-    sum += piece.length * piece.moved;
-    length += piece.length;
-  }
-  return sum / length;
-}
-
-namespace detail {
-
-/// Of pieces that are there, moved by a displacement.
-/// @param is_counted  is_counted(body, place)
-/// @param displacement  displacement(body, place) [m]
-template <class Geometry, class IsCounted, class Displacement>
-[[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
-                                                     const typename Geometry::Opening& opening,
-                                                     IsCounted&& is_counted,
-                                                     Displacement&& displacement) {
-  const Vec2 centre = centre_of(opening);
-  std::vector<WallMotion> motion;
-  for (const auto& piece : wall_pieces(mass, opening)) {
-    const auto place = piece.facet.centre();
-    if (!is_counted(piece.body, place)) continue;
-    const auto moved = displacement(piece.body, place);
-    Vec2 p, u;
-    if constexpr (Geometry::dim == 2) {
-      p = place - centre;
-      u = moved;
-    } else {
-      p = opening.across(place) - centre;
-      u = opening.across_direction(moved);
-    }
-    double angle = std::atan2(p.y(), p.x());
-    if (angle < 0) angle += 2 * std::numbers::pi;
-    VOUSSOIR_ASSERT(angle >= 0 && angle <= 2 * std::numbers::pi, "a full circle has all angles");
-    motion.push_back({angle, piece.facet.measure(), -u.dot(normalized(p)), u});
-  }
-  return motion;
-}
-
-}  // namespace detail
-
-/// All pieces of the wall of an opening that are not detached. The opening may be the outline of a
-/// section that was taken out in rounds.
-template <class Solver>
-[[nodiscard]] std::vector<WallMotion> wall_motion(
-    const Solver& solver, const typename Solver::Geometry::Opening& opening) {
-  return detail::wall_motion_of(
-      solver.mass(), opening, [&](int b, const auto&) { return solver.system().body(b).movable; },
-      [&](int b, const auto& p) { return solver.displacement_of(b, p); });
-}
-/// Of the last opening; none before one was carved.
-template <class Solver>
-[[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
-  if (solver.mass().openings.empty()) return {};
-  return wall_motion(solver, solver.mass().openings.back());
-}
-/// In 3-D those whose middle lies within a stretch of the opening.
-/// @param section  the middle of the stretch along the axis [m]
-/// @param half_length  of the stretch [m], > 0
-template <class Solver>
-requires(Solver::dim == 3)
-    [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver,
-                                                      const PrismaticOpening& opening,
-                                                      double section, double half_length) {
-  require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
-  return detail::wall_motion_of(
-      solver.mass(), opening,
-      [&](int b, const Vec3& p) {
-        return solver.system().body(b).movable &&
-               std::abs(opening.along(p) - section) <= half_length;
-      },
-      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); });
-}
-/// The same of the last opening.
-template <class Solver>
-requires(Solver::dim == 3)
-    [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver, double section,
-                                                      double half_length) {
-  if (solver.mass().openings.empty()) return {};
-  return wall_motion(solver, solver.mass().openings.back(), section, half_length);
-}
-/// Of rock that moves.
-/// @param mass  from which the run was made
-template <class Geometry, class... Parts>
-[[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, Parts...>& run,
-                                                  const RockMass<Geometry>& mass) {
-  if (mass.openings.empty()) return {};
-  return detail::wall_motion_of(
-      mass, mass.openings.back(), [&](int b, const auto&) { return !run.body(b).is_gone; },
-      [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });
-}
-
-/// Convergence of the wall around one direction: the median over +- 12 degrees, each piece with
+/// Convergence of the wall around one direction: the median over +- 12 degrees, each part with
 /// the weight of its length, so that neither a loose corner nor the cut of the blocks decides [m].
+/// Parts count whole if their middle lies within; at multiples of 6 degrees that is exact.
 /// Not a number if no wall is left there.
 [[nodiscard]] VOUSSOIR_INLINE double convergence_at(const std::vector<WallMotion>& wall,
                                                     double angle,
