@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 #include <voussoir/io/solved_picture.hpp>
@@ -63,6 +64,35 @@ TEST_SUITE("io/solved_picture") {
     CHECK(xml_fault(marked) == "");
     CHECK(count_of(marked, ">UNDECIDED<") == 1);
     CHECK(count_of(marked, "raise displacement_limit") == 1);
+  }
+
+  TEST_CASE("an arch shows its feet and what they bear; one that came off its wall is not drawn") {
+    const SimplePolygon opening = circular_opening(5, 36);
+    const Solver<> rock(voussoir_test::jointed_rock(domain_around(opening, 20, 7, 7), 1), joints,
+                        {.density = 2700});
+    const auto picture_with = [&](const std::optional<FootBearing>& feet, bool comes_off) {
+      Solver<> tunnel = rock;
+      Construction<Solver<>> plan;
+      LiningInstallation<Solver<>> arch{{.nodes = 36, .from = 0, .to = 180 * degree},
+                                        {LiningSection::rectangular(0.1, 25e9)},
+                                        CoulombJoint({1e9, 1e9, 30 * degree})};
+      arch.feet = feet;
+      plan.add_stage("all").excavate(opening).install_lining(arch);
+      const auto built = construct(tunnel, plan);
+      REQUIRE(built.verdict() == Verdict::stable);
+      CHECK(built.has_lost_lining() == comes_off);
+      return draw_tunnel(tunnel, built, {.lining_thickness = 0.1});
+    };
+    const std::string stands = picture_with(
+        FootBearing({.width = 0.2, .stiffness = 2e9, .friction_angle = 30 * degree}), false);
+    CHECK(xml_fault(stands) == "");
+    CHECK(count_of(stands, "foot on rock, up to ") == 1);
+    CHECK(count_of(stands, "lining, 10 cm") == 1);
+    const std::string lost = picture_with(std::nullopt, true);
+    CHECK(xml_fault(lost) == "");
+    CHECK(count_of(lost, "foot on rock") == 0);
+    CHECK(count_of(lost, "lining, 10 cm") == 0);
+    CHECK(count_of(lost, "STABLE WITHOUT ITS LINING") == 1);
   }
 
   TEST_CASE("3-D: the same call, a banner that covers no rock, and a file for ParaView") {

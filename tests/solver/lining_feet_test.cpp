@@ -99,6 +99,12 @@ TEST_SUITE("solver/lining_feet") {
       CAPTURE(report.reason);
       CHECK(says(report.reason, "the lining comes off the wall: at ("));
       CHECK(says(report.reason, "give its ends feet"));
+      for (const LiningForce& at : lining_forces(hung)) {
+        CHECK(at.is_lost);
+        CHECK(at.thrust == 0);
+      }
+      for (const LiningForce& at : lining_forces(on_feet)) CHECK_FALSE(at.is_lost);
+      CHECK(support_demand(hung).mean_thrust == 0);
       const auto feet = foot_forces(on_feet);
       REQUIRE(feet.size() == 2);
       REQUIRE(feet_of(hung).empty());
@@ -114,6 +120,7 @@ TEST_SUITE("solver/lining_feet") {
       CHECK(members.back().thrust == doctest::Approx(feet.back().bearing).epsilon(0.15));
       for (const auto& foot : feet) {
         CHECK(std::abs(foot.place.y()) < 0.4);  // at the springing, within a stretch
+        CHECK(foot.direction.y() < -0.99);      // down
         CHECK(foot.utilisation == 0);           // of a strength without end
         CHECK(foot.shear <= std::tan(30 * degree) * foot.bearing * (1 + 1e-9));
       }

@@ -103,6 +103,14 @@ VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& pictu
   if (picture.lining)
     items.push_back({"lining, " + trimmed_text(picture.lining->thickness * 100, 1) + " cm",
                      box("#9aa3ab", "#222")});
+  if (picture.lining && !picture.lining->feet.empty()) {
+    double most = 0;
+    for (const PictureFoot& foot : picture.lining->feet) most = std::max(most, foot.bearing);
+    items.push_back({"foot on rock, up to " + readable_text(most / 1e3) + " kN/m",
+                     [](SvgCanvas& canvas, const Vec2& c) {
+                       draw_foot(canvas, c - Vec2(0, 3), {0, 1}, 10);
+                     }});
+  }
   if (std::any_of(picture.blocks.begin(), picture.blocks.end(),
                   [](const PictureBlock& block) { return block.is_fallen; })) {
     items.push_back({"detached block", box("url(#hatch)", fallen_colour)});

@@ -49,10 +49,18 @@ struct PictureLiningNode {
   double moment = 0;                    ///< M [N m/m], positive: outer fibre in tension
 };
 
+/// An end of a lining that bears on rock.
+struct PictureFoot {
+  Vec2 place = zeros<Vec2>(), direction = zeros<Vec2>();  ///< [m]; into the rock, unit length
+  double width = 0;                                       ///< [m]
+  double bearing = 0;                                     ///< on the rock [N/m]
+};
+
 struct PictureLining {
   std::vector<PictureLiningNode> nodes;  ///< in order along the beam
   bool is_ring = true;                   ///< the last node is joined to the first
   double thickness = 0;                  ///< [m]
+  std::vector<PictureFoot> feet{};
   /// In-situ stress times radius [N/m]: thrust of less than 1/200 of it, and moments of such a
   /// thrust at the edge of the core of the section, are drawn as small as they are; 0: the largest
   /// value fills the diagram, whatever it is.

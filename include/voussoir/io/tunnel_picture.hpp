@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -29,11 +30,12 @@ namespace detail {
 
 [[nodiscard]] inline PictureLining picture_lining(const TunnelState<Planar>& state) {
   PictureLining drawn;
-  drawn.is_ring = state.members.size() == state.lining.size();
-  const std::size_t n = state.lining.size();
+  std::vector<LiningForce> at = state.lining;
+  drawn.is_ring = state.members.size() == at.size();
+  std::erase_if(at, [](const LiningForce& node) { return node.is_lost; });
+  const std::size_t n = at.size();
   for (std::size_t k = 0; k < n; ++k) {
     // Across the line through the neighbours: right for corners as for circles.
-    const auto& at = state.lining;
     const Vec2& before = at[drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)].position;
     const Vec2& after = at[drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)].position;
     drawn.nodes.push_back(
@@ -82,9 +84,11 @@ namespace detail {
     bolt.crossings.push_back(
         {bar.at(at.position / bar.length()), at.report.axial, detail::picture_state(at.report)});
   }
-  if (!state.lining.empty()) {
-    picture.lining = detail::picture_lining(state);
-    picture.lining->thickness = lining_thickness;
+  if (PictureLining lining = detail::picture_lining(state); !lining.nodes.empty()) {
+    lining.thickness = lining_thickness;
+    for (const FootForce<2>& foot : state.feet)
+      lining.feet.push_back({foot.place, foot.direction, foot.width, foot.bearing});
+    picture.lining = std::move(lining);
   }
   return picture;
 }

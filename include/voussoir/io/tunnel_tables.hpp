@@ -92,12 +92,13 @@ template <class Bar>
 /// One row for every node of a lining in 2-D.
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining) {
   CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
-                  "moment_kNm_per_m", "convergence_mm"},
+                  "moment_kNm_per_m", "convergence_mm", "lost"},
                  8);
   int node = 0;
   for (const LiningForce& at : lining)
     table.add_row(++node, detail::angle_in_degrees(at.position), at.position.x(), at.position.y(),
-                  1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence);
+                  1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence,
+                  at.is_lost);
   return table.text();
 }
 /// One row for every member of a lining in 3-D.

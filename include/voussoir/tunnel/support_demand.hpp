@@ -39,10 +39,11 @@ template <class Solver>
     }
   };
   if constexpr (Solver::dim == 2) {
-    std::size_t nodes = 0;
+    std::vector<LiningForce> nodes;
     for (const auto* lining : solver.linings())
-      nodes += static_cast<std::size_t>(lining->node_count());
-    for (const auto* lining : solver.linings()) add(lining_forces(solver, *lining), nodes);
+      for (const LiningForce& at : lining_forces(solver, *lining))
+        if (!at.is_lost) nodes.push_back(at);
+    add(nodes, nodes.size());
   } else {
     const auto members = lining_members(solver);
     add(members, members.size());

@@ -74,6 +74,8 @@ template <class Solver>
 template <int Dim>
 struct FootForce {
   Vec<Dim> place;      ///< where it was installed, in the in-situ state [m]
+  Vec<Dim> direction;  ///< from the lining into the rock, a unit vector
+  double width;        ///< across the lining [m]
   double bearing;      ///< on the rock, compression [N]
   double shear;        ///< along its base, magnitude [N]
   double utilisation;  ///< bearing pressure over bearing strength, 0 to 1 [-]
@@ -90,7 +92,8 @@ template <class Solver, int Dim = Solver::SystemType::dim>
       const Pose<Dim> then = system.pose_at_update(foot.rock);
       forces.push_back({Vec<Dim>(system.body(foot.rock).centre +
                                  transposed_product(then.rotation, foot.arm_rock)),
-                        force[0], part<Dim - 1>(force, 1).norm(),
+                        column(foot.frame, 0), feet->law().params().width, force[0],
+                        part<Dim - 1>(force, 1).norm(),
                         force[0] / (feet->law().params().strength * foot.area),
                         foot.state.settlement});
     }
@@ -156,11 +159,12 @@ template <class Run, class Geometry>
 
 /// The lining at one node, per metre of tunnel.
 struct LiningForce {
-  Vec2 position;       ///< [m]
-  double thrust;       ///< N, compression positive [N/m]
-  double shear;        ///< V [N/m]
-  double moment;       ///< M, positive when the outer fibre is in tension [N m/m]
-  double convergence;  ///< towards the tunnel centre since installation [m]
+  Vec2 position;         ///< [m]
+  double thrust;         ///< N, compression positive [N/m]
+  double shear;          ///< V [N/m]
+  double moment;         ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;    ///< towards the tunnel centre since installation [m]
+  bool is_lost = false;  ///< it came off the wall and was taken out: no forces
 };
 
 namespace detail {
@@ -212,6 +216,7 @@ template <class Solver>
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = first + static_cast<int>(k);
     forces[k].position = system.body(body).centre;
+    forces[k].is_lost = system.body(body).is_gone;
     forces[k].convergence =
         -solver.displacement_of(body, forces[k].position).dot(forces[k].position.normalized());
   }
@@ -240,6 +245,7 @@ requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
     const int body = first + static_cast<int>(k);
     const Vec2 home = run.home(body).position;
     forces[k].position = run.position(body);
+    forces[k].is_lost = run.body(body).is_gone;
     forces[k].convergence = (home - forces[k].position).dot(normalized(home));
   }
   return forces;

@@ -48,6 +48,7 @@ struct TunnelState {
   std::vector<CrossingForce> bolts;        ///< where they cross joints
   std::vector<MemberForces<dim>> members;  ///< of the lining
   std::vector<LiningForce> lining;         ///< node by node, in 2-D
+  std::vector<FootForce<dim>> feet;        ///< of linings, at rest
 };
 
 namespace detail {
@@ -139,6 +140,7 @@ template <class Solver, class Geometry = typename Solver::SystemType::GeometryTy
   state.joints = joint_states(solver);
   state.bolts = bolt_forces(solver);
   state.members = lining_members(solver);
+  state.feet = foot_forces(solver);
   if constexpr (Geometry::dim == 2) state.lining = lining_forces(solver);
   return state;
 }

@@ -20,6 +20,7 @@ namespace voussoir::detail {
 inline constexpr const char* slipped_colour = "#d7261e";
 inline constexpr const char* opened_colour = "#6a1b9a";
 inline constexpr const char* fallen_colour = "#8c2d04";
+inline constexpr const char* foot_colour = "#0b5d3b";
 
 /// Colours of displacement in steps, each of which is one path in the file.
 class DisplacementScale {
@@ -84,6 +85,11 @@ VOUSSOIR_INLINE void draw_joints(SvgCanvas& canvas, const BlocksPicture& picture
 
 VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
                                  const PageMap& map);
+
+/// A bar under the end of a lining, with the strokes of what it bears on.
+/// @param place  [px];  @param direction  on the page, into the rock;  @param half  of its width
+VOUSSOIR_INLINE void draw_foot(SvgCanvas& canvas, const Vec2& place, const Vec2& direction,
+                               double half);
 
 /// Line of the ground with the strokes that say "earth below".
 VOUSSOIR_INLINE void draw_ground(SvgCanvas& canvas, double y, const PageMap& map,
@@ -159,6 +165,25 @@ VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
     band.add_polygon(outer);
   }
   canvas.path(band, {.fill = "#9aa3ab", .stroke = "#222"});
+  for (const PictureFoot& foot : lining.feet) {
+    if (!foot.place.allFinite() || !foot.direction.allFinite()) continue;
+    const double across = std::max(foot.width, 10 / map.scale()) / 2;
+    draw_foot(canvas, map(foot.place), map(foot.place + foot.direction) - map(foot.place),
+              across * map.scale());
+  }
+}
+
+VOUSSOIR_INLINE void draw_foot(SvgCanvas& canvas, const Vec2& place, const Vec2& direction,
+                               double half) {
+  const Vec2 into = normalized(direction), along = perpendicular(into);
+  SvgPath rock;
+  for (const double at : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    const Vec2 from = place + at * half * along;
+    rock.add_line(from, from + 5 * into - 3 * along);
+  }
+  canvas.path(rock, {.stroke = foot_colour});
+  canvas.line(place - half * along, place + half * along,
+              {.stroke = foot_colour, .stroke_width = 3.2});
 }
 
 VOUSSOIR_INLINE void draw_ground(SvgCanvas& canvas, double y, const PageMap& map,
