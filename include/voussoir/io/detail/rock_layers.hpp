@@ -151,20 +151,35 @@ VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
   std::vector<Vec2> inner, outer;
   for (const PictureLiningNode& node : lining.nodes) {
     if (!node.point.allFinite() || !node.outward_normal.allFinite()) continue;
-    inner.push_back(map(node.point - half * node.outward_normal));
-    outer.push_back(map(node.point + half * node.outward_normal));
+    inner.push_back(node.point - half * node.outward_normal);
+    outer.push_back(node.point + half * node.outward_normal);
   }
   if (inner.size() < 2) return;
+  const SvgStyle concrete{.fill = "#9aa3ab", .stroke = "#222"};
+  for (const PictureFoot& foot : lining.feet) {
+    if (!foot.place.allFinite() || !foot.direction.allFinite()) continue;
+    // From the node at that end, which is half a stretch before it.
+    const Vec2 front = 0.5 * (inner.front() + outer.front()),
+               back = 0.5 * (inner.back() + outer.back());
+    const bool is_front = length_of(front - foot.place) < length_of(back - foot.place);
+    const Vec2& from_outer = is_front ? outer.front() : outer.back();
+    const Vec2& from_inner = is_front ? inner.front() : inner.back();
+    Vec2 across = half * perpendicular(foot.direction);
+    if (dot_product(across, Vec2(from_outer - from_inner)) < 0) across = -across;
+    const std::vector<Vec2> stem = {from_inner, from_outer, foot.place + across,
+                                    foot.place - across};
+    canvas.polygon(on_page(stem, map), concrete);
+  }
   SvgPath band;
   std::reverse(inner.begin(), inner.end());  // a ring's inner side turns the other way: a hole
   if (lining.is_ring) {
-    band.add_polygon(outer);
-    band.add_polygon(inner);
+    band.add_polygon(on_page(outer, map));
+    band.add_polygon(on_page(inner, map));
   } else {
     outer.insert(outer.end(), inner.begin(), inner.end());
-    band.add_polygon(outer);
+    band.add_polygon(on_page(outer, map));
   }
-  canvas.path(band, {.fill = "#9aa3ab", .stroke = "#222"});
+  canvas.path(band, concrete);
   for (const PictureFoot& foot : lining.feet) {
     if (!foot.place.allFinite() || !foot.direction.allFinite()) continue;
     const double across = std::max(foot.width, 10 / map.scale()) / 2;
