@@ -384,21 +384,23 @@ auto naming_unusual_values(const Input& input, Compute&& compute) {
 /// The run once more in three other ways, where rock has come off.
 RockfallRange rockfall_range(const Tunnel& excavated, const RunResult& run,
                              const Construction<Tunnel>& as_asked, const Input& input,
-                             const LinearSettings& linear, const Report& report) {
+                             LinearSettings linear, const Report& report) {
   RockfallRange range{run.fallen_measure(), run.fallen_measure()};
   range.scale = run.verdict() == Verdict::collapse ? std::numeric_limits<double>::infinity()
                                                    : block_sizes(run.tunnel.mass()).mean;
   const double limit = run.last().displacement_limit;
-  MotionTuning slow;
-  slow.ramp *= 2;
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  linear.threads = std::clamp(processors / 3, 1U, linear.threads);  // three at a time
   std::mutex guard;
   std::atomic<bool> go_on{true};
-  parallel_for(3, std::max(1U, std::thread::hardware_concurrency()), [&](std::size_t k) {
+  parallel_for(3, processors, [&](std::size_t k) {
     Construction<Tunnel> other = as_asked;
+    MotionTuning motion;
     if (k == 2)
-      other.method = method_of(input, linear, slow);
+      motion.ramp *= 2;
     else
       other.acceptance.displacement_limit = k == 0 ? 0.5 * limit : 2 * limit;
+    other.method = method_of(input, linear, motion);
     Tunnel tunnel = excavated;
     const auto built = construct(tunnel, other, [&](const std::string& stage, double fraction) {
       const std::scoped_lock lock(guard);

@@ -43,8 +43,9 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
-ChosenMethod method_of(const Input& input, LinearSettings linear, const MotionTuning& motion) {
+ChosenMethod method_of(const Input& input, LinearSettings linear, MotionTuning motion) {
   const RunInput& run = input.run;
+  motion.threads = linear.threads;
   linear.method = run.linear_solver;
   switch (run.method) {
     case RunMethod::two_level: {

@@ -60,9 +60,9 @@ using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, Chos
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
 /// @param linear  what the computer has for elastic equations; how they are solved is the file's
 /// choice
-/// @param motion  how a stage is followed in which rock fails
+/// @param motion  how a stage is followed in which rock fails, by as many threads as make a factor
 [[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear,
-                                     const MotionTuning& motion = {});
+                                     MotionTuning motion = {});
 
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);

@@ -39,6 +39,7 @@ struct MotionTuning {
   double longest = 30;         ///< after which no end is expected [s], > 0
   int looks_in_ramp = 100;     ///< times that the load is changed, and what has come off looked for
   int check_every = 50;        ///< steps between two looks afterwards
+  unsigned threads = 1;        ///< that share the steps; the result does not depend on it
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -83,7 +84,8 @@ class UnloadingInMotion {
                                     .local_damping = tuning.local_damping,
                                     .safety = tuning.safety,
                                     .points = ContactPoints::gauss,
-                                    .overlap_limit = 0.5})) {
+                                    .overlap_limit = 0.5,
+                                    .threads = tuning.threads})) {
     duration_ = tuning.ramp * std::sqrt(2 * limit_ / context.gravity);
     run_.add_inertia(tuning.inert_share);
   }
