@@ -77,7 +77,7 @@ TEST_SUITE("program/bad_input") {
         {"E = \"25 GPa\"",
          "E = \"25 GPa\"\nfeet = { stiffness = \"2 GPa/m\", beam = { depth = \"40 cm\", E = \"25 GPa\", "
          "spacing = \"0 m\" } }\narc = [\"0 deg\", \"180 deg\"]",
-         {"support.lining.feet.beam.spacing", "0 m", "1 cm"}},
+         {"support.lining.feet.beam.spacing", "0 m", "10 mm"}},
         {"shape = \"circle\"", "shape = \"oval\"", {"tunnel.shape", "oval", "circle"}},
         {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},
         {"\"0.2 m\"", "\"3 m\"", {"blocks.min_inscribed_radius", "3 m", "below 2 m"}},

@@ -347,7 +347,7 @@ TEST_SUITE("program/input") {
     CHECK(on_beam.beam.value().depth == 0.4);
     CHECK(on_beam.beam.value().modulus == 25e9);
     CHECK(on_beam.beam.value().spacing == 1.5);
-    CHECK(on_beam.on_beam().settlement == feet_on_beam(2e9, {0.4, 25e9, 1.5}).settlement);
+    CHECK(on_beam.on_beam().settlement == voussoir::feet_on_beam(2e9, {0.4, 25e9, 1.5}).settlement);
     CHECK(lining.poisson_ratio == 0.25);
     CHECK(lining.beam == LiningBeam::timoshenko);
     CHECK(lining.nodes == 90);
