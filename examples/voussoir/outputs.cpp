@@ -391,7 +391,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += std::string("verdict  ") +
          to_string(last.verdict, run.fallen_measure(), run.built.has_lost_lining());
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
-    out += " of " + text("%.2f m2", run.fallen_measure());
+    out += (run.built.has_lost_lining() ? ", after rockfall of " : " of ") +
+           text("%.2f m2", run.fallen_measure());
   if (run.rockfall && run.rockfall->is_marginal()) out += ", marginal";
   out += ": " + last.reason + "\n";
   out += "         error estimate " + computed("%.1e", last.error_estimate) +
@@ -416,7 +417,9 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
            text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
-  if (run.tunnel.first_lining_node() >= 0)
+  if (run.built.has_lost_lining())
+    out += "lining   came off the wall: it carries nothing\n";
+  else if (run.tunnel.first_lining_node() >= 0)
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);

@@ -17,6 +17,7 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/degree.hpp"
+#include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
 
 using namespace voussoir;
@@ -51,19 +52,42 @@ Drawn drawn_tunnel(std::uint64_t number) {
 struct Answer {
   Verdict verdict;
   std::vector<int> fallen;  ///< in the order of their numbers
-  double area;              ///< of them [m^2]
+  double area;              ///< of them [m^2], in 3-D their volume [m^3]
   bool operator==(const Answer&) const = default;
 };
 
-double area_of(const Solver<>& tunnel, const std::vector<int>& blocks) {
+/// The same in 3-D: 2.4 to 3.4 m wide, blocks of about a metre, weak joints.
+struct DrawnInSpace {
+  SimplePolygon section = circular_opening(4, 36);
+  Solver<Spatial> tunnel;
+};
+DrawnInSpace drawn_tunnel_in_space(std::uint64_t number) {
+  Random random(1910, number);
+  const double span = 2.4 + random.uniform(), spacing = 0.9 + 0.2 * random.uniform();
+  const SimplePolygon section =
+      number % 2 == 0 ? circular_opening(span, 16) : horseshoe_opening(span, 0.4 * span, 16);
+  const double friction = (10 + 10 * random.uniform()) * degree;
+  const double k0 = 0.5 + random.uniform(), cover = 8 + 40 * random.uniform();
+  const double half = 1.45 * span, above = half - 0.5 * span;
+  Solver<Spatial> tunnel(
+      jointed_mass({{-half, 0, -half}, {half, 0.9 * span, half}}, number, spacing,
+                   {.min_inscribed_radius = 0.2}),
+      CoulombJoint({5e9, 1e9, friction}),
+      {.density = density, .k0 = k0, .surcharge = 9.81 * density * std::max(cover - above, 0.0)});
+  tunnel.excavate(PrismaticOpening(section));
+  return {section, std::move(tunnel)};
+}
+
+template <class Tunnel>
+double area_of(const Tunnel& tunnel, const std::vector<int>& blocks) {
   double sum = 0;
   for (const int b : blocks)
     sum += tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
   return sum;
 }
 
-template <class Method>
-Answer answer_of(Solver<> tunnel, double collapse, double* limit = nullptr) {
+template <class Method, class Tunnel>
+Answer answer_of(Tunnel tunnel, double collapse, double* limit = nullptr) {
   Acceptance acceptance;
   acceptance.collapse_measure = collapse;
   std::vector<double> measures;
@@ -72,6 +96,7 @@ Answer answer_of(Solver<> tunnel, double collapse, double* limit = nullptr) {
   SearchContext context;
   context.acceptance = acceptance;
   context.measures = &measures;
+  context.open_length = open_length(tunnel.mass());
   const EquilibriumReport report = Method().find(detail::SystemOf::in(tunnel), context);
   INFO(report.reason);
   CHECK(report.verdict != Verdict::undecided);
@@ -84,7 +109,9 @@ Answer answer_of(Solver<> tunnel, double collapse, double* limit = nullptr) {
 
 /// All blocks in motion, as inert as they are: nothing of the procedures above but what a block
 /// that has come off is.
-Answer reference(const Solver<>& tunnel, double limit, double collapse, double duration,
+/// @param collapse  area or volume beyond which it is one
+template <class Tunnel>
+Answer reference(const Tunnel& tunnel, double limit, double collapse, double duration,
                  double safety) {
   auto run = set_in_motion(
       tunnel, {.local_damping = 0.7, .safety = safety, .points = ContactPoints::gauss});
@@ -136,6 +163,23 @@ TEST_SUITE("equilibrium/rock_failure") {
     }
     CHECK(shed >= 3);
     CHECK(collapsed >= 1);
+  }
+
+  TEST_CASE("in 3-D, too") {
+    for (const std::uint64_t number : {7, 12}) {
+      CAPTURE(number);
+      const DrawnInSpace drawn = drawn_tunnel_in_space(number);
+      const double collapse = collapse_measure_of(drawn.section);
+      double limit = 0;
+      const Answer two_level = answer_of<TwoLevel>(drawn.tunnel, collapse, &limit);
+      const Answer truth =
+          reference(drawn.tunnel, limit, collapse * open_length(drawn.tunnel.mass()), 1, 0.5);
+      CHECK(truth.verdict == Verdict::stable);
+      CHECK(truth.area > 0);
+      CHECK(two_level == truth);
+      CHECK(answer_of<Relaxation>(drawn.tunnel, collapse) == truth);
+      CHECK(answer_of<Explicit>(drawn.tunnel, collapse) == truth);
+    }
   }
 
   TEST_CASE("the limits follow the ground: deep under it a tunnel is decided, too") {

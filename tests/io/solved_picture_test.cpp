@@ -92,6 +92,7 @@ TEST_SUITE("io/solved_picture") {
     CHECK(xml_fault(lost) == "");
     CHECK(count_of(lost, "foot on rock") == 0);
     CHECK(count_of(lost, "lining, 10 cm") == 0);
+    CHECK(count_of(lost, "largest thrust") == 0);
     CHECK(count_of(lost, "STABLE WITHOUT ITS LINING") == 1);
   }
 

@@ -113,7 +113,7 @@ struct PathTuning {
   /// An increment is halved where more than this part of its movement is not that of the increment
   /// before, in proportion to their lengths [-], > 0; doubled again below a quarter of it ...
   double turn = 0.3;
-  int halvings = 3;  ///< ... so many times at most, 0 to 10
+  int halvings = 5;  ///< ... so many times at most, 0 to 10
 
   /// @throws InvalidInput  a value out of range
   void check() const {

@@ -91,9 +91,8 @@ class TwoLevel {
   /// One search; without an end where something falls. Where much of the movement is slip and
   /// opening, or one step finds no end though nothing falls, the unloading is followed in
   /// increments: friction remembers the path, and the elastic start of one large step breaks and
-  /// opens joints that a gradual unloading spares. Where the shortest increment finds no end though
-  /// nothing falls, the rest is one step; where that finds none either, the equilibrium that one
-  /// step found from the beginning is kept.
+  /// opens joints that a gradual unloading spares. Where increments find no end though nothing
+  /// falls, the equilibrium that one step found is kept.
   template <class System>
   [[nodiscard]] detail::SearchEnd search_once(System& system, const SearchContext& context,
                                               const System& start,
@@ -137,7 +136,8 @@ class TwoLevel {
 
   /// The unloading in increments. On the way states are accepted loosely, and a search begins with
   /// the movement of the increment before. Where the movement turns, joints begin to slip, open or
-  /// stick: the increment is halved there, as an integrator halves its step.
+  /// stick: the increment is halved there, as an integrator halves its step. Where the shortest
+  /// finds no end though nothing falls, longer and longer ones step over that.
   template <class System>
   [[nodiscard]] detail::SearchEnd follow_unloading(System& system, const SearchContext& context,
                                                    detail::ElasticCorrections<System>& elastic,
@@ -148,7 +148,7 @@ class TwoLevel {
     // In parts of the unloading as long as the shortest increment.
     const int longest = 1 << path.halvings, all = longest * params_.increments;
     Eigen::VectorXd movement;  // in the increment before
-    bool is_rest = false;      // all that is left, in one step
+    bool steps_over = false;   // what the shortest increment has not ended in
     for (int done = 0, parts = longest, parts_before = longest; done < all;) {
       parts = std::min(parts, all - done);
       const bool is_last = done + parts == all;
@@ -170,21 +170,21 @@ class TwoLevel {
       if (is_open && !(system.largest_translation(system.displacement) <= limit))
         return detail::SearchEnd::open;  // something falls
       const double turn = search.unforeseen_share();
-      const bool is_shortest = parts == 1 || is_rest;
-      if (is_open || (turn > path.turn && !is_shortest)) {
-        if (is_last && is_shortest) return detail::SearchEnd::open;
+      const bool may_be_shorter = parts > 1 && !steps_over;
+      if (is_open || (turn > path.turn && may_be_shorter)) {
+        if (is_last && !may_be_shorter) return detail::SearchEnd::open;
         go_back(system, report, start, before);
-        is_rest = is_shortest;
-        parts = is_rest ? all - done : parts / 2;
+        steps_over = !may_be_shorter;
+        parts = steps_over ? 2 * parts : parts / 2;
         continue;
       }
+      steps_over = false;
       if (report.verdict != Verdict::stable) break;
       done += parts;
       parts_before = parts;
       set_to_sum(movement, system.displacement, -1, start.displacement);
       if (report.fallen.size() != before.fallen.size()) movement.resize(0);
-      if (turn < 0.25 * path.turn) parts = std::min(2 * parts, longest);
-      if (is_rest) report.reason += "; the last of it in one step: shorter increments found no end";
+      parts = std::min(turn < 0.25 * path.turn ? 2 * parts : parts, longest);
     }
     return detail::SearchEnd::decided;
   }

@@ -105,7 +105,7 @@ template <class Solver>
   if (solver.bolt_count() > 0)
     numbers.push_back(
         {"largest bolt force", fixed_text(1e-3 * demand.largest_bolt_force, 0) + " kN"});
-  if (solver.lining() != nullptr) {
+  if (solver.lining() != nullptr && !result.has_lost_lining()) {
     numbers.push_back(
         {"largest thrust", fixed_text(1e-3 * demand.largest_thrust, 0) + " kN" + per_metre});
     numbers.push_back(

@@ -77,7 +77,7 @@ struct SupportCondition {
   int lost = 0;                           ///< bolts that went with the rock they held
   int ruptured = 0;                       ///< joints at which a bolt has broken
   int yielded = 0;                        ///< joints at which one has yielded and holds
-  bool lining_lost = false;               ///< the rock that held one is gone
+  bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
   bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
 };
@@ -109,7 +109,8 @@ template <class Solver>
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto* lining : solver.linings()) {
     const std::size_t members = lining->members().size();
-    condition.lining_lost |= !solver.system().body(lining->first_node()).movable;
+    condition.lining_lost |=
+        !solver.system().body(lining->first_node()).movable && !result.has_lost_lining();
     condition.lining_open |= Solver::dim == 2 && !is_joined && !is_bonded &&
                              foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
