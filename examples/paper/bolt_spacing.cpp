@@ -129,16 +129,19 @@ Section bolt_spacing(Study& study) {
   const auto ms = [&](double s) { return study.measure(sudden_at(s), crown).mean(); };
   const double steps = second / first;
   const double sudden_first = ms(15) - ms(11.25), sudden_second = ms(22.5) - ms(15);
+  const auto change = [](double metres) {
+    return (metres < 0 ? "" : "+") + printed_text(1e3 * metres);
+  };
   section.findings.push_back(
       {"PF-057", agrees_if(first > 0 && steps > 2),
-       "crown +" + printed_text(1e3 * first) + " mm from 11.25° to 15°, +" +
-           printed_text(1e3 * second) + " mm from 15° to 22.5°: ratio " + printed_text(steps, 2),
+       "crown " + change(first) + " mm from 11.25° to 15°, " + change(second) +
+           " mm from 15° to 22.5°: ratio " + printed_text(steps, 2),
        first > 0 && steps > 2
            ? ""
            : "Quasi-statically the crown follows the loosened blocks only a little; what 22.5° does "
              "not hold falls, and counts no longer in the crown's convergence. The overshoot of a "
              "sudden excavation makes the difference.",
-       "+" + printed_text(1e3 * sudden_first) + ", +" + printed_text(1e3 * sudden_second) + " mm",
+       change(sudden_first) + ", " + change(sudden_second) + " mm",
        agrees_if(sudden_first > 0 && sudden_second > 2 * sudden_first)});
   const Measured lost11 = fallen(bolted(11.25)), lost15 = fallen(bolted(15)),
                  lost22 = fallen(bolted(22.5));

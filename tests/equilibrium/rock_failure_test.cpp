@@ -88,7 +88,7 @@ TEST_SUITE("equilibrium/rock_failure") {
   }
 
   TEST_CASE("in 3-D, too") {
-    for (const std::uint64_t number : {7, 12}) {
+    for (const std::uint64_t number : {7U, 12U}) {
       CAPTURE(number);
       const DrawnInSpace drawn = drawn_tunnel_in_space(number);
       const double collapse = collapse_measure_of(drawn.section);
