@@ -12,11 +12,8 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/farfield/far_field.hpp>
-#include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
-#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
-#include <voussoir/tunnel/opening_centre.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
 #include <voussoir/tunnel/wall_motion.hpp>
