@@ -29,6 +29,7 @@
 #include <voussoir/io/interaction_picture.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
 #include <voussoir/io/mass_picture.hpp>
+#include <voussoir/io/operating_system.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
 #include <voussoir/io/vtu.hpp>

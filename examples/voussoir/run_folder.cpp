@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "run_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -106,12 +100,6 @@ std::string with_run_id(const std::string& file_name, std::string text, const st
 
 namespace {
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "";
-  return name.data();
-}
-
 /// Who wrote itself into a lock.
 struct Holder {
   long process = 0;  ///< 0: not known
@@ -127,7 +115,8 @@ Holder holder_of(const std::filesystem::path& lock) {
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& folder, const std::string& option) : path_(folder) {
+RunFolder::RunFolder(const std::string& folder, const std::string& option, LockedFile::Mode mode)
+    : path_(folder) {
   namespace fs = std::filesystem;
   if (folder.empty())
     throw InvalidInput(option + " \"\": the folder for the results has no name\n   = accepted: " +
@@ -141,7 +130,7 @@ RunFolder::RunFolder(const std::string& folder, const std::string& option) : pat
   }
   if (!fs::is_directory(there, error))
     throw std::runtime_error(option + " " + folder + ": '" + there.string() + "' is not a folder");
-  if (access(there.c_str(), W_OK | X_OK) != 0)
+  if (!may_write_in(there))
     throw std::runtime_error(option + " " + folder + ": no permission to write in '" +
                              there.string() + "'");
   while (!missing.empty()) {
@@ -156,7 +145,7 @@ RunFolder::RunFolder(const std::string& folder, const std::string& option) : pat
     missing.pop_back();
   }
   try {
-    take_lock(option);
+    take_lock(option, mode);
     clear_abandoned_parts(path_);
   } catch (...) {  // the destructor of a half-built object does not run
     let_go();
@@ -174,13 +163,12 @@ void RunFolder::publish() {
   made_.clear();
 }
 
-void RunFolder::take_lock(const std::string& option) {
+void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
   const std::filesystem::path path = path_ / ".voussoir.lock";
   const auto refuse = [&](const std::string& reason) {
     throw std::runtime_error(option + " " + path_.string() + ": " + reason);
   };
-  const auto refuse_held = [&] {
-    const Holder holder = holder_of(path);
+  const auto refuse_held = [&](const Holder& holder) {
     const std::string who =
         holder.process == 0
             ? std::string("another process")
@@ -190,46 +178,27 @@ void RunFolder::take_lock(const std::string& option) {
            path.string() +
            "')\n   = accepted: another folder, or this one when that run has ended");
   };
-  while (true) {
-    const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0)
-      refuse("cannot make '" + path.string() + "': " + std::generic_category().message(errno));
-    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
-      const bool held = errno == EWOULDBLOCK;
-      close(file);
-      if (held) refuse_held();
-      // A drive without locks: believe what is written, if that process lives here.
-      const Holder holder = holder_of(path);
-      const bool lives = holder.process > 0 && holder.host == host_name() &&
-                         (kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM);
-      if (lives && holder.process != getpid()) refuse_held();
-      lock_file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-      break;
-    }
-    // Its last owner may have removed it between our opening and our locking it.
-    struct stat mine {
-    }, named{};
-    if (fstat(file, &mine) == 0 && stat(path.c_str(), &named) == 0 && mine.st_ino == named.st_ino &&
-        mine.st_dev == named.st_dev) {
-      lock_file_ = file;
-      break;
-    }
-    close(file);
+  try {
+    lock_ = LockedFile::open(path, mode);
+    const Holder holder = holder_of(path);
+    if (!lock_) refuse_held(holder);
+    // A drive without locks: believe what is written, if that process lives here.
+    if (!lock_->is_locked() && holder.process > 0 && holder.host == host_name() &&
+        holder.process != process_number() && process_runs(holder.process))
+      refuse_held(holder);
+    lock_->cut(0);
+    lock_->append(std::to_string(process_number()) + " " + host_name() +
+                  "\nthe voussoir process that is computing results for this folder\n");
+  } catch (const std::runtime_error& error) {
+    if (std::string(error.what()).starts_with(option)) throw;
+    refuse(error.what());
   }
-  lock_ = path;
-  const std::string text = std::to_string(getpid()) + " " + host_name() +
-                           "\nthe voussoir process that is computing results for this folder\n";
-  if (ftruncate(lock_file_, 0) != 0 ||
-      write(lock_file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    refuse("cannot write '" + path.string() + "': " + std::generic_category().message(errno));
 }
 
 void RunFolder::let_go() noexcept {
   std::error_code ignored;  // nothing left to tell it to
-  if (!lock_.empty()) std::filesystem::remove(lock_, ignored);
-  if (lock_file_ >= 0) close(lock_file_);
-  lock_.clear();
-  lock_file_ = -1;
+  if (lock_) lock_->close_and_remove();
+  lock_.reset();
   for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), ignored);
 }
 

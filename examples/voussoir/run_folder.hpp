@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 #include <voussoir/io/atomic_file.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 #include "input.hpp"
 
@@ -49,9 +51,11 @@ class RunFolder {
  public:
   /// Clears the hidden part files of dead processes.
   /// @param option  that named the folder, for messages
+  /// @param mode    shared: with other processes that share it, but with none that holds it alone
   /// @throws InvalidInput        `folder` is empty
   /// @throws std::runtime_error  not a folder, no permission, or held by another process
-  RunFolder(const std::string& folder, const std::string& option = "--out");
+  explicit RunFolder(const std::string& folder, const std::string& option = "--out",
+                     LockedFile::Mode mode = LockedFile::Mode::exclusive);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
@@ -62,12 +66,11 @@ class RunFolder {
   void publish();
 
  private:
-  void take_lock(const std::string& option);
+  void take_lock(const std::string& option, LockedFile::Mode mode);
   void let_go() noexcept;
 
   std::filesystem::path path_;
-  std::filesystem::path lock_;               ///< empty: not held
-  int lock_file_ = -1;                       ///< its descriptor
+  std::optional<LockedFile> lock_;
   std::vector<std::filesystem::path> made_;  ///< folders made here, the innermost last
   OutputSet outputs_;
 };

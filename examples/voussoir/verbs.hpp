@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include <voussoir/io/operating_system.hpp>
 
 #include "run_folder.hpp"
 
@@ -47,7 +46,7 @@ extern Work work;
 /// One line that rewrites itself on a terminal, nothing in a pipe.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(fileno(stderr)) != 0) {}
+  explicit ProgressLine(bool quiet) : shown_(!quiet && is_terminal(stderr)) {}
   ~ProgressLine() { clear(); }
   bool show(const std::string& what, double fraction) {
     // Asked every few milliseconds: what it said already is not drawn again.

@@ -11,14 +11,8 @@
 #include <system_error>
 #include <utility>
 #include <vector>
-
-#if __has_include(<unistd.h>)
-#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX, not of C++
-#include <unistd.h>
-
 #include <voussoir/core/bodies.hpp>
-#define VOUSSOIR_HAS_PROCESSES 1  // NOLINT
-#endif
+#include <voussoir/io/operating_system.hpp>
 
 namespace voussoir {
 
@@ -36,8 +30,8 @@ inline std::string error_text(int error_number) {
   return std::generic_category().message(error_number);
 }
 
-/// "4711@host": this process, as part files are named; "0@" where processes cannot be told.
-VOUSSOIR_INLINE std::string process_name();
+/// "4711@host": this process, as part files are named.
+inline std::string process_name() { return std::to_string(process_number()) + "@" + host_name(); }
 
 /// The hidden neighbour in which the content of `file_name` waits:
 /// ".NAME.PROCESS@HOST.RANDOM.part". 64 random bits: two runs that write one path at a time must
@@ -121,7 +115,7 @@ VOUSSOIR_INLINE StagedFile::StagedFile(const std::filesystem::path& path, std::s
   }
   temporary_ = path_.parent_path() / detail::part_name(path_.filename().string());
   errno = 0;
-  std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx");  // x: never an existing file
+  std::FILE* file = create_new_file(temporary_);
   if (file == nullptr) {
     const int reason = errno;
     temporary_.clear();
@@ -209,24 +203,7 @@ VOUSSOIR_INLINE int write_and_close(std::FILE* file, std::string_view content) {
   return reason;
 }
 
-VOUSSOIR_INLINE std::string process_name() {
-#ifdef VOUSSOIR_HAS_PROCESSES
-  char host[256] = {};
-  if (gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
-  std::string name = std::to_string(getpid()) + "@";
-  for (const char* c = host; *c != '\0'; ++c) {
-    const bool plain =
-        (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z');
-    name += plain ? *c : '-';  // dots part the fields
-  }
-  return name;
-#else
-  return "0@";
-#endif
-}
-
 VOUSSOIR_INLINE bool is_abandoned_part(const std::string& file_name) {
-#ifdef VOUSSOIR_HAS_PROCESSES
   const std::string end = ".part";
   if (!file_name.starts_with('.') || !file_name.ends_with(end)) return false;
   const std::string name = file_name.substr(0, file_name.size() - end.size());
@@ -244,12 +221,7 @@ VOUSSOIR_INLINE bool is_abandoned_part(const std::string& file_name) {
   if (at == std::string::npos || !all_digits(owner.substr(0, at)) || at > 9 ||
       owner.substr(at) != own.substr(own.find('@')))
     return false;
-  const auto id = static_cast<pid_t>(std::stol(owner.substr(0, at)));
-  return id > 0 && kill(id, 0) != 0 && errno == ESRCH;
-#else
-  (void)file_name;
-  return false;
-#endif
+  return !process_runs(std::stol(owner.substr(0, at)));
 }
 
 }  // namespace detail
