@@ -745,7 +745,7 @@ Input read_input_text(std::string_view text, const std::string& name,
   check_stages(checker, input);
   check_diagram(checker, input);
   checker.finish();
-  input.content = canonical_text(document);
+  input.content = canonical_lines(document);
   return input;
 }
 
