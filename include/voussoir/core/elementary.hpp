@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-/// The elementary functions that mechanics needs, from sums, products, quotients and roots alone: the
-/// same bits on every processor and with every mathematical library. The library's own are not: that
-/// of Linux takes other instructions, which round otherwise, where the processor has them, and that of
-/// Windows is another one altogether. A case that one machine begins and another finishes would show
-/// it.
+/// The elementary functions that mechanics needs, from sums, products, quotients and roots alone:
+/// the same bits on every processor and with every mathematical library. The library's own are not:
+/// that of Linux takes other instructions, which round otherwise, where the processor has them, and
+/// that of Windows is another one altogether. A case that one machine begins and another finishes
+/// would show it.
 ///
 /// Correct to an ulp or two, about as fast as the library's. A compiler that may fuse products and
 /// sums (-ffp-contract, see docs/reproducibility.md) gives other last digits; `repeatable.hpp` has
@@ -32,22 +32,20 @@ struct SineCosine {
   // Taylor's series: the first term left out is below 1e-18 of the sum.
   const double s = x * x;
   const double sine_sum =
-      s *
-      (-1.0 / 6 +
-       s * (1.0 / 120 +
-            s * (-1.0 / 5040 +
-                 s * (1.0 / 362880 +
-                      s * (-1.0 / 39916800 +
-                           s * (1.0 / 6227020800 +
-                                s * (-1.0 / 1307674368000 + s * (1.0 / 355687428096000))))))));
+      s * (-1.0 / 6 +
+           s * (1.0 / 120 +
+                s * (-1.0 / 5040 +
+                     s * (1.0 / 362880 +
+                          s * (-1.0 / 39916800 +
+                               s * (1.0 / 6227020800 +
+                                    s * (-1.0 / 1307674368000 + s * (1.0 / 355687428096000))))))));
   const double cosine_sum =
       s * s *
       (1.0 / 24 +
        s * (-1.0 / 720 +
             s * (1.0 / 40320 +
-                 s * (-1.0 / 3628800 +
-                      s * (1.0 / 479001600 +
-                           s * (-1.0 / 87178291200 + s * (1.0 / 20922789888000)))))));
+                 s * (-1.0 / 3628800 + s * (1.0 / 479001600 + s * (-1.0 / 87178291200 +
+                                                                   s * (1.0 / 20922789888000)))))));
   const double sine = x + x * sine_sum, half = 0.5 * s, rest = 1 - half;
   // What the subtraction lost is added again.
   const double cosine = rest + (((1 - rest) - half) + cosine_sum);
