@@ -4,7 +4,7 @@
 #   cmake -DROOT=<project> -DOUTPUT=<file.cpp> -P sources_hash.cmake
 cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/voussoir/*.hpp"
-     "${ROOT}/examples/voussoir/*.hpp" "${ROOT}/examples/voussoir/*.cpp")
+     "${ROOT}/examples/voussoir/*.hpp" "${ROOT}/examples/voussoir/*.cpp" "${ROOT}/examples/paper/*.hpp" "${ROOT}/examples/paper/*.cpp")
 list(SORT files)
 set(all "")
 foreach(name IN LISTS files)

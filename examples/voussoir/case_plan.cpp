@@ -200,7 +200,11 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     try {
       input = input_of(the_case);
       if (input->bolts) check_bolts(*input, {supports_of(the_case, *input).spacing});
-    } catch (const std::runtime_error& error) {
+    } catch (const InputErrors& found) {
+      std::vector<InputError> errors = found.errors();
+      for (InputError& error : errors) error.message += ", in the case " + label(the_case);
+      throw InputErrors(std::move(errors));
+    } catch (const InvalidInput& error) {
       throw InvalidInput(std::string(error.what()) + "\n   = in the case " + label(the_case));
     }
     RunId id("case");

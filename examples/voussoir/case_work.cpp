@@ -360,7 +360,7 @@ WorkDone work_on(const CasePlan& plan, const std::vector<std::size_t>& cases,
     say();
   }
   const unsigned workers = std::max(settings.threads, 1U);
-  parallel_for(workers, workers, [&](std::size_t) {
+  const auto serve = [&] {
     while (const auto index = next()) {
       const auto begin = std::chrono::steady_clock::now();
       std::string result, refusal;
@@ -391,6 +391,14 @@ WorkDone work_on(const CasePlan& plan, const std::vector<std::size_t>& cases,
       finished.add(name, result);
       ++done.computed;
       say();
+    }
+  };
+  parallel_for(workers, workers, [&](std::size_t) {
+    try {
+      serve();
+    } catch (...) {  // the journal cannot be written: the others need not go on
+      go_on = false;
+      throw;
     }
   });
   journal.sync();

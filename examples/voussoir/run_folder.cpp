@@ -179,6 +179,10 @@ void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
     if (!lock_->is_locked() && holder.process > 0 && holder.host == host_name() &&
         holder.process != process_number() && process_runs(holder.process))
       refuse_held(holder);
+    // Of several that share it the first is named, while it lives.
+    const bool is_named_already = mode == LockedFile::Mode::shared &&
+                                  holder.host == host_name() && process_runs(holder.process);
+    if (is_named_already) return;
     lock_->cut(0);
     lock_->append(std::to_string(process_number()) + " " + host_name() +
                   "\nthe voussoir process that is computing results for this folder\n");
