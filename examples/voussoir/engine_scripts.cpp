@@ -71,14 +71,15 @@ std::string slurm_script(const CasePlan& plan, const Engine& engine) {
          "\n"
          "#SBATCH --requeue\n"
          "#SBATCH --open-mode=append\n"
-         "#SBATCH --output=" +
-         double_quoted(folder + "/" + verb + ".journal/slurm-%a.log") +
+         "#SBATCH --output=voussoir-" +
+         verb +
+         "-%a.log\n\n"
+         "program=" +
+         shell_quoted(engine.program.string()) +
+         "\nplan=" + shell_quoted(folder + "/" + verb + ".plan.json") +
          "\n"
-         "exec " +
-         shell_quoted(engine.program.string()) + " case " +
-         shell_quoted(folder + "/" + verb + ".plan.json") +
-         " \\\n  --chunk \"$SLURM_ARRAY_TASK_ID/" + chunks +
-         "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\"\n";
+         "exec \"$program\" case \"$plan\" --chunk \"$SLURM_ARRAY_TASK_ID/" +
+         chunks + "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\"\n";
 }
 
 std::string snakefile(const CasePlan& plan, const Engine& engine,
