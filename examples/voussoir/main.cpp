@@ -19,6 +19,7 @@
 #include <vector>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 #include "input_document.hpp"
 #include "outputs.hpp"
@@ -37,7 +38,10 @@ Work work;
 
 namespace {
 
-extern "C" void ask_to_stop(int) { stop_asked = 1; }
+extern "C" void ask_to_stop(int signal) {
+  stop_asked = 1;
+  std::signal(signal, ask_to_stop);  // Windows forgets it
+}
 
 const char* const smaller_model =
     "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a larger "
@@ -64,7 +68,7 @@ ExitStatus status_of(const RunResult& run) {
 
 int run_verb(const Options& options) {
   work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(options.file, options.overrides);
+  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
@@ -87,7 +91,7 @@ int run_verb(const Options& options) {
 
 int diagram_verb(const Options& options) {
   work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(options.file, options.overrides);
+  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   if (!input.diagram)
     throw voussoir::InvalidInput(
         "no [diagram] in " + options.file +
@@ -176,7 +180,7 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
 }
 
 /// What was given in place of a verb; nothing if it is one, or none was given.
-const char* unknown_verb(const std::vector<std::string>& verbs, int argc, char** argv) {
+const char* unknown_verb(const std::vector<std::string>& verbs, int argc, const char* const* argv) {
   for (int k = 1; k < argc; ++k) {
     if (argv[k][0] == '-') continue;
     return std::find(verbs.begin(), verbs.end(), argv[k]) == verbs.end() ? argv[k] : nullptr;
@@ -184,7 +188,7 @@ const char* unknown_verb(const std::vector<std::string>& verbs, int argc, char**
   return nullptr;
 }
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, const char* const* argv) {
   CLI::App app("Designs bolts and lining of tunnels in jointed rock.");
   app.set_version_flag("--version", std::string("voussoir ") + VOUSSOIR_VERSION_STRING);
   app.require_subcommand(1);
@@ -277,6 +281,9 @@ int run_program(int argc, char** argv) {
   }
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+#ifdef SIGBREAK  // Windows: Ctrl-Break, or the window is closed
+  std::signal(SIGBREAK, ask_to_stop);
+#endif
   try {
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);
@@ -310,7 +317,11 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int status = run_program(argc, argv);
+  const voussoir::PlainOutput plain;
+  const std::vector<std::string> words = voussoir::program_arguments(argc, argv);
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  const int status = run_program(static_cast<int>(arguments.size()), arguments.data());
   // A full disk behind `> file` shows only now.
   errno = 0;
   std::cout.flush();
