@@ -28,6 +28,7 @@
 #include <voussoir/io/detail/support_diagrams.hpp>
 #include <voussoir/io/interaction_picture.hpp>
 #include <voussoir/io/interaction_picture_data.hpp>
+#include <voussoir/io/journal.hpp>
 #include <voussoir/io/mass_picture.hpp>
 #include <voussoir/io/operating_system.hpp>
 #include <voussoir/io/solved_picture.hpp>

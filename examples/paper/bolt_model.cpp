@@ -3,6 +3,7 @@
 #include <cmath>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/theory/grouted_bolt.hpp>
 
 #include "analyses.hpp"
@@ -65,7 +66,7 @@ Section bolt_model(Study& study) {
   for (const double initial : {0.0672, 0.77})
     for (const double s : {0.001, 0.01})
       for (const double w : {0.0, 0.002}) {
-        const double length = std::hypot(initial + w, s);
+        const double length = elementary::length(initial + w, s);
         const double f = bolt_stiffness * (length - initial);
         const JointForce got = force_across(initial, s, w);
         worst = std::max({worst, std::abs(got.along - f * s / length) / f,
@@ -75,7 +76,7 @@ Section bolt_model(Study& study) {
                               "f = K_a (l - d_init) along the anchors, 8 motions: within " +
                                   printed_text(1e12 * worst, 1) + " · 10⁻¹²"});
   const JointForce on_joint = force_across(0, 0.01, 0), near = force_across(0.0672, 0.01, 0);
-  const double l = std::hypot(0.0672, 0.01);
+  const double l = elementary::length(0.0672, 0.01);
   section.findings.push_back(
       {"PF-032",
        agrees_if(on_joint.normal == 0 &&

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/voussoir.hpp>
 
 #include "models.hpp"
@@ -201,7 +202,6 @@ ExcavatedRock::ExcavatedRock(ExcavatedRock&&) noexcept = default;
 ExcavatedRock& ExcavatedRock::operator=(ExcavatedRock&&) noexcept = default;
 
 Outcome ExcavatedRock::run(const Variant& variant) const {
-  const auto start = std::chrono::steady_clock::now();
   Tunnel tunnel = parts_->tunnel;
   Outcome outcome;
   outcome.seed = parts_->seed;
@@ -226,8 +226,8 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
       });
   outcome.boundary_change = change / before;
   for (const Segment& bar : built.bars) {
-    BoltOutcome& bolt =
-        outcome.bolts.emplace_back(BoltOutcome{std::atan2(bar.start.y(), bar.start.x()), 0, {}});
+    BoltOutcome& bolt = outcome.bolts.emplace_back(
+        BoltOutcome{elementary::angle_of(bar.start.y(), bar.start.x()), 0, {}});
     if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;
   }
   for (const CrossingForce& c : bolt_forces(tunnel)) {
@@ -236,8 +236,8 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
     bolt.crossings.push_back({radius + c.position, c.report.axial});
   }
   for (const LiningForce& at : lining_forces(tunnel))
-    outcome.lining.push_back({std::atan2(at.position.y(), at.position.x()), at.thrust, at.moment});
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    outcome.lining.push_back(
+        {elementary::angle_of(at.position.y(), at.position.x()), at.thrust, at.moment});
   return outcome;
 }
 

@@ -120,7 +120,6 @@ struct Outcome {
   std::vector<WallMotion> wall;
   std::vector<BoltOutcome> bolts;
   std::vector<LiningOutcome> lining;
-  double seconds = 0;
 
   [[nodiscard]] bool stable() const { return report.verdict == Verdict::stable; }
   /// Rock came off [m^2].

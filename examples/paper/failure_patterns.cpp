@@ -51,7 +51,14 @@ Section failure_patterns(Study& study) {
   std::mutex guard;
   parallel_for(results.size(), study.threads(), [&](std::size_t k) {
     if (!go_on) return;
-    results[k] = program::run_pattern(case_of(results[k]), results[k].seed, options);
+    const std::string what = case_text(case_of(results[k]), results[k].seed, options);
+    const auto stored = study.store().find ? study.store().find(what) : std::nullopt;
+    if (stored) {
+      results[k] = pattern_from_json(*stored);
+    } else {
+      results[k] = program::run_pattern(case_of(results[k]), results[k].seed, options);
+      if (study.store().add) study.store().add(what, pattern_json(results[k]));
+    }
     const std::size_t now = ++finished;
     const std::scoped_lock lock(guard);
     if (!study.progress("collapses",

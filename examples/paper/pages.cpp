@@ -58,7 +58,7 @@ std::string page_of(const Section& section) {
                         rows);
 }
 
-std::string index_of(const std::vector<Section>& sections, const Study& study, double seconds) {
+std::string index_of(const std::vector<Section>& sections, const Study& study) {
   const auto found = findings_by_claim(sections);
   const std::vector<Score> board = scores(sections);
   const std::string samples = std::to_string(study.samples());
@@ -72,8 +72,8 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
       std::to_string(board.back().restated) +
       " restate what was put in. Realisations of the rock: " + samples + ". " +
       std::to_string(study.tunnels_solved()) + " supported tunnels and " +
-      std::to_string(24 * study.samples()) + " collapses in " + fixed_text(seconds, 0) +
-      " s. This page and those it leads to are written by the last of these commands, the report "
+      std::to_string(24 * study.samples()) +
+      " collapses. This page and those it leads to are written by the last of these commands, the report "
       "and the data behind every plot by the first:\n\n"
       "```sh\n"
       "sudo apt-get install -y gnuplot-nox\n"
@@ -114,9 +114,9 @@ std::string index_of(const std::vector<Section>& sections, const Study& study, d
 }  // namespace
 
 std::map<std::string, std::string> documentation_pages(const std::vector<Section>& sections,
-                                                       const Drawings& drawings, const Study& study,
-                                                       double seconds) {
-  std::map<std::string, std::string> files{{"README.md", index_of(sections, study, seconds)}};
+                                                       const Drawings& drawings,
+                                                       const Study& study) {
+  std::map<std::string, std::string> files{{"README.md", index_of(sections, study)}};
   for (const Section& section : sections) {
     files[section.name + ".md"] = page_of(section);
     for (const Plot& plot : section.plots) files[plot.name + ".svg"] = drawings.at(plot.name);

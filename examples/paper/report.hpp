@@ -14,8 +14,7 @@ namespace voussoir::paper {
 [[nodiscard]] const std::vector<std::string>& assumptions();
 
 /// One page that needs no other file.
-/// @param seconds  that all of it took
 [[nodiscard]] std::string report_html(const std::vector<Section>& sections,
-                                      const Drawings& drawings, const Study& study, double seconds);
+                                      const Drawings& drawings, const Study& study);
 
 }  // namespace voussoir::paper

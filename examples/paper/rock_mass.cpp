@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/theory/initial_friction.hpp>
 #include <voussoir/tunnel/opening.hpp>
@@ -201,7 +202,7 @@ Section rock_mass(Study& study) {
   section.findings.push_back(
       {"PF-012",
        agrees_if(std::abs(kn / 5e9 - 1) < 1e-9 && std::abs(ks / 5e8 - 1) < 1e-9 &&
-                 std::abs(limit / std::tan(friction) - 1) < 1e-9),
+                 std::abs(limit / elementary::tangent(friction) - 1) < 1e-9),
        "one point of 1 m: k_n " + printed_text(1e-9 * kn, 4) + ", k_s " +
            printed_text(1e-9 * ks, 4) + " GPa/m, shear stops at " +
            printed_text(std::atan(limit) / degree, 4) + "°"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equivalent moduli of the jointed mass from one-dimensional compression: Table 3, G1 to G8.
 #include <array>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
@@ -73,7 +74,7 @@ Section shear_moduli(Study& study) {
       spacing[k] = radial_spacing(mass, Vec2::Zero(), radius, 10);
       // Three scanlines of 10 m, as the paper has: to the sides and up.
       for (int l = 0; l < 3; ++l) {
-        const Vec2 along(std::cos(l * 90 * degree), std::sin(l * 90 * degree));
+        const Vec2 along(elementary::cosine(l * 90 * degree), elementary::sine(l * 90 * degree));
         lines[k][static_cast<std::size_t>(l)] =
             scanline_spacing(mass, Segment{radius * along, (radius + 10) * along});
       }

@@ -10,8 +10,11 @@
 
 namespace voussoir::paper {
 
-Study::Study(int samples, unsigned threads, Progress progress)
-    : samples_(samples), threads_(threads), progress_(std::move(progress)) {
+Study::Study(int samples, unsigned threads, Progress progress, CaseStore store)
+    : samples_(samples),
+      threads_(threads),
+      progress_(std::move(progress)),
+      store_(std::move(store)) {
   require(samples >= 1 && samples <= 1000, "number of realisations", samples, "1 to 1000");
 }
 
@@ -43,9 +46,18 @@ void Study::prepare(const std::vector<Variant>& variants) {
     for (const Way way : {Way::as_the_paper, Way::slow_explicit, Way::quasi_static})
       for (auto& [variant, outcomes] : fresh)
         if (variant.way == way)
-          for (int k = first; k < std::min(first + at_a_time, samples_); ++k)
-            jobs.push_back({&variant, &outcomes[static_cast<std::size_t>(k)],
-                            static_cast<std::uint64_t>(k) + 1});
+          for (int k = first; k < std::min(first + at_a_time, samples_); ++k) {
+            const Job job{&variant, &outcomes[static_cast<std::size_t>(k)],
+                          static_cast<std::uint64_t>(k) + 1};
+            const auto stored =
+                store_.find ? store_.find(case_text(variant, job.seed)) : std::nullopt;
+            if (stored) {
+              *job.outcome = outcome_from_json(*stored);
+              report();
+            } else {
+              jobs.push_back(job);
+            }
+          }
     // The rock first, once for all variants that start from it.
     std::map<RockKey, Job> missing;
     for (const Job& job : jobs)
@@ -59,7 +71,9 @@ void Study::prepare(const std::vector<Variant>& variants) {
     });
     parallel_for(jobs.size(), threads_, [&](std::size_t k) {
       if (!go_on) return;
-      *jobs[k].outcome = rocks_.at(rock_of(jobs[k].seed, *jobs[k].variant)).run(*jobs[k].variant);
+      const Job& job = jobs[k];
+      *job.outcome = rocks_.at(rock_of(job.seed, *job.variant)).run(*job.variant);
+      if (store_.add) store_.add(case_text(*job.variant, job.seed), outcome_json(*job.outcome));
       report();
     });
     if (rocks_.size() > most_rocks) rocks_.clear();

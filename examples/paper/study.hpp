@@ -10,6 +10,7 @@
 #include <voussoir/design/realisations.hpp>
 
 #include "design_case.hpp"
+#include "stored_cases.hpp"
 
 namespace voussoir::paper {
 
@@ -22,7 +23,8 @@ class Study {
   /// Called with what is done and how far it is; returns false to stop.
   using Progress = std::function<bool(const std::string& what, double fraction)>;
   /// @param realisations  of the rock mass, seeds 1, 2, ..., >= 1
-  Study(int samples, unsigned threads, Progress progress = {});
+  /// @param store  where finished tunnels are kept; none: nowhere
+  Study(int samples, unsigned threads, Progress progress = {}, CaseStore store = {});
 
   [[nodiscard]] int samples() const { return samples_; }
   [[nodiscard]] unsigned threads() const { return threads_; }
@@ -43,6 +45,7 @@ class Study {
   [[nodiscard]] Measured measure(const Variant& variant,
                                  const std::function<double(const Outcome&)>& quantity);
   [[nodiscard]] std::size_t tunnels_solved() const { return solved_; }
+  [[nodiscard]] const CaseStore& store() const { return store_; }
 
   struct Stopped {};
 
@@ -56,6 +59,7 @@ class Study {
   int samples_;
   unsigned threads_;
   Progress progress_;
+  CaseStore store_;
   std::map<Variant, std::vector<Outcome>> done_;
   std::map<RockKey, ExcavatedRock> rocks_;
   std::size_t solved_ = 0;

@@ -59,39 +59,6 @@ LawsBySet<CoulombJoint> laws_of(const Input& input) {
   return laws;
 }
 
-/// The rock of an input, excavated but not yet moved.
-struct Excavated {
-  Tunnel tunnel;
-  std::vector<JointSource> joints;
-  SimplePolygon opening;
-  ChosenBoundary boundary;
-  double in_situ_unbalance;
-  std::vector<std::string> warnings;
-};
-
-/// @param wants_bias  see `bounded_tunnel`
-Excavated excavate(const Input& input, bool wants_bias, const Report& report) {
-  const Progress progress = [&](double fraction) { return report("blocks", fraction); };
-  const SimplePolygon opening = opening_of(input);
-  const GeneratedRock rock = rock_of(input, progress);
-  const LawsBySet<CoulombJoint> laws = laws_of(input);
-  double unbalance = 0;
-  const auto tunnel_of = [&](const FarField<2>& far_field) {
-    Tunnel tunnel(rock.mass, laws,
-                  {.density = input.rock.density,
-                   .k0 = input.stress.K0,
-                   .surcharge = input.stress.surcharge,
-                   .gravity = input.model.gravity},
-                  ContactPoints::gauss, progress, far_field);
-    unbalance = tunnel.out_of_balance_ratio();
-    tunnel.excavate(opening, input.blocks.min_wall_area, progress);
-    return tunnel;
-  };
-  BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
-  return {std::move(bounded.tunnel),   rock.joints, opening,
-          std::move(bounded.boundary), unbalance,   rock.warnings};
-}
-
 std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
                              const SimplePolygon& opening) {
   return bolt_bars({.length = bolts.length,
@@ -107,23 +74,6 @@ Domain<2> domain_of(const Input& input) {
                                    input.model.below_invert);
   domain.site_origin = Vec2(input.model.origin[0], input.model.origin[1]);
   return domain;
-}
-
-/// Refuses bolts that would end outside the rock, before any rock is made.
-void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
-  if (!input.bolts) return;
-  const Domain<2> domain = domain_of(input);
-  const SimplePolygon opening = opening_of(input);
-  for (const auto& spacing : spacings) {
-    if (!spacing) continue;
-    for (const Segment& bar : bars_of(*input.bolts, *spacing, opening))
-      if ((bar.end.array() < domain.low.array()).any() ||
-          (bar.end.array() > domain.high.array()).any())
-        throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
-                           " m: a bolt would end at " + text_of<2>(bar.end) +
-                           " m, outside the rock\n   = accepted: bolts that end within " +
-                           text_of<2>(domain.low) + " and " + text_of<2>(domain.high) + " m");
-  }
 }
 
 BoltInstallation<Tunnel> bolts_of(const BoltsInput& bolts, const BoltSpacing& spacing,
@@ -368,6 +318,49 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   return rock;
 }
 
+ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& report) {
+  const Progress progress = [&](double fraction) { return report("blocks", fraction); };
+  const SimplePolygon opening = opening_of(input);
+  const GeneratedRock rock = rock_of(input, progress);
+  const LawsBySet<CoulombJoint> laws = laws_of(input);
+  double unbalance = 0;
+  const auto tunnel_of = [&](const FarField<2>& far_field) {
+    Tunnel tunnel(rock.mass, laws,
+                  {.density = input.rock.density,
+                   .k0 = input.stress.K0,
+                   .surcharge = input.stress.surcharge,
+                   .gravity = input.model.gravity},
+                  ContactPoints::gauss, progress, far_field);
+    unbalance = tunnel.out_of_balance_ratio();
+    tunnel.excavate(opening, input.blocks.min_wall_area, progress);
+    return tunnel;
+  };
+  BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
+  return {std::move(bounded.tunnel),   rock.joints, opening,
+          std::move(bounded.boundary), unbalance,   rock.warnings};
+}
+
+void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
+  if (!input.bolts) return;
+  const Domain<2> domain = domain_of(input);
+  const SimplePolygon opening = opening_of(input);
+  for (const auto& spacing : spacings) {
+    if (!spacing) continue;
+    for (const Segment& bar : bars_of(*input.bolts, *spacing, opening))
+      if ((bar.end.array() < domain.low.array()).any() ||
+          (bar.end.array() > domain.high.array()).any())
+        throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
+                           " m: a bolt would end at " + text_of<2>(bar.end) +
+                           " m, outside the rock\n   = accepted: bolts that end within " +
+                           text_of<2>(domain.low) + " and " + text_of<2>(domain.high) + " m");
+  }
+}
+
+SupportChoice supports_of(const Input& input) {
+  return {input.bolts ? std::optional(input.bolts->spacing) : std::nullopt,
+          input.lining ? input.lining->thickness : 0.0};
+}
+
 namespace {
 
 /// Adds to a numerical fault which keys of the input are likely to blame.
@@ -421,20 +414,18 @@ RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
-  Excavated excavated = excavate(input, true, report);
+  ExcavatedRock excavated = excavated_rock(input, true, report);
   RunResult run{std::move(excavated.tunnel), excavated.opening, excavated.boundary};
   run.warnings = run.rock_warnings = std::move(excavated.warnings);
   run.joints = std::move(excavated.joints);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
-  const std::optional<BoltSpacing> spacing =
-      input.bolts ? std::optional(input.bolts->spacing) : std::nullopt;
+  const SupportChoice supports = supports_of(input);
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
   const Construction<Tunnel> construction =
-      construction_of(input, run.tunnel, run.opening, spacing,
-                      input.lining ? input.lining->thickness : 0.0, linear);
+      construction_of(input, run.tunnel, run.opening, supports.spacing, supports.thickness, linear);
   const Tunnel before = run.tunnel;
   run.built = construct(run.tunnel, construction, report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
@@ -445,55 +436,46 @@ RunResult computed_run(const Input& input, const Report& report) {
   return run;
 }
 
-DiagramResult computed_diagram(const Input& input, unsigned threads, const Report& report) {
-  const auto start = std::chrono::steady_clock::now();
-  check_bolts(input, input.diagram->spacing);
-  report("blocks", -1.0);
-  const Excavated excavated = excavate(input, false, report);
-  const DiagramInput& axes = *input.diagram;
-  const std::size_t count = axes.spacing.size() * axes.thickness.size();
-  std::atomic<bool> go_on{true};
-  std::mutex guard;
-  const Report quiet = [&](const std::string&, double) { return go_on.load(); };
-  const auto done = [&](std::size_t finished) {
-    const std::scoped_lock lock(guard);
-    if (!report("diagram", static_cast<double>(finished) / static_cast<double>(count)))
-      go_on = false;
-  };
-  // Each tunnel may take its share of the memory, whatever the others have taken already.
-  const LinearSettings linear{.memory_limit = available_memory() / std::max(threads, 1U)};
-  const auto tunnel_at = [&](std::size_t i, std::size_t j) {
-    if (!go_on) return DiagramPoint{};
-    Tunnel tunnel = excavated.tunnel;
-    const auto built = construct(tunnel,
-                                 construction_of(input, tunnel, excavated.opening, axes.spacing[i],
-                                                 axes.thickness[j], linear),
-                                 quiet);
-    return diagram_point_of(tunnel, built);
-  };
-  DiagramResult result;
-  result.boundary = excavated.boundary;
-  result.warnings = excavated.warnings;
-  result.blocks = excavated.tunnel.mass().bodies.size();
-  result.points =
-      interaction_diagram(axes.spacing.size(), axes.thickness.size(), threads, tunnel_at, done);
-  result.seconds = seconds_since(start);
-  for (const DiagramPoint& point : result.points)
-    if (point.report.verdict == Verdict::undecided) {
-      for (const std::string& text : warnings_of_undecided(input)) result.warnings.push_back(text);
-      break;
-    }
-  return result;
-}
-
 }  // namespace
 
 RunResult run_tunnel(const Input& input, const Report& report) {
   return naming_unusual_values(input, [&] { return computed_run(input, report); });
 }
 
-DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report) {
-  return naming_unusual_values(input, [&] { return computed_diagram(input, threads, report); });
+namespace {
+/// What the direct solution may take of one tunnel among many: the same on every machine, lest its
+/// memory decide how equations are solved [bytes].
+constexpr double memory_of_a_case = 4e9;
+}  // namespace
+
+TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
+                              const SupportChoice& supports, const Report& report) {
+  TunnelResult result;
+  result.blocks = rock.tunnel.mass().bodies.size();
+  result.boundary = boundary_text(rock.boundary);
+  result.warnings = rock.warnings;
+  try {
+    Tunnel tunnel = rock.tunnel;
+    const auto built = naming_unusual_values(input, [&] {
+      return construct(tunnel,
+                       construction_of(input, tunnel, rock.opening, supports.spacing,
+                                       supports.thickness, {.memory_limit = memory_of_a_case}),
+                       report);
+    });
+    if (built.last().stopped) throw Stopped();
+    result.verdict = built.verdict();
+    result.lost_lining = built.has_lost_lining();
+    result.fallen = built.fallen_measure();
+    result.reason = built.last().reason;
+    result.convergence = built.stages.back().convergence;
+    result.demand = support_demand(tunnel);
+    result.error_estimate = built.last().error_estimate;
+    result.out_of_balance = built.last().unbalance_over_weight;
+  } catch (const NumericalFault& fault) {
+    result.failed = true;
+    result.reason = fault.what();
+  }
+  return result;
 }
 
 }  // namespace voussoir::program

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 #include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
 
 #include "boundary.hpp"
 #include "input.hpp"
@@ -59,15 +62,6 @@ struct RunResult {
   [[nodiscard]] const Convergence& convergence() const { return built.stages.back().convergence; }
 };
 
-/// A finished interaction diagram.
-struct DiagramResult {
-  ChosenBoundary boundary = {};
-  std::vector<std::string> warnings = {};  ///< about the rock, and values that are unusual
-  std::vector<DiagramPoint> points = {};   ///< spacing by spacing, thickness running faster
-  std::size_t blocks = 0;
-  double seconds = 0;
-};
-
 /// What is being done and how far it is, see `StageProgress`; rock and diagrams too.
 using Report = StageProgress;
 
@@ -90,8 +84,67 @@ struct GeneratedRock {
 /// @throws Stopped       `report` said so while rock was made
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
 
-/// @pre    input.diagram
-/// @throws InvalidInput, NumericalFault, Stopped  as above
-[[nodiscard]] DiagramResult run_diagram(const Input& input, unsigned threads, const Report& report);
+/// The rock of an input under its in-situ stress, excavated, nothing moved: the start of every
+/// tunnel that differs in its supports only.
+struct ExcavatedRock {
+  Tunnel tunnel;
+  std::vector<JointSource> joints;
+  SimplePolygon opening;
+  ChosenBoundary boundary;
+  double in_situ_unbalance;           ///< of the worst block over its weight [-]
+  std::vector<std::string> warnings;  ///< about the rock
+};
+
+/// @param wants_bias  see `bounded_tunnel`
+/// @throws as `rock_of`
+[[nodiscard]] ExcavatedRock excavated_rock(const Input& input, bool wants_bias,
+                                           const Report& report);
+
+/// The supports of one tunnel among many in the same rock.
+struct SupportChoice {
+  std::optional<BoltSpacing> spacing;  ///< none: no bolts
+  double thickness = 0;                ///< of the lining [m]; 0: no lining
+};
+/// Those of the file itself.
+[[nodiscard]] SupportChoice supports_of(const Input& input);
+
+/// Refuses bolts that would end outside the rock, before any rock is made. @throws InvalidInput
+void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings);
+
+/// What came of one tunnel among many: the numbers that a design is chosen by.
+struct TunnelResult {
+  Verdict verdict = Verdict::undecided;
+  bool failed = false;       ///< it could not be computed: the reason says why
+  bool lost_lining = false;  ///< a lining came off its wall
+  double fallen = 0;         ///< rock that detached, over all stages [m^2]
+  std::string reason;        ///< of the verdict, one sentence
+  Convergence convergence = {not_computed, not_computed, not_computed, not_computed};  ///< [m]
+  SupportDemand demand = {};
+  double error_estimate = not_computed;  ///< of displacements [-]
+  double out_of_balance = not_computed;  ///< of the worst block over its weight [-]
+  std::size_t blocks = 0;
+  std::string boundary;                    ///< in words
+  std::vector<std::string> warnings = {};  ///< about the rock
+
+  static constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
+
+  /// "stable", "stable after rockfall", ..., "failed".
+  [[nodiscard]] std::string word() const {
+    return failed ? "failed" : to_string(verdict, fallen, lost_lining);
+  }
+  [[nodiscard]] bool is_decided() const { return !failed && verdict != Verdict::undecided; }
+  /// It stands, and all of its rock and its lining with it.
+  [[nodiscard]] bool is_whole() const {
+    return verdict == Verdict::stable && fallen == 0 && !lost_lining;
+  }
+};
+
+/// Builds one tunnel in rock that is ready for it. The rock stays as it is: any number at a time.
+/// What is computed does not depend on the machine: neither on its memory, which elsewhere decides
+/// how elastic equations are solved, nor on its number of processors.
+/// @return  a numerical fault is a result too: failed, with its text
+/// @throws Stopped  `report` said so
+[[nodiscard]] TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
+                                            const SupportChoice& supports, const Report& report);
 
 }  // namespace voussoir::program

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
@@ -319,7 +320,7 @@ void read_lining(Section& s, LiningInput& lining) {
                        Need::optional);
     interface.quantity("tensile_bond", lining.tensile_bond, dimension::pressure, bond_range,
                        Need::optional);
-    const double most = lining.shear_bond / std::tan(lining.interface_friction_angle);
+    const double most = lining.shear_bond / elementary::tangent(lining.interface_friction_angle);
     if (lining.tensile_bond > most * (1 + 1e-12))
       interface.complain("tensile_bond",
                          lining.shear_bond > 0 ? "is more than shear_bond / tan(friction)"
@@ -721,7 +722,7 @@ SizeEstimate estimate_size(const Input& input) {
     size.blocks += sets[i].intensity * area;
     for (std::size_t j = 0; j < i; ++j)
       size.blocks += sets[i].frequency * sets[j].frequency * area *
-                     std::abs(std::sin(sets[i].angle - sets[j].angle));
+                     std::abs(elementary::sine(sets[i].angle - sets[j].angle));
   }
   // Cutting stops when no child would hold the smallest circle. Random masses of three sets then
   // have 0.09 (short joints) to 0.13 (through-going ones) blocks per square of its radius.
@@ -745,7 +746,7 @@ Input read_input_text(std::string_view text, const std::string& name,
   check_stages(checker, input);
   check_diagram(checker, input);
   checker.finish();
-  input.content = canonical_text(document);
+  input.content = canonical_lines(document);
   return input;
 }
 

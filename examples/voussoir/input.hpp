@@ -214,7 +214,8 @@ struct Input {
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   RunInput run;
   std::optional<DiagramInput> diagram;
-  std::string content;  ///< every key and value, overrides included, in one order: for the run id
+  /// Every key with its value, `stress.K0 = 1`, overrides included, sorted: for the run id.
+  std::vector<std::string> content;
 
   [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]

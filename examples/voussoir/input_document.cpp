@@ -332,50 +332,50 @@ Node* Node::find(std::string_view key) {
 }
 
 namespace {
-void append_value(const Node& node, std::string& out) {
-  const auto text = [&out](const std::string& word) {
-    out += std::to_string(word.size()) + ":" + word;
-  };
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+void append_lines(const Node& node, const std::string& key, std::vector<std::string>& lines) {
+  const auto line = [&](const std::string& value) { lines.push_back(key + " = " + value); };
   switch (node.kind) {
-    case Node::Kind::table: {
-      std::vector<const Entry*> entries;
-      for (const Entry& entry : node.table) entries.push_back(&entry);
-      std::sort(entries.begin(), entries.end(),
-                [](const Entry* a, const Entry* b) { return a->key < b->key; });
-      out += '{';
-      for (const Entry* entry : entries) {
-        text(entry->key);
-        append_value(entry->value, out);
-      }
-      out += '}';
+    case Node::Kind::table:
+      if (node.table.empty()) line("{}");
+      for (const Entry& entry : node.table)
+        append_lines(entry.value, key.empty() ? entry.key : key + "." + entry.key, lines);
       break;
-    }
     case Node::Kind::array:
-      out += '[';
-      for (const Node& entry : node.array) append_value(entry, out);
-      out += ']';
+      if (node.array.empty()) line("[]");
+      for (std::size_t k = 0; k < node.array.size(); ++k)
+        append_lines(node.array[k], key + "[" + std::to_string(k) + "]", lines);
       break;
     case Node::Kind::text:
-      text(node.text);
+      line(quoted(node.text));
       break;
     case Node::Kind::integer:
-      out += "i" + std::to_string(node.integer) + ";";
+      line(std::to_string(node.integer));
       break;
     case Node::Kind::real:
-      out += "r" + shortest_text(node.real) + ";";
+      line(shortest_text(node.real));
       break;
     case Node::Kind::boolean:
     case Node::Kind::date:  // no key takes one
-      text(node.written);
+      line(node.written);
       break;
   }
 }
 }  // namespace
 
-std::string canonical_text(const Document& document) {
-  std::string text;
-  append_value(document.root, text);
-  return text;
+std::vector<std::string> canonical_lines(const Document& document) {
+  std::vector<std::string> lines;
+  append_lines(document.root, "", lines);
+  std::sort(lines.begin(), lines.end());
+  return lines;
 }
 
 InputError Document::error_at(const Place& place, std::string key, std::string message,

@@ -66,9 +66,9 @@ struct Document {
 [[nodiscard]] Document read_document(std::string_view text, const std::string& name,
                                      const std::vector<std::string>& overrides);
 
-/// All keys and values, overrides laid over them, in an order and form of their own: the same for
-/// two documents that differ in blanks, comments or the order of keys only.
-[[nodiscard]] std::string canonical_text(const Document& document);
+/// Every key with its value, `joint_set[0].dip = "75 deg"`, overrides laid over them, sorted: the
+/// same for two documents that differ in blanks, comments or the order of keys only.
+[[nodiscard]] std::vector<std::string> canonical_lines(const Document& document);
 
 /// `text` with control characters shown as `?`, cut behind 80 bytes.
 [[nodiscard]] std::string printable(std::string_view text);

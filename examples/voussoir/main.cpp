@@ -21,9 +21,12 @@
 #include <voussoir/core/version.hpp>
 #include <voussoir/io/operating_system.hpp>
 
+#include "analysis.hpp"
+#include "case_plan.hpp"
 #include "input_document.hpp"
 #include "outputs.hpp"
 #include "patterns.hpp"
+#include "ranks.hpp"
 #include "run_folder.hpp"
 #include "verbs.hpp"
 
@@ -89,35 +92,6 @@ int run_verb(const Options& options) {
   return status_of(run);
 }
 
-int diagram_verb(const Options& options) {
-  work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
-  if (!input.diagram)
-    throw voussoir::InvalidInput(
-        "no [diagram] in " + options.file +
-        "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
-  RunFolder outputs(options.folder);
-  ProgressLine line(options.quiet);
-  work.remedy = std::string(smaller_model) + ", or fewer --threads";
-  const DiagramResult diagram =
-      run_diagram(input, options.threads, [&](const std::string& what, double fraction) {
-        now_doing(what, "computing the tunnels of the diagram with --threads " +
-                            std::to_string(options.threads));
-        return line.show(what, fraction);
-      });
-  line.clear();
-  if (stop_asked != 0) return say_interrupted();
-  work.doing = "writing the results";
-  const std::string id = RunId("tunnel").add(input).text();
-  outputs.add("interaction.csv", interaction_csv(input, diagram), id);
-  outputs.add("interaction.svg", interaction_svg(input, diagram), id);
-  if (!options.quiet) std::cout << diagram_summary(input, diagram);
-  publish(outputs, options, "interaction.csv, interaction.svg");
-  for (const auto& point : diagram.points)
-    if (point.report.verdict == voussoir::Verdict::undecided) return not_decided;
-  return finished;
-}
-
 /// Which cases, and how many rock masses of each.
 struct PatternChoice {
   std::vector<int> cases;
@@ -179,8 +153,15 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   return finished;
 }
 
+/// Where this program lies, for scripts that call it from elsewhere.
+std::string program_path(const char* called) {
+  const std::filesystem::path path = voussoir::utf8_path(called == nullptr ? "voussoir" : called);
+  return voussoir::utf8_text(
+      path.has_parent_path() ? std::filesystem::absolute(path).lexically_normal() : path);
+}
+
 /// What was given in place of a verb; nothing if it is one, or none was given.
-const char* unknown_verb(const std::vector<std::string>& verbs, int argc, const char* const* argv) {
+const char* unknown_verb(const std::vector<std::string>& verbs, int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     if (argv[k][0] == '-') continue;
     return std::find(verbs.begin(), verbs.end(), argv[k]) == verbs.end() ? argv[k] : nullptr;
@@ -188,16 +169,20 @@ const char* unknown_verb(const std::vector<std::string>& verbs, int argc, const 
   return nullptr;
 }
 
-int run_program(int argc, const char* const* argv) {
+int run_program(int argc, char** argv) {
   CLI::App app("Designs bolts and lining of tunnels in jointed rock.");
   app.set_version_flag("--version", std::string("voussoir ") + VOUSSOIR_VERSION_STRING);
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 finished, and the tunnel of run is stable; 1 results cannot be written or\n"
-      "memory is exhausted, 2 error in the input or the command line, 3 undecided (of diagram: one\n"
-      "of its tunnels), 4 numerical fault, 5 a check of verify fails, 6 the tunnel of run is stable\n"
-      "after rockfall, 7 it collapses, 130 interrupted (nothing written).");
+      "memory is exhausted, 2 error in the input or the command line, 3 undecided (of diagram, sweep\n"
+      "and realisations: one of their tunnels), 4 numerical fault, 5 a check of verify fails, 6 the\n"
+      "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 130\n"
+      "interrupted (results are not written; finished cases are kept).");
+  Ranks ranks(argc, argv);
   Options options;
+  options.ranks = &ranks;
+  options.program = program_path(argv[0]);
   const auto add_out = [&options](CLI::App* verb) {
     verb->add_option("-o,--out", options.folder, "folder for the results, made if missing")
         ->capture_default_str();
@@ -224,6 +209,56 @@ int run_program(int argc, const char* const* argv) {
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
   add_input(diagram);
   add_threads(diagram);
+  CLI::App* realisations = app.add_subcommand(
+      "realisations", "one design in many realisations of the rock: shares, means, histograms");
+  add_input(realisations);
+  add_threads(realisations);
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "one tunnel over lists and ranges of any keys: a table with a row for each");
+  add_input(sweep);
+  add_threads(sweep);
+  PlanOptions plan;
+  sweep
+      ->add_option("--vary", plan.varied,
+                   "KEY=A, B, C or KEY=A..B UNIT:N (N values), for example "
+                   "support.lining.thickness=\"5 cm, 10 cm\"")
+      ->allow_extra_args(false);
+  for (CLI::App* verb : {diagram, realisations, sweep}) {
+    CLI::Option* const count =
+        verb->add_option("-n,--realisations", plan.realisations,
+                         "of the rock: seeds model.seed, model.seed + 1, ...")
+            ->check(CLI::Range(1, CasePlan::most_realisations));
+    if (verb == realisations)
+      count->required();
+    else
+      count->capture_default_str();
+    verb->add_flag("--discard", plan.discard,
+                   "remove the cases of another input or program from the folder first");
+    verb->add_option(
+            "--plan", plan.engine,
+            "compute nothing here: write a job array for Slurm, or a workflow for Snakemake")
+        ->check(CLI::IsMember({"slurm", "snakemake"}));
+    verb->add_option("--chunks", plan.chunks, "parts of the plan; left out: see --chunk-minutes")
+        ->check(CLI::Range(1, 100000));
+    verb->add_option("--chunk-minutes", plan.chunk_minutes,
+                     "that a part lasts, about: one case is tried for that")
+        ->capture_default_str()
+        ->check(CLI::Range(0.1, 1440.0));
+  }
+  CLI::App* one_case = app.add_subcommand("case", "one chunk of a plan that --plan has written");
+  std::string chunk;
+  one_case->add_option("PLAN", options.file, "the plan's file, or its folder")->required();
+  one_case->add_option("--chunk", chunk, "K/N: the K-th of N parts")->required();
+  add_threads(one_case);
+  add_quiet(one_case);
+  CLI::App* merge =
+      app.add_subcommand("merge", "joins the cases of one plan from any number of folders");
+  std::vector<std::string> folders;
+  std::string merged_folder;
+  merge->add_option("PLAN", folders, "folders with a plan in them, or the plans' files")
+      ->required();
+  merge->add_option("-o,--out", merged_folder, "folder for the results; left out: the first");
+  add_quiet(merge);
   CLI::App* patterns =
       app.add_subcommand("patterns", "how unsupported tunnels fail: 24 cases, every block moving");
   PatternChoice choice;
@@ -288,7 +323,15 @@ int run_program(int argc, const char* const* argv) {
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);
     if (*verify) return verify_verb(options);
-    return *run ? run_verb(options) : diagram_verb(options);
+    if (*diagram) return plan_verb(options, PlanVerb::diagram, plan);
+    if (*realisations) return plan_verb(options, PlanVerb::realisations, plan);
+    if (*sweep) return plan_verb(options, PlanVerb::sweep, plan);
+    if (*one_case) return case_verb(options, chunk);
+    if (*merge) {
+      options.folder = merged_folder;
+      return merge_verb(options, folders);
+    }
+    return run_verb(options);
   } catch (const InputErrors& errors) {
     std::cerr << errors.what() << "\n";
     return bad_input;
@@ -318,10 +361,11 @@ int run_program(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   const voussoir::PlainOutput plain;
-  const std::vector<std::string> words = voussoir::program_arguments(argc, argv);
-  std::vector<const char*> arguments;
-  for (const std::string& word : words) arguments.push_back(word.c_str());
-  const int status = run_program(static_cast<int>(arguments.size()), arguments.data());
+  std::vector<std::string> words = voussoir::program_arguments(argc, argv);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int status = run_program(static_cast<int>(words.size()), arguments.data());
   // A full disk behind `> file` shows only now.
   errno = 0;
   std::cout.flush();

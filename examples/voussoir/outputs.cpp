@@ -14,7 +14,6 @@
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
-#include <voussoir/io/interaction_picture.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
@@ -276,98 +275,6 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   return draw_tunnel(run.tunnel, run.built, text);
 }
 
-namespace {
-
-std::string spacing_label(const std::optional<BoltSpacing>& spacing) {
-  if (!spacing) return "no bolts";
-  return spacing->is_angle ? text("%g°", spacing->value / degree) : text("%g m", spacing->value);
-}
-
-}  // namespace
-
-std::string interaction_csv(const Input& input, const DiagramResult& diagram) {
-  const DiagramInput& axes = *input.diagram;
-  const bool angular = axes.spacing.front() && axes.spacing.front()->is_angle;
-  CsvTable table(
-      {angular ? "bolt_spacing_deg" : "bolt_spacing_m", "lining_thickness_cm", "verdict", "failed",
-       "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
-       "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
-       "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio"},
-      6);
-  const double radius = input.tunnel.half_width();
-  for (const DiagramPoint& p : diagram.points) {
-    const auto& spacing = axes.spacing[p.spacing];
-    const std::string label =
-        spacing ? text("%g", spacing->value / (spacing->is_angle ? degree : 1.0)) : "none";
-    table.add_row(label, 1e2 * axes.thickness[p.thickness], to_string(p.report), p.failed(),
-                  1e3 * p.crown_convergence, 1e2 * p.crown_convergence / radius,
-                  p.report.fallen_measure, 1e-3 * p.largest_bolt_force, 1e-3 * p.mean_bolt_force,
-                  1e-3 * p.largest_thrust, 1e-3 * p.largest_moment, p.report.error_estimate,
-                  p.report.unbalance_over_weight);
-  }
-  return table.text();
-}
-
-std::string interaction_svg(const Input& input, const DiagramResult& diagram) {
-  const DiagramInput& axes = *input.diagram;
-  InteractionPicture picture;
-  double worst = 0;
-  bool estimated = false;
-  std::size_t failed = 0, undecided = 0;
-  const auto columns = static_cast<Eigen::Index>(axes.thickness.size());
-  const auto rows = static_cast<Eigen::Index>(axes.spacing.size());
-  picture.values.resize(columns, rows);
-  picture.failed.resize(columns, rows);
-  picture.collapsed.resize(columns, rows);
-  picture.undecided.resize(columns, rows);
-  for (const DiagramPoint& p : diagram.points) {
-    const auto i = static_cast<Eigen::Index>(p.thickness), j = static_cast<Eigen::Index>(p.spacing);
-    // Where rock detached but a crown remains, its convergence still belongs to the surface; a
-    // collapse has none.
-    const bool standing = p.report.verdict == Verdict::stable;
-    picture.values(i, j) =
-        standing ? p.crown_convergence : std::numeric_limits<double>::quiet_NaN();
-    picture.undecided(i, j) = p.report.verdict == Verdict::undecided;
-    picture.failed(i, j) = p.failed() && !picture.undecided(i, j);
-    picture.collapsed(i, j) = p.report.verdict == Verdict::collapse;
-    undecided += picture.undecided(i, j);
-    failed += picture.failed(i, j);
-    if (standing && std::isfinite(p.report.error_estimate)) {
-      worst = std::max(worst, p.report.error_estimate);
-      estimated = true;
-    }
-  }
-  picture.header.title = "Interaction diagram" + (input.title.empty() ? "" : ": " + input.title);
-  picture.header.lines = {
-      "Convergence of the crown over lining thickness and bolt spacing, " +
-      std::to_string(diagram.points.size()) + " tunnels in " + std::to_string(diagram.blocks) +
-      " blocks (seed " + std::to_string(input.model.seed) + "). " +
-      (estimated
-           ? "Largest estimated error of the displacements " + text("%.2g", 100 * worst) + " %. "
-           : "Error of the displacements not estimated. ") +
-      "Arrows: rock falls, the rest stands; red crosses: collapse."};
-  picture.header.key_numbers = {
-      {"bolt length", input.bolts ? text("%g m", input.bolts->length) : "no bolts"},
-      {"tunnels with detached blocks",
-       std::to_string(failed) + " of " + std::to_string(diagram.points.size())}};
-  if (undecided > 0) {
-    const std::string count =
-        std::to_string(undecided) + " of " + std::to_string(diagram.points.size());
-    picture.header.key_numbers.push_back({"tunnels undecided", count});
-    picture.banner = {{std::to_string(undecided) + " OF " + std::to_string(diagram.points.size()) +
-                           " TUNNELS UNDECIDED",
-                       "neither an equilibrium nor detached blocks were found at the points marked "
-                       "with ?: no result there"}};
-  }
-  picture.diameter = 2 * input.tunnel.half_width();
-  picture.thicknesses = axes.thickness;
-  for (const auto& spacing : axes.spacing)
-    picture.spacings.push_back(
-        {spacing_label(spacing), spacing ? std::optional(spacing->value) : std::nullopt});
-  picture.spacing_axis = "bolt spacing";
-  return draw_interaction_picture(picture);
-}
-
 std::string run_summary(const Input& input, const RunResult& run) {
   const SupportDemand e = support_demand(run.tunnel);
   const Convergence c = run.convergence();
@@ -440,37 +347,6 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "\n";
   }
   for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";
-  return out;
-}
-
-std::string diagram_summary(const Input& input, const DiagramResult& diagram) {
-  const DiagramInput& axes = *input.diagram;
-  std::string out = "crown convergence [mm] of " + std::to_string(diagram.points.size()) +
-                    " tunnels in " + std::to_string(diagram.blocks) + " blocks" +
-                    text(", computed in %.1f s; ", diagram.seconds) +
-                    "R: stable after rockfall, C: collapse, ?: undecided\n\n";
-  out += "spacing \\ lining";
-  for (const double t : axes.thickness) out += text("%9.3g cm", 1e2 * t);
-  out += "\n";
-  for (std::size_t i = 0; i < axes.spacing.size(); ++i) {
-    std::string label = spacing_label(axes.spacing[i]);
-    if (axes.spacing[i] && axes.spacing[i]->is_angle)
-      label = text("%g deg", axes.spacing[i]->value / degree);
-    label.resize(16, ' ');
-    out += label;
-    for (std::size_t j = 0; j < axes.thickness.size(); ++j) {
-      const DiagramPoint& p = diagram.points[i * axes.thickness.size() + j];
-      const char* mark = p.report.verdict == Verdict::collapse    ? " C"
-                         : p.report.verdict == Verdict::undecided ? " ?"
-                         : p.failed()                             ? " R"
-                                                                  : "  ";
-      const std::string crown = millimetres_text(p.crown_convergence);
-      out += std::string(10 - std::min<std::size_t>(crown.size(), 10), ' ') + crown + mark;
-    }
-    out += "\n";
-  }
-  out += "boundary " + boundary_text(diagram.boundary) + "\n";
-  for (const std::string& warning : diagram.warnings) out += "warning  " + warning + "\n";
   return out;
 }
 

@@ -19,12 +19,7 @@ namespace voussoir::program {
 /// The rock around the tunnel with its supports.
 [[nodiscard]] std::string blocks_svg(const Input& input, const RunResult& run);
 
-/// One row per tunnel of the diagram.
-[[nodiscard]] std::string interaction_csv(const Input& input, const DiagramResult& diagram);
-[[nodiscard]] std::string interaction_svg(const Input& input, const DiagramResult& diagram);
-
 /// The results in a few lines for a terminal.
 [[nodiscard]] std::string run_summary(const Input& input, const RunResult& run);
-[[nodiscard]] std::string diagram_summary(const Input& input, const DiagramResult& diagram);
 
 }  // namespace voussoir::program

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/drawing/page_map.hpp>
 #include <voussoir/drawing/picture_parts.hpp>
@@ -33,12 +34,12 @@ constexpr double angle_tolerance = 12 * degree;
 /// Along the dip, downwards.
 Vec2 down_dip(const PatternSet& set) {
   const double dip = set.dip * degree;
-  return {(set.east ? 1 : -1) * std::cos(dip), -std::sin(dip)};
+  return {(set.east ? 1 : -1) * elementary::cosine(dip), -elementary::sine(dip)};
 }
 /// The set whose line is nearest to a direction, or -1 if none is within the tolerance.
 int set_along(const std::array<PatternSet, 3>& sets, const Vec2& direction) {
   int nearest = -1;
-  double best = std::cos(angle_tolerance);
+  double best = elementary::cosine(angle_tolerance);
   for (std::size_t k = 0; k < 3; ++k)
     if (const double c = std::abs(down_dip(sets[k]).dot(direction)); c > best) {
       best = c;
@@ -62,7 +63,7 @@ char letter(int set) { return static_cast<char>('A' + set); }
 /// Where a block was before it moved.
 enum class Place { roof, wall, elsewhere };
 Place place_of(const Vec2& p) {
-  const double angle = std::atan2(p.y(), std::abs(p.x()));
+  const double angle = elementary::angle_of(p.y(), std::abs(p.x()));
   if (angle > 45 * degree && std::abs(p.x()) < diameter) return Place::roof;
   return angle > -45 * degree ? Place::wall : Place::elsewhere;
 }
@@ -223,7 +224,7 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
   // ---- how evenly the wall moves: by eighths of the circle ----
   std::array<double, 8> moved{}, area{};
   const auto eighth_of = [](const Vec2& place) {
-    const double direction = std::atan2(place.y(), place.x()) + 2 * std::numbers::pi;
+    const double direction = elementary::angle_of(place.y(), place.x()) + 2 * std::numbers::pi;
     return static_cast<std::size_t>(direction / (0.25 * std::numbers::pi)) % 8;
   };
   for (std::size_t b = 0; b < count; ++b) {
@@ -252,7 +253,7 @@ PatternResult run_pattern(const PatternCase& the_case, std::uint64_t seed,
     lost[b] = place == Place::roof;
     const Release& r = releases[b];
     const int along = set_along(the_case.sets, r.way);
-    const bool falls = r.way.y() < -std::cos(angle_tolerance);
+    const bool falls = r.way.y() < -elementary::cosine(angle_tolerance);
     if (place == Place::roof) {
       result.roof_area += body.measure;
       if (falls)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "run_folder.hpp"
 
-#include <array>
-#include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/drawing/xml_text.hpp>
+#include <voussoir/io/journal.hpp>
 
 namespace voussoir::program {
 
@@ -18,40 +18,33 @@ RunId::RunId(std::string_view what) {
   add(what);
 }
 
-void RunId::append(std::string_view bytes) {
-  for (const char c : bytes) {
-    hash_ ^= static_cast<unsigned char>(c);
-    hash_ *= 0x100000001b3U;
-  }
-}
-
 RunId& RunId::add(std::string_view part) {
-  append(std::to_string(part.size()) + ":");  // "ab", "c" is not "a", "bc"
-  append(part);
+  text_ += std::to_string(part.size()) + ":";  // "ab", "c" is not "a", "bc"
+  text_ += part;
   return *this;
 }
 
 RunId& RunId::add(double part) { return add(shortest_text(part)); }
 
-RunId& RunId::add(const Input& input) {
-  add(input.content).add(std::to_string(input.model.seed));
+RunId& RunId::add(const Input& input) { return add_keys(input).add(joints_hash(input)); }
+
+RunId& RunId::add_keys(const Input& input) {
+  // Mapped joints are what they are wherever their file lies.
+  for (const std::string& line : input.content)
+    if (!line.starts_with("joints.file = ")) add(line);
+  return add(std::to_string(input.model.seed));
+}
+
+std::string joints_hash(const Input& input) {
   // What is no file but a pipe or a device can be read once, and not here.
   std::error_code error;
   if (input.joints_file.empty() || !std::filesystem::is_regular_file(input.joints_file, error))
-    return *this;
+    return "";
   std::ifstream file(input.joints_file, std::ios::binary);
-  std::array<char, 65536> buffer{};
-  while (file.read(buffer.data(), buffer.size()) || file.gcount() > 0)
-    append({buffer.data(), static_cast<std::size_t>(file.gcount())});
-  return *this;
+  return text_hash(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-std::string RunId::text() const {
-  std::string digits(16, '0');
-  for (std::size_t k = 0; k < 16; ++k)
-    digits[k] = "0123456789abcdef"[(hash_ >> (60 - 4 * k)) & 0xfU];
-  return digits;
-}
+std::string RunId::text() const { return text_hash(text_); }
 
 namespace {
 
@@ -187,6 +180,10 @@ void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
     if (!lock_->is_locked() && holder.process > 0 && holder.host == host_name() &&
         holder.process != process_number() && process_runs(holder.process))
       refuse_held(holder);
+    // Of several that share it the first is named, while it lives.
+    const bool is_named_already = mode == LockedFile::Mode::shared && holder.host == host_name() &&
+                                  process_runs(holder.process);
+    if (is_named_already) return;
     lock_->cut(0);
     lock_->append(std::to_string(process_number()) + " " + host_name() +
                   "\nthe voussoir process that is computing results for this folder\n");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,7 +19,7 @@ namespace voussoir::program {
 ///
 ///   const std::string id = RunId("run").add(input).text();  // "3f1c09d2a47b6e58"
 ///
-/// 64 bits of FNV-1a: to tell runs apart, not to guard against forgery.
+/// See `text_hash`.
 class RunId {
  public:
   /// The version of the program is always a part.
@@ -30,12 +29,15 @@ class RunId {
   RunId& add(double part);
   /// Every key and value of the file and its overrides, the seed, and the mapped joints.
   RunId& add(const Input& input);
+  /// The same without the mapped joints: see `joints_hash`.
+  RunId& add_keys(const Input& input);
   [[nodiscard]] std::string text() const;  ///< 16 hexadecimal digits
 
  private:
-  void append(std::string_view bytes);
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
+  std::string text_;
 };
+/// Of the file of mapped joints; empty if there is none that can be read twice.
+[[nodiscard]] std::string joints_hash(const Input& input);
 
 /// The content of a file with the run's id in it: a key of JSON, a last column of CSV, a comment in
 /// SVG, VTU, HTML, Markdown and gnuplot scripts. Other files stay as they are.
@@ -64,6 +66,8 @@ class RunFolder {
     outputs_.add(path_ / name, with_run_id(name, text, run_id));
   }
   void publish();
+  /// The folder stays, whatever becomes of the run: something in it is worth keeping.
+  void keep() { made_.clear(); }
 
  private:
   void take_lock(const std::string& option, LockedFile::Mode mode);

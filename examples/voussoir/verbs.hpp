@@ -10,6 +10,8 @@
 #include <vector>
 #include <voussoir/io/operating_system.hpp>
 
+#include "case_plan.hpp"
+#include "ranks.hpp"
 #include "run_folder.hpp"
 
 /// What the verbs of the program share: options, exit status, progress, what to say at the end.
@@ -24,6 +26,7 @@ enum ExitStatus {
   not_verified = 5,
   stands_after_rockfall = 6,
   collapsed = 7,
+  incomplete = 8,
   interrupted = 130
 };
 
@@ -31,6 +34,8 @@ enum ExitStatus {
 extern volatile std::sig_atomic_t stop_asked;
 
 struct Options {
+  std::string program;           ///< as it is called, absolute where that can be told
+  const Ranks* ranks = nullptr;  ///< never null
   std::string file, folder = ".";
   std::vector<std::string> overrides;
   bool quiet = false;
@@ -94,6 +99,22 @@ inline int say_interrupted() {
   std::cerr << "interrupted: nothing written\n";
   return interrupted;
 }
+
+/// What the verbs that work through many tunnels are asked besides.
+struct PlanOptions {
+  std::vector<std::string> varied;  ///< "key=values" of a sweep
+  int realisations = 1;
+  bool discard = false;       ///< what the folder holds of another plan
+  std::string engine;         ///< to hand the plan to; empty: compute here
+  int chunks = 0;             ///< 0: so that each lasts `chunk_minutes`
+  double chunk_minutes = 10;  ///< about
+};
+/// `diagram`, `realisations`, `sweep`.
+[[nodiscard]] int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings);
+/// One chunk of a plan, "3/60"; options.file names the plan or its folder.
+[[nodiscard]] int case_verb(const Options& options, const std::string& chunk);
+/// Joins what several folders hold of one plan; options.folder empty: into the first.
+[[nodiscard]] int merge_verb(const Options& options, const std::vector<std::string>& folders);
 
 /// Every analysis of the paper; `pages` empty: no documentation. In a build without them (CMake
 /// option VOUSSOIR_BUILD_PAPER) both say how to get them.

@@ -233,7 +233,7 @@ TEST_SUITE("program/paper") {
     section.plots = {{"p", "P", "x", "y", {{"s", Mark::line, {0, 1}, {0, 1}}}}};
     section.tables = {{"T <1>", {"a", "b"}, {{"1", "<2>"}}}};
     Study study(1, 1);
-    const std::string page = report_html({section}, drawn({section}), study, 1);
+    const std::string page = report_html({section}, drawn({section}), study);
     CHECK(page.find("&lt;2&gt;") != std::string::npos);
     CHECK(page.find("<svg") != std::string::npos);
     CHECK(page.find("PF-104") != std::string::npos);
@@ -256,7 +256,7 @@ TEST_SUITE("program/paper") {
     section.findings[15].why = "for a reason";
     section.findings[16].agreement = Agreement::not_testable;
     Study study(2, 1);
-    const auto pages = documentation_pages({section}, drawn({section}), study, 1);
+    const auto pages = documentation_pages({section}, drawn({section}), study);
     CHECK(pages.size() == 4);
     for (const auto& [name, text] : pages) {
       if (!name.ends_with(".md")) continue;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -67,7 +68,8 @@ class BartonBandisJoint {
     const double jcs = 1e-6 * wall_strength;
     const double aperture = roughness / 5 * (0.2 * uniaxial_strength / wall_strength - 0.1);
     const double stiffness = -7.15 + 1.75 * roughness + 0.02 * jcs / aperture;
-    const double closure = -0.296 - 0.0056 * roughness + 2.241 * std::pow(jcs / aperture, -0.245);
+    const double closure =
+        -0.296 - 0.0056 * roughness + 2.241 * elementary::power(jcs / aperture, -0.245);
     require(stiffness > 0, "K_ni from JRC and JCS", stiffness, "> 0 MPa/mm");
     require(closure > 0, "V_m from JRC and JCS", closure, "> 0 mm");
     return {roughness, wall_strength, residual_friction_angle, 1e9 * stiffness, 1e-3 * closure};
@@ -104,10 +106,10 @@ class BartonBandisJoint {
     require(p_.largest_stress > 0 && std::isfinite(p_.largest_stress), "largest_stress",
             p_.largest_stress, "> 0 Pa");
     const double scale = p_.joint_length / p_.sample_length;
-    roughness_ = p_.roughness * std::pow(scale, -0.02 * p_.roughness);
-    wall_strength_ = p_.wall_strength * std::pow(scale, -0.03 * p_.roughness);
-    peak_slip_ =
-        p_.joint_length / 500 * std::pow(std::max(roughness_, 1e-3) / p_.joint_length, 0.33);
+    roughness_ = p_.roughness * elementary::power(scale, -0.02 * p_.roughness);
+    wall_strength_ = p_.wall_strength * elementary::power(scale, -0.03 * p_.roughness);
+    peak_slip_ = p_.joint_length / 500 *
+                 elementary::power(std::max(roughness_, 1e-3) / p_.joint_length, 0.33);
     largest_closure_ = closure_on_curve(p_.largest_stress);
     const double left = 1 - largest_closure_ / p_.maximum_closure;
     largest_stiffness_ = p_.initial_stiffness / (left * left);
@@ -131,8 +133,10 @@ class BartonBandisJoint {
     if (stress <= 0) return 0;
     constexpr double degree = std::numbers::pi / 180, steepest = 70 * degree;
     const double angle = p_.residual_friction_angle +
-                         std::max(0.0, roughness_ * std::log10(wall_strength_ / stress)) * degree;
-    return stress * std::tan(std::min(angle, steepest));
+                         std::max(0.0, roughness_ * std::numbers::log10e *
+                                           elementary::logarithm(wall_strength_ / stress)) *
+                             degree;
+    return stress * elementary::tangent(std::min(angle, steepest));
   }
   [[nodiscard]] double roughness() const { return roughness_; }          ///< JRC_n [-]
   [[nodiscard]] double wall_strength() const { return wall_strength_; }  ///< JCS_n [Pa]

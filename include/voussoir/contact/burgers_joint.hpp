@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 #include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/core/elementary.hpp>
 
 namespace voussoir {
 
@@ -79,7 +80,8 @@ class BurgersJoint {
     const Vec<Dim - 1> stress = joint_.force(load, state.joint).tangential / load.weight;
     Vec<Dim - 1> slip = -time / p_.maxwell_viscosity * stress;
     if (std::isfinite(p_.kelvin_stiffness)) {
-      const double fades = std::exp(-time * p_.kelvin_stiffness / p_.kelvin_viscosity);
+      const double fades =
+          elementary::exponential(-time * p_.kelvin_stiffness / p_.kelvin_viscosity);
       const Vec<Dim - 1> at_rest = -stress / p_.kelvin_stiffness;
       const Vec<Dim - 1> delayed = at_rest + fades * (state.delayed_slip - at_rest);
       slip += delayed - state.delayed_slip;

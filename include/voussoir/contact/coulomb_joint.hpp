@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/vec.hpp>
@@ -49,7 +50,7 @@ class CoulombJoint {
   }
   /// The same for values that are not in SI units: stiffnesses > 0.
   CoulombJoint(const Params& params, AnyUnits)
-      : params_(params), friction_coefficient_(std::tan(params.friction_angle)) {
+      : params_(params), friction_coefficient_(elementary::tangent(params.friction_angle)) {
     require(params.joint_normal_stiffness > 0 && std::isfinite(params.joint_normal_stiffness),
             "joint_normal_stiffness", params.joint_normal_stiffness, "> 0 Pa/m");
     require(params.joint_shear_stiffness > 0 && std::isfinite(params.joint_shear_stiffness),

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/vec.hpp>
@@ -35,7 +36,7 @@ class FootBearing {
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
   explicit FootBearing(const Params& params)
-      : params_(params), friction_coefficient_(std::tan(params.friction_angle)) {
+      : params_(params), friction_coefficient_(elementary::tangent(params.friction_angle)) {
     require(params.width > 0 && std::isfinite(params.width), "width of a foot", params.width,
             "> 0 m");
     require(params.stiffness > 0 && std::isfinite(params.stiffness), "bearing stiffness of a foot",

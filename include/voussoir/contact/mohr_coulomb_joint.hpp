@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 
 namespace voussoir {
@@ -72,9 +73,10 @@ class MohrCoulombJoint {
     require_angle(p_.friction_angle >= 0 && p_.friction_angle < right, "friction_angle",
                   p_.friction_angle, ">= 0 and < pi/2 rad");
     require(p_.cohesion >= 0 && std::isfinite(p_.cohesion), "cohesion", p_.cohesion, ">= 0 Pa");
-    require(p_.tensile_strength >= 0 &&
-                p_.tensile_strength * std::tan(p_.friction_angle) <= p_.cohesion * (1 + 1e-12),
-            "tensile_strength", p_.tensile_strength, ">= 0 Pa and <= cohesion / tan(phi)");
+    require(
+        p_.tensile_strength >= 0 && p_.tensile_strength * elementary::tangent(p_.friction_angle) <=
+                                        p_.cohesion * (1 + 1e-12),
+        "tensile_strength", p_.tensile_strength, ">= 0 Pa and <= cohesion / tan(phi)");
     require_angle(p_.dilation_angle >= 0 && p_.dilation_angle <= p_.friction_angle,
                   "dilation_angle", p_.dilation_angle, ">= 0 and <= friction_angle");
     if (p_.dilation_angle > 0)
@@ -93,9 +95,9 @@ class MohrCoulombJoint {
                   "energy as it slips");
     require(p_.residual_cohesion >= 0 && p_.residual_cohesion <= p_.cohesion, "residual_cohesion",
             p_.residual_cohesion, ">= 0 and <= cohesion");
-    friction_coefficient_ = std::tan(p_.friction_angle);
-    residual_friction_coefficient_ = std::tan(p_.residual_friction_angle);
-    tan_dilation_ = p_.dilation_limit > 0 ? std::tan(p_.dilation_angle) : 0;
+    friction_coefficient_ = elementary::tangent(p_.friction_angle);
+    residual_friction_coefficient_ = elementary::tangent(p_.residual_friction_angle);
+    tan_dilation_ = p_.dilation_limit > 0 ? elementary::tangent(p_.dilation_angle) : 0;
   }
 
   template <int Dim>

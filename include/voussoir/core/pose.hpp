@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -12,7 +13,7 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 
 /// @param spin  angle, anticlockwise [rad]; of any size
 [[nodiscard]] inline Rotation<2> rotation_by(const Spin<2>& spin) {
-  const double c = std::cos(spin[0]), s = std::sin(spin[0]);
+  const auto [s, c] = elementary::sine_cosine(spin[0]);
   return by_rows<2, 2>({c, -s, s, c});
 }
 
@@ -22,8 +23,8 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
   // sin(t)/t and (1 - cos(t))/t^2, the latter as a square of a sine: no cancellation, and 0 is
   // fine.
   const double half = 0.5 * angle;
-  const double ratio = angle > 1e-8 ? std::sin(angle) / angle : 1.0;
-  const double half_ratio = half > 1e-8 ? std::sin(half) / half : 1.0;
+  const double ratio = angle > 1e-8 ? elementary::sine(angle) / angle : 1.0;
+  const double half_ratio = half > 1e-8 ? elementary::sine(half) / half : 1.0;
   const Rotation<3> skew =
       by_rows<3, 3>({0, -spin[2], spin[1], spin[2], 0, -spin[0], -spin[1], spin[0], 0});
   return diagonal_of<3>(1) + ratio * skew + (0.5 * half_ratio * half_ratio * skew) * skew;
@@ -31,13 +32,13 @@ using Rotation = Eigen::Matrix<double, Dim, Dim>;
 
 /// The inverse: -pi < angle <= pi.
 [[nodiscard]] inline Spin<2> spin_of(const Rotation<2>& r) {
-  return Spin<2>(std::atan2(r(1, 0), r(0, 0)));
+  return Spin<2>(elementary::angle_of(r(1, 0), r(0, 0)));
 }
 /// The inverse: axis times angle, 0 <= angle < pi. Within 1e-8 of half a turn the axis is lost.
 [[nodiscard]] inline Spin<3> spin_of(const Rotation<3>& r) {
   const Spin<3> twice(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));  // axis 2 sin(t)
   const double sine = 0.5 * length_of(twice), cosine = 0.5 * (r(0, 0) + r(1, 1) + r(2, 2) - 1);
-  const double angle = std::atan2(sine, cosine);
+  const double angle = elementary::angle_of(sine, cosine);
   return (sine > 1e-8 ? 0.5 * angle / sine : 0.5) * twice;
 }
 

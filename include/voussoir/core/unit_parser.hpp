@@ -77,7 +77,9 @@ inline constexpr int decimal_exponent_of_prefix(char prefix) {
 
 /// `value` times 10^exponent, rounded once for |exponent| <= 22 (those powers are exact doubles).
 inline double scale_by_ten(double value, int exponent) {
-  return exponent >= 0 ? value * std::pow(10.0, exponent) : value / std::pow(10.0, -exponent);
+  double power = 1;
+  for (int k = 0; k < std::abs(exponent); ++k) power *= 10;
+  return exponent >= 0 ? value * power : value / power;
 }
 
 /// Reads "GPa/m", "kg/m3", "/m^2", "kN*m": factors with whole exponents, `*` or a space for a

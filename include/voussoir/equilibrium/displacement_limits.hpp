@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/message_number.hpp>
@@ -30,8 +31,9 @@ template <class System>
     ++count;
   }
   if (count == 0) return 0;
-  return measures != nullptr ? std::pow(sum / count, 1.0 / System::dim)
-                             : std::sqrt(6.0) * sum / count;
+  return measures != nullptr
+             ? (System::dim == 2 ? std::sqrt(sum / count) : elementary::cube_root(sum / count))
+             : std::sqrt(6.0) * sum / count;
 }
 
 /// The displacement that one block in a hundred is beyond: about that of the walls of an opening,

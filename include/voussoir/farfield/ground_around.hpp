@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/farfield/detail/dense_elimination.hpp>
@@ -52,10 +53,11 @@ class GroundAround {
     }
     // About as long outwards as along the edge of a square.
     const double growth = 1 + 2.0 / EdgeMesh<Dim>::least_cells;
-    const int layers = static_cast<int>(std::ceil(std::log(reach) / std::log(growth)));
+    const int layers =
+        static_cast<int>(std::ceil(elementary::logarithm(reach) / elementary::logarithm(growth)));
     std::vector<double> scale;
     for (int k = 0; k <= layers; ++k)
-      scale.push_back(std::pow(reach, static_cast<double>(k) / layers));
+      scale.push_back(elementary::power(reach, static_cast<double>(k) / layers));
     for (int k = layers; k > 0; --k) add_layer(scale[at(k - 1)], scale[at(k)], k == layers);
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
@@ -180,7 +181,7 @@ VOUSSOIR_INLINE void ConvexPolygon::check() const {
     const Segment in = face(k), out = face(corner);
     if (!(in.length() > 0)) fail(k, "is repeated by the next one");
     const Vec2 u = in.end - in.start, v = out.end - out.start;
-    const double turn = std::atan2(cross(u, v), dot_product(u, v));
+    const double turn = elementary::angle_of(cross(u, v), dot_product(u, v));
     if (!(cross(u, v) >= 0))
       fail(corner, message({"is a non-convex or clockwise corner, the outline turns by ",
                             turn * 180 / 3.141592653589793,

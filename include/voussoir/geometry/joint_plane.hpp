@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
@@ -175,7 +176,7 @@ VOUSSOIR_INLINE JointPlane joint_polygon(std::vector<Vec3> corners) {
       fail(k, "is not in the plane");
     const double sine = dot_product(joint.plane.normal, cross(in, out));
     if (!(sine >= 0)) fail(k, "is not convex");
-    turning += std::atan2(sine, dot_product(in, out));
+    turning += elementary::angle_of(sine, dot_product(in, out));
   }
   if (turning > 7) throw InvalidInput("joint polygon: the outline crosses itself");
   joint.corners = std::move(corners);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/small_algebra.hpp>
@@ -30,8 +31,8 @@ class TunnelAxis {
     require_angle(std::isfinite(trend), "trend of the tunnel axis", trend, "a finite angle");
     require_angle(std::abs(plunge) <= right_angle * (1 + 1e-12), "plunge of the tunnel axis",
                   plunge, "-pi/2 to pi/2");
-    const double s = exact(std::sin(trend)), c = exact(std::cos(trend));
-    const double down = exact(std::sin(plunge)), level = exact(std::cos(plunge));
+    const double s = exact(elementary::sine(trend)), c = exact(elementary::cosine(trend));
+    const double down = exact(elementary::sine(plunge)), level = exact(elementary::cosine(plunge));
     along_ = {level * s, level * c, -down};
     right_ = {c, -s, 0};
     up_ = cross(right_, along_);

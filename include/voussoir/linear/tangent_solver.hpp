@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/progress.hpp>
@@ -67,7 +68,7 @@ template <int Dof>
       column[k] = cosines[k] * upper + sines[k] * lower;
       column[k + 1] = cosines[k] * lower - sines[k] * upper;
     }
-    const double diagonal = std::hypot(column.back(), below);
+    const double diagonal = elementary::length(column.back(), below);
     if (!(diagonal > 0)) return false;
     cosines.push_back(column.back() / diagonal);
     sines.push_back(below / diagonal);

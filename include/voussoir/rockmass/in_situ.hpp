@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
@@ -20,8 +21,9 @@ struct PrincipalStresses {
   struct Axis {
     double trend, plunge;
     [[nodiscard]] Vec3 direction() const {
-      const double level = std::cos(plunge);
-      return {level * std::sin(trend), level * std::cos(trend), -std::sin(plunge)};
+      const double level = elementary::cosine(plunge);
+      return {level * elementary::sine(trend), level * elementary::cosine(trend),
+              -elementary::sine(plunge)};
     }
   };
   double values[3];  ///< [Pa], >= 0
@@ -58,7 +60,7 @@ struct InSitu {
   /// @param azimuth       of the major one, clockwise from North, which is y [rad]
   [[nodiscard]] InSitu with_horizontal(double major, double minor, double azimuth) const {
     InSitu turned = *this;
-    const double s = std::sin(azimuth), c = std::cos(azimuth);
+    const double s = elementary::sine(azimuth), c = elementary::cosine(azimuth);
     turned.k0 = major * s * s + minor * c * c;
     turned.k0_y = major * c * c + minor * s * s;
     turned.k0_xy = (major - minor) * s * c;
@@ -140,7 +142,7 @@ inline Stress<3> PrincipalStresses::tensor() const {
     set_column(directions, k, axes[k].direction());
     for (int other = 0; other < k; ++other) {
       const double cosine = column(directions, k).dot(column(directions, other));
-      require_angle(std::abs(cosine) < std::sin(std::numbers::pi / 180),
+      require_angle(std::abs(cosine) < elementary::sine(std::numbers::pi / 180),
                     "angle between principal stresses", std::acos(std::clamp(cosine, -1.0, 1.0)),
                     "pi/2 rad, within a degree");
     }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/repeatable.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -43,10 +44,11 @@ struct Orientation {
 /// horizontal plane has dip direction 0.
 [[nodiscard]] inline Orientation orientation_of(const Vec3& normal) {
   const Vec3 up = normal.z() < 0 ? Vec3(-normal) : normal;
-  const double level = std::hypot(up.x(), up.y());
+  const double level = elementary::length(up.x(), up.y());
   if (!(level > 0)) return {0, 0};
-  const double azimuth = std::atan2(up.x(), up.y());
-  return {std::atan2(level, up.z()), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
+  const double azimuth = elementary::angle_of(up.x(), up.y());
+  return {elementary::angle_of(level, up.z()),
+          azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
 }
 
 /// Mean orientation of planes given by their normals, of either sense: the direction of the sum of

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -150,7 +151,7 @@ VOUSSOIR_INLINE double radial_spacing(const RockMass<Planar>& mass, const Vec2& 
   Scanline found;
   for (int k = 0; k < directions; ++k) {
     const double angle = 2 * std::numbers::pi * (k + 0.5) / directions;
-    const Vec2 out(std::cos(angle), std::sin(angle));
+    const Vec2 out(elementary::cosine(angle), elementary::sine(angle));
     scan(mass, {centre + inner * out, centre + (inner + length) * out}, found);
   }
   return found.spacing();

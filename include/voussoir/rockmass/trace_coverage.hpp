@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -126,7 +127,7 @@ VOUSSOIR_INLINE double estimated_blocks(const std::vector<Joint>& joints, const 
     if (!inside) continue;
     ++blocks;
     const Vec2 run = inside->end - inside->start, size = domain.size();
-    double angle = std::atan2(run.y(), run.x()) / std::numbers::pi;
+    double angle = elementary::angle_of(run.y(), run.x()) / std::numbers::pi;
     angle -= std::floor(angle);  // a line has no sense: 0 to 1 is half a turn
     const auto direction = static_cast<std::size_t>(angle * directions) % directions;
     at.assign({0.0, 1.0});  // where it passes from cell to cell
@@ -155,7 +156,7 @@ VOUSSOIR_INLINE double estimated_blocks(const std::vector<Joint>& joints, const 
       for (std::size_t j = 0; of[i] > 0 && j < i; ++j)
         if (of[j] > 0)
           blocks += of[i] * of[j] / cell_area *
-                    std::sin(std::numbers::pi * static_cast<double>(i - j) / directions);
+                    elementary::sine(std::numbers::pi * static_cast<double>(i - j) / directions);
   }
   // A grid of squares has one block to 4 r^2.
   return std::min(blocks, 0.25 * domain.measure() / (min_inscribed_radius * min_inscribed_radius));

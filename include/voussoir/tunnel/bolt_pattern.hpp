@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
@@ -61,7 +62,7 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
   double reach = 0;
   for (const Vec2& v : opening.vertices()) reach = std::max(reach, length_of(Vec2(v - centre)));
   const auto wall_point = [&](double angle) {
-    const Vec2 far = 2 * reach * Vec2(std::cos(angle), std::sin(angle));
+    const Vec2 far = 2 * reach * Vec2(elementary::cosine(angle), elementary::sine(angle));
     const auto t = opening.last_crossing({centre, centre + far});
     if (!t)
       throw InvalidInput("bolts: the tunnel centre " + text_of<2>(centre) +
@@ -93,7 +94,8 @@ VOUSSOIR_INLINE std::vector<Segment> bolt_bars(const BoltPattern& pattern,
     const double place = static_cast<double>(above - along.begin()) - 1 + part;
     const double angle = pattern.from + arc * place / samples;
     const Vec2 head = wall_point(angle);
-    bars.push_back({head, head + pattern.length * Vec2(std::cos(angle), std::sin(angle))});
+    bars.push_back(
+        {head, head + pattern.length * Vec2(elementary::cosine(angle), elementary::sine(angle))});
   }
   return bars;
 }

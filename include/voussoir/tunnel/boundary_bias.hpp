@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/model/small_displacement.hpp>
 #include <voussoir/tunnel/wall_motion.hpp>
@@ -43,11 +44,11 @@ struct SectionClosure {
   const Vec2 whole = mean_displacement(wall);
   double length = 0, mean = 0, oval = 0;
   for (const WallMotion& piece : wall) {
-    const Vec2 outward(std::cos(piece.angle), std::sin(piece.angle));
+    const Vec2 outward(elementary::cosine(piece.angle), elementary::sine(piece.angle));
     const double inward = piece.convergence + whole.dot(outward);
     length += piece.length;
     mean += piece.length * inward;
-    oval += 2 * piece.length * inward * std::cos(2 * piece.angle);
+    oval += 2 * piece.length * inward * elementary::cosine(2 * piece.angle);
   }
   return {2 * (mean - oval) / length, 2 * (mean + oval) / length};
 }

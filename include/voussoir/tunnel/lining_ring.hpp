@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
@@ -222,7 +223,7 @@ VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningR
   nodes.number.assign(static_cast<std::size_t>(ring.nodes), -1);
   // Start behind the gap of a partial ring, so that consecutive nodes are neighbours.
   const auto inside = [&](const Vec2& p) {
-    const double angle = std::atan2(p.y() - centre.y(), p.x() - centre.x()) - ring.from;
+    const double angle = elementary::angle_of(p.y() - centre.y(), p.x() - centre.x()) - ring.from;
     return closed || angle - circle * std::floor(angle / circle) <= arc;
   };
   int start = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/rockmass/domain.hpp>
@@ -39,7 +40,8 @@ VOUSSOIR_INLINE SimplePolygon circular_opening(double diameter, int facets) {
   std::vector<Vec2> vertices;
   for (int k = 0; k < facets; ++k) {
     const double angle = 2 * std::numbers::pi * k / facets;
-    vertices.emplace_back(0.5 * diameter * Vec2(std::cos(angle), std::sin(angle)));
+    vertices.emplace_back(0.5 * diameter *
+                          Vec2(elementary::cosine(angle), elementary::sine(angle)));
   }
   return SimplePolygon(std::move(vertices));
 }
@@ -52,7 +54,7 @@ VOUSSOIR_INLINE SimplePolygon horseshoe_opening(double width, double wall_height
   const int chords = (facets + 1) / 2;
   for (int k = 0; k <= chords; ++k) {
     const double angle = std::numbers::pi * k / chords;
-    vertices.emplace_back(0.5 * width * Vec2(std::cos(angle), std::sin(angle)));
+    vertices.emplace_back(0.5 * width * Vec2(elementary::cosine(angle), elementary::sine(angle)));
   }
   vertices.emplace_back(-0.5 * width, -wall_height);
   vertices.emplace_back(0.5 * width, -wall_height);

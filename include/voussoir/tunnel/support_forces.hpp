@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -119,9 +120,10 @@ template <int Dim, class EndForces>
   MemberForces<Dim> member{from, to, f[0], 0, 0};
   for (const int end : {0, dof}) {
     // In 3-D axial force, two shears; torsion, two moments.
-    const double shear = Dim == 2 ? std::abs(f[end + 1]) : std::hypot(f[end + 1], f[end + 2]);
+    const double shear =
+        Dim == 2 ? std::abs(f[end + 1]) : elementary::length(f[end + 1], f[end + 2]);
     const double moment =
-        Dim == 2 ? std::abs(f[end + 2]) : std::hypot(f[end + dof - 2], f[end + dof - 1]);
+        Dim == 2 ? std::abs(f[end + 2]) : elementary::length(f[end + dof - 2], f[end + dof - 1]);
     member.shear = std::max(member.shear, shear);
     member.moment = std::max(member.moment, moment);
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/geometry/planar.hpp>
@@ -101,7 +102,7 @@ template <class Geometry, class IsThere, class Displacement>
         p = opening.across(place) - centre;
         u = opening.across_direction(moved);
       }
-      double angle = std::atan2(p.y(), p.x());
+      double angle = elementary::angle_of(p.y(), p.x());
       if (angle < 0) angle += 2 * std::numbers::pi;
       VOUSSOIR_ASSERT(angle >= 0 && angle <= 2 * std::numbers::pi, "a full circle has all angles");
       motion.push_back({angle, measure, -u.dot(normalized(p)), u});
@@ -171,12 +172,12 @@ VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(const SimplePolygon& 
   for (std::size_t e = 0; e < section.size(); ++e) {
     const Segment edge = section.edge(e);
     const Vec2 a = edge.start - centre, b = edge.end - centre, along = b - a;
-    const double turn = std::atan2(cross(a, b), dot_product(a, b));  // 0 seen along a ray
-    const double begin = std::atan2(a.y(), a.x()), end = begin + turn;
+    const double turn = elementary::angle_of(cross(a, b), dot_product(a, b));  // 0 seen along a ray
+    const double begin = elementary::angle_of(a.y(), a.x()), end = begin + turn;
     marks[e] = {0, edge.length()};
     for (double k = std::ceil(std::min(begin, end) / between); k * between < std::max(begin, end);
          ++k) {
-      const Vec2 ray(std::cos(k * between), std::sin(k * between));
+      const Vec2 ray(elementary::cosine(k * between), elementary::sine(k * between));
       const double t = -cross(ray, a) / cross(ray, along);
       if (t > 0 && t < 1) marks[e].push_back(t * edge.length());
     }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <span>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 
@@ -39,7 +40,7 @@ VOUSSOIR_INLINE std::array<Vec3, 2> arms_of(const PlaneMoments& moments);
 /// roundings.
 [[nodiscard]] inline bool is_round(const PlaneMoments& m) {
   constexpr double least_contrast = 1e-6;
-  return std::hypot(0.5 * (m.xx - m.yy), m.xy) < least_contrast * 0.5 * (m.xx + m.yy);
+  return elementary::length(0.5 * (m.xx - m.yy), m.xy) < least_contrast * 0.5 * (m.xx + m.yy);
 }
 
 /// The same where all axes are principal or nearly so.
@@ -96,10 +97,10 @@ VOUSSOIR_INLINE std::complex<double> fourth_moment(std::span<const Vec3> polygon
 
 VOUSSOIR_INLINE std::array<Vec3, 2> arms_of(const PlaneMoments& m) {
   const double half_difference = 0.5 * (m.xx - m.yy), mean = 0.5 * (m.xx + m.yy);
-  const double radius = std::hypot(half_difference, m.xy);
-  const double angle = 0.5 * std::atan2(m.xy, half_difference);
-  const Vec3 major = std::cos(angle) * m.first + std::sin(angle) * m.second;
-  const Vec3 minor = std::cos(angle) * m.second - std::sin(angle) * m.first;
+  const double radius = elementary::length(half_difference, m.xy);
+  const double angle = 0.5 * elementary::angle_of(m.xy, half_difference);
+  const Vec3 major = elementary::cosine(angle) * m.first + elementary::sine(angle) * m.second;
+  const Vec3 minor = elementary::cosine(angle) * m.second - elementary::sine(angle) * m.first;
   const double large = mean + radius;
   const double small = std::fmax(0.0, (m.xx * m.yy - m.xy * m.xy) / large);  // determinant / large
   return {std::sqrt(2 * large) * major, std::sqrt(2 * small) * minor};
@@ -115,7 +116,7 @@ VOUSSOIR_INLINE std::array<Vec3, 2> arms_of_round(const PlaneMoments& m,
     // Where strike is known to no more than roundings the plane is level.
     Vec3 along = cross(Vec3(0, 0, 1), cross(m.first, m.second));
     if (!(length_of(along) > 1e-6)) along = Vec3(1, 0, 0);
-    angle = std::atan2(dot_product(along, m.second), dot_product(along, m.first));
+    angle = elementary::angle_of(dot_product(along, m.second), dot_product(along, m.first));
   }
   // Exact for any angle: the root of the matrix of moments, times two axes at right angles.
   const double root = std::sqrt(std::fmax(0.0, m.xx * m.yy - m.xy * m.xy));
@@ -124,7 +125,8 @@ VOUSSOIR_INLINE std::array<Vec3, 2> arms_of_round(const PlaneMoments& m,
     return scale *
            (((m.xx + root) * x + m.xy * y) * m.first + (m.xy * x + (m.yy + root) * y) * m.second);
   };
-  return {arm(std::cos(angle), std::sin(angle)), arm(-std::sin(angle), std::cos(angle))};
+  return {arm(elementary::cosine(angle), elementary::sine(angle)),
+          arm(-elementary::sine(angle), elementary::cosine(angle))};
 }
 
 #endif

@@ -244,7 +244,10 @@ class QuotientGraph {
   void close(int p) {
     weight_[p] = -weight_[p];
     remaining_ -= weight_[p];
-    for (int k = 1; k <= weight_[p]; ++k) operations_ += std::pow(degree_[p] + k, 2);
+    for (int k = 1; k <= weight_[p]; ++k) {
+      const double degree = degree_[p] + k;
+      operations_ += degree * degree;
+    }
     pivots_.push_back(p);
     int end = begin_[p];
     for (int k = end; k < used_; ++k) {

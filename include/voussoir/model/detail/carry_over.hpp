@@ -239,8 +239,8 @@ class CarryOver {
       lookup.each_of(old_number(c.a), old_number(c.b), [&](const Contact& was) {
         if (std::abs(was.normal.dot(c.normal)) < 0.999) return;
         const Vec<dim> there = old_.body(was.a).centre + was.arm_a;
-        const double distance = (there - middle).squaredNorm() +
-                                1e6 * std::pow(c.normal.dot(Vec<dim>(there - middle)), 2);
+        const double across = c.normal.dot(Vec<dim>(there - middle));
+        const double distance = (there - middle).squaredNorm() + 1e6 * across * across;
         if (distance >= least) return;
         least = distance;
         best = &was;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
@@ -57,7 +58,7 @@ struct Impact {
   /// The depth is v sqrt(m / (k_n A)) = A^(1 / (Dim - 1)).
   [[nodiscard]] double least_area(double joint_normal_stiffness) const {
     const double square = speed * speed * mass / joint_normal_stiffness;
-    return Dim == 2 ? std::cbrt(square) : std::sqrt(square);
+    return Dim == 2 ? elementary::cube_root(square) : std::sqrt(square);
   }
   /// Dashpot over stiffness of a contact that damps the impact with a ratio to critical:
   /// c / k = 2 zeta sqrt(m / k) [s].

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "case_plan.hpp"
+
+/// What a finished plan writes and says: from its results alone, so that it is the same wherever
+/// and in whatever order they were computed.
+namespace voussoir::program {
+
+struct CaseOutputs {
+  std::map<std::string, std::string> files;  ///< contents by name
+  std::string summary;                       ///< for a terminal
+};
+
+/// @param results  of all cases, in the order of the plan
+/// sweep: sweep.csv, and with several realisations sweep_means.csv; realisations: realisations.csv,
+/// .json and .svg; diagram: interaction.csv and .svg, with several realisations of the mean, and
+/// interaction_quantile.svg and interaction_rockfall.svg.
+[[nodiscard]] CaseOutputs outputs_of(const CasePlan& plan,
+                                     const std::vector<TunnelResult>& results);
+
+}  // namespace voussoir::program

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+#include "case_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <voussoir/core/version.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/journal.hpp>
+
+#include "input_document.hpp"
+#include "run_folder.hpp"
+
+namespace voussoir::program {
+
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return "";
+  return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
+}
+
+const char* const forms =
+    "\n   = accepted: --vary \"support.lining.thickness=10 cm, 20 cm\" (a list) or --vary "
+    "\"joint.friction=25..35 deg:5\" (five values at equal steps)";
+
+/// At commas outside quotes and brackets.
+std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> values(1);
+  char quote = 0;
+  int depth = 0;
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == ',' && depth == 0) {
+      values.emplace_back();
+      continue;
+    }
+    values.back() += c;
+  }
+  for (std::string& value : values) value = trimmed(value);
+  return values;
+}
+
+/// A number at the start of a text, which is cut off.
+std::optional<double> leading_number(std::string_view& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+/// `10..30 cm:5`; nothing if it has another form.
+std::optional<std::vector<std::string>> stepped(std::string_view text, const std::string& whole) {
+  const std::size_t dots = text.find(".."), colon = text.rfind(':');
+  if (dots == std::string_view::npos) return std::nullopt;
+  const auto refuse = [&](const std::string& reason) {
+    throw InvalidInput("--vary " + printable(whole) + ": " + reason + forms);
+  };
+  std::string_view rest = text;
+  // "10." is a number too: what stands before the dots is read by itself.
+  std::string_view first = text.substr(0, dots);
+  const auto low = leading_number(first);
+  if (!low || !trimmed(first).empty()) return std::nullopt;
+  rest = text.substr(dots + 2);
+  const auto high = leading_number(rest);
+  if (!high) refuse("a range ends with a number");
+  if (colon == std::string_view::npos || colon < dots)
+    refuse("a range says how many values it has");
+  std::string_view count_text = text.substr(colon + 1);
+  const auto count = leading_number(count_text);
+  if (!count || !trimmed(count_text).empty() || *count != std::floor(*count) || *count < 2 ||
+      *count > 10000)
+    refuse("a range has 2 to 10000 values");
+  if (*low == *high) refuse("a range begins and ends with different numbers");
+  const std::string unit = trimmed(rest.substr(0, rest.rfind(':')));
+  std::vector<std::string> values;
+  for (int k = 0; k < static_cast<int>(*count); ++k) {
+    const double part = k / (*count - 1);
+    values.push_back(significant_text((1 - part) * *low + part * *high, 12) +
+                     (unit.empty() ? "" : " " + unit));
+  }
+  return values;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+std::string head_of(const std::string& line) { return line.substr(0, line.find(" = ")); }
+std::string value_of(const std::string& line) {
+  const std::size_t at = line.find(" = ");
+  return at == std::string::npos ? "" : line.substr(at + 3);
+}
+
+}  // namespace
+
+bool is_of_support(std::string_view key) {
+  for (const char* const head : {"support", "stage", "run.", "diagram", "title"})
+    if (key.starts_with(head)) return true;
+  return false;
+}
+
+const char* to_string(PlanVerb verb) {
+  switch (verb) {
+    case PlanVerb::diagram:
+      return "diagram";
+    case PlanVerb::realisations:
+      return "realisations";
+    case PlanVerb::sweep:
+      return "sweep";
+  }
+  return "sweep";
+}
+
+VariedKey varied_key(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const auto refuse = [&](const std::string& reason) {
+    throw InvalidInput("--vary " + printable(text) + ": " + reason + forms);
+  };
+  if (equals == std::string::npos) refuse("no `=` between key and values");
+  VariedKey varied{trimmed(std::string_view(text).substr(0, equals)), {}};
+  if (varied.key.empty()) refuse("no key before the `=`");
+  const std::string values = trimmed(std::string_view(text).substr(equals + 1));
+  const auto range = stepped(values, text);
+  varied.values = range ? *range : listed(values);
+  std::set<std::string> seen;
+  for (const std::string& value : varied.values) {
+    if (value.empty()) refuse("a value is empty");
+    if (!seen.insert(value).second) refuse("the value " + printable(value) + " stands there twice");
+  }
+  return varied;
+}
+
+CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
+  const PlanParts& p = parts_;
+  require(p.realisations >= 1 && p.realisations <= most_realisations, "--realisations",
+          p.realisations, "1 to 10000");
+  input_ = read_input_text(p.text, p.file, p.directory, p.overrides);
+  if (p.verb == PlanVerb::diagram && !input_.diagram)
+    throw InvalidInput(
+        "no [diagram] in " + p.file +
+        "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
+  std::set<std::string> keys;
+  for (const VariedKey& varied : p.varied) {
+    if (!keys.insert(varied.key).second)
+      throw InvalidInput("--vary " + printable(varied.key) +
+                         " is given twice\n   = accepted: one list of all its values");
+    if (varied.key == "model.seed")
+      throw InvalidInput(
+          "--vary model.seed: seeds are counted by --realisations\n   = accepted: --realisations " +
+          std::to_string(varied.values.size()) + " and --set model.seed=" + varied.values.front());
+  }
+  if (p.verb == PlanVerb::sweep && p.varied.empty())
+    throw InvalidInput(std::string("a sweep varies nothing") + forms);
+  double count = p.realisations;
+  for (const VariedKey& varied : p.varied) count *= static_cast<double>(varied.values.size());
+  if (p.verb == PlanVerb::diagram) count *= static_cast<double>(combinations());
+  if (count > static_cast<double>(most_cases))
+    throw InvalidInput("the " + std::string(to_string(p.verb)) + " has " + fixed_text(count, 0) +
+                       " cases\n   = accepted: at most " + std::to_string(most_cases));
+  joints_ = joints_hash(input_);
+  if (!input_.joints_file.empty() && joints_.empty())
+    throw InvalidInput("joints.file: " + utf8_text(input_.joints_file) +
+                       " cannot be read again and again\n   = accepted: a regular file");
+
+  content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,
+              std::string("program = ") + sources_hash, std::string("verb = ") + to_string(p.verb),
+              "realisations = " + std::to_string(p.realisations)};
+  if (!joints_.empty()) content_.push_back("joints.file (its content) = " + joints_);
+  for (const VariedKey& varied : p.varied)
+    content_.push_back("--vary " + varied.key + " = " + joined(varied.values));
+  for (const std::string& line : input_.content)
+    if (!line.starts_with("joints.file = ")) content_.push_back(line);
+  std::sort(content_.begin(), content_.end());
+  std::string all;
+  for (const std::string& line : content_)
+    if (!line.starts_with("program = ")) all += line + "\n";
+  run_id_ = text_hash(all);
+
+  names_.reserve(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const Case the_case = at(k);
+    std::optional<Input> input;
+    try {
+      input = input_of(the_case);
+      if (input->bolts) check_bolts(*input, {supports_of(the_case, *input).spacing});
+    } catch (const InputErrors& found) {
+      std::vector<InputError> errors = found.errors();
+      for (InputError& error : errors) error.message += ", in the case " + label(the_case);
+      throw InputErrors(std::move(errors));
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(std::string(error.what()) + "\n   = in the case " + label(the_case));
+    }
+    RunId id("case");
+    id.add(sources_hash).add(joints_);
+    for (const std::string& line : input->content)
+      if (!line.starts_with("joints.file = ") && !line.starts_with("diagram.") &&
+          !line.starts_with("title = "))
+        id.add(line);
+    id.add(std::to_string(the_case.seed));
+    if (the_case.place) {
+      const SupportChoice supports = supports_of(the_case, *input);
+      id.add(supports.spacing ? (supports.spacing->is_angle ? "rad" : "m") : "none");
+      id.add(supports.spacing ? supports.spacing->value : 0.0).add(supports.thickness);
+    }
+    names_.push_back(id.text());
+  }
+}
+
+std::size_t CasePlan::combinations() const {
+  if (parts_.verb == PlanVerb::diagram)
+    return input_.diagram->spacing.size() * input_.diagram->thickness.size();
+  std::size_t count = 1;
+  for (const VariedKey& varied : parts_.varied) count *= varied.values.size();
+  return count;
+}
+
+Case CasePlan::at(std::size_t index) const {
+  const auto seeds = static_cast<std::size_t>(parts_.realisations);
+  Case the_case;
+  the_case.index = index;
+  the_case.seed = input_.model.seed + index % seeds;
+  std::size_t rest = index / seeds;
+  if (parts_.verb == PlanVerb::diagram) {
+    const std::size_t thicknesses = input_.diagram->thickness.size();
+    the_case.place = {rest / thicknesses, rest % thicknesses};
+    return the_case;
+  }
+  for (auto varied = parts_.varied.rbegin(); varied != parts_.varied.rend(); ++varied) {
+    the_case.overrides.insert(the_case.overrides.begin(),
+                              varied->key + "=" + varied->values[rest % varied->values.size()]);
+    rest /= varied->values.size();
+  }
+  return the_case;
+}
+
+Input CasePlan::input_of(const Case& the_case) const {
+  if (the_case.overrides.empty()) {  // the file differs in its seed alone
+    Input input = input_;
+    const std::string line = "model.seed = ";
+    for (std::string& text : input.content)
+      if (text.starts_with(line)) text = line + std::to_string(the_case.seed);
+    input.model.seed = the_case.seed;
+    return input;
+  }
+  std::vector<std::string> overrides = parts_.overrides;
+  overrides.insert(overrides.end(), the_case.overrides.begin(), the_case.overrides.end());
+  overrides.push_back("model.seed=" + std::to_string(the_case.seed));
+  return read_input_text(parts_.text, parts_.file, parts_.directory, overrides);
+}
+
+SupportChoice CasePlan::supports_of(const Case& the_case, const Input& input) const {
+  if (!the_case.place) return program::supports_of(input);
+  const auto [spacing, thickness] = *the_case.place;
+  return {input.diagram->spacing[spacing], input.diagram->thickness[thickness]};
+}
+
+std::string CasePlan::label(const Case& the_case) const {
+  std::string text = joined(the_case.overrides);
+  if (the_case.place) {
+    const SupportChoice supports = supports_of(the_case, input_);
+    const auto& spacing = supports.spacing;
+    text = "spacing " +
+           (!spacing ? std::string("none")
+                     : format_quantity(spacing->value,
+                                       spacing->is_angle ? dimension::angle : dimension::length)) +
+           ", thickness " + format_quantity(supports.thickness, dimension::length);
+  }
+  return text + (text.empty() ? "" : ", ") + "seed " + std::to_string(the_case.seed);
+}
+
+std::vector<std::size_t> CasePlan::work_order() const {
+  // What the rock of a case is made of, as a number that is the same for the same rock: the keys
+  // that it depends on, and the seed.
+  const auto seeds = static_cast<std::size_t>(parts_.realisations);
+  const auto rock_of = [&](std::size_t index) {
+    std::size_t rock = index % seeds, factor = seeds, rest = index / seeds;
+    if (parts_.verb == PlanVerb::diagram) return rock;
+    for (auto varied = parts_.varied.rbegin(); varied != parts_.varied.rend(); ++varied) {
+      const std::size_t digit = rest % varied->values.size();
+      rest /= varied->values.size();
+      if (is_of_support(varied->key)) continue;
+      rock += factor * digit;
+      factor *= varied->values.size();
+    }
+    return rock;
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  order.reserve(size());
+  // Spacings of a diagram grow, and "none" comes last: backwards the least supported is first.
+  for (std::size_t k = 0; k < size(); ++k)
+    order.emplace_back(rock_of(k), parts_.verb == PlanVerb::diagram ? size() - 1 - k : k);
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> result;
+  result.reserve(size());
+  for (const auto& [rock, k] : order)
+    result.push_back(parts_.verb == PlanVerb::diagram ? size() - 1 - k : k);
+  return result;
+}
+
+std::string CasePlan::joints_file_name(PlanVerb verb) {
+  return std::string(to_string(verb)) + ".joints.csv";
+}
+
+std::string CasePlan::json() const {
+  nlohmann::ordered_json varied = nlohmann::ordered_json::array();
+  for (const VariedKey& key : parts_.varied)
+    varied.push_back({{"key", key.key}, {"values", key.values}});
+  const nlohmann::ordered_json json = {{"schema", 1},
+                                       {"verb", to_string(parts_.verb)},
+                                       {"run_id", run_id_},
+                                       {"cases", size()},
+                                       {"realisations", parts_.realisations},
+                                       {"varied", varied},
+                                       {"overrides", parts_.overrides},
+                                       {"content", content_},
+                                       {"input_name", parts_.file},
+                                       {"input", parts_.text}};
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+CasePlan CasePlan::from_json(const std::string& text, const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& reason) {
+    throw std::runtime_error("'" + utf8_text(path) + "' " + reason);
+  };
+  std::vector<std::string> content;
+  std::optional<CasePlan> plan;
+  try {
+    const auto json = nlohmann::json::parse(text);
+    if (json.at("schema") != 1)
+      refuse("is a plan of schema " + json.at("schema").dump() + "\n   = accepted: schema 1");
+    PlanParts parts;
+    bool known = false;
+    for (const PlanVerb verb : {PlanVerb::diagram, PlanVerb::realisations, PlanVerb::sweep})
+      if (json.at("verb") == to_string(verb)) {
+        parts.verb = verb;
+        known = true;
+      }
+    if (!known) refuse("is a plan of the unknown verb " + json.at("verb").dump());
+    json.at("input_name").get_to(parts.file);
+    json.at("input").get_to(parts.text);
+    json.at("overrides").get_to(parts.overrides);
+    json.at("realisations").get_to(parts.realisations);
+    for (const auto& varied : json.at("varied"))
+      parts.varied.push_back({varied.at("key"), varied.at("values")});
+    json.at("content").get_to(content);
+    parts.directory = path.parent_path();
+    if (std::filesystem::exists(parts.directory / joints_file_name(parts.verb)))
+      parts.overrides.push_back("joints.file=" + joints_file_name(parts.verb));
+    plan.emplace(std::move(parts));
+  } catch (const nlohmann::json::exception& error) {
+    refuse(std::string("is no plan: ") + error.what());
+  }
+  const auto different = differences(plan->content(), content);
+  if (!different.empty()) {
+    std::string all;
+    for (const std::string& line : different) all += "\n   | " + line;
+    refuse("is not what this program would compute:" + all +
+           "\n   = accepted: a plan made by this program, with its files beside it");
+  }
+  return *std::move(plan);
+}
+
+std::vector<std::string> differences(const std::vector<std::string>& now,
+                                     const std::vector<std::string>& before) {
+  std::map<std::string, std::array<std::string, 2>> values;
+  for (const std::string& line : now) values[head_of(line)][0] = value_of(line);
+  for (const std::string& line : before) values[head_of(line)][1] = value_of(line);
+  std::vector<std::string> result;
+  for (const auto& [key, value] : values) {
+    if (value[0] == value[1]) continue;
+    result.push_back(value[0].empty()   ? key + " is not there, was " + value[1]
+                     : value[1].empty() ? key + " = " + value[0] + ", was not there"
+                                        : key + " = " + value[0] + ", was " + value[1]);
+  }
+  return result;
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+// The verbs that work through many tunnels: diagram, realisations, sweep, and case and merge, which
+// share their work among machines.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <voussoir/drawing/number_text.hpp>
+
+#include "case_outputs.hpp"
+#include "case_work.hpp"
+#include "engine_scripts.hpp"
+#include "input_document.hpp"
+#include "verbs.hpp"
+
+namespace voussoir::program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int say_kept(const FinishedCases& finished, const CasePlan& plan) {
+  std::cerr << "interrupted: " << finished.size() << " of " << plan.size()
+            << " cases are finished and kept; the same command goes on from there\n";
+  return interrupted;
+}
+
+void say_remarks(const FinishedCases& finished) {
+  for (const std::string& remark : finished.remarks()) std::cerr << "warning: " << remark << "\n";
+}
+
+/// Cases that this machine could not compute.
+int say_refused(const WorkDone& done) {
+  for (const std::string& text : done.refused) std::cerr << "error: not computed: " << text << "\n";
+  std::cerr << done.refused.size() << (done.refused.size() == 1 ? " case is" : " cases are")
+            << " left for another run; those that are finished are kept\n   = accepted: fewer "
+               "--threads, or a machine with more memory\n";
+  return failed;
+}
+
+/// What reports of the work do: show them, and pass on a wish to stop.
+Report shown_on(ProgressLine& line) {
+  return [&line](const std::string& what, double fraction) {
+    return what.empty() ? stop_asked == 0 : line.show(what, fraction);
+  };
+}
+
+int status_of(const std::vector<TunnelResult>& results) {
+  for (const TunnelResult& result : results)
+    if (!result.is_decided()) return not_decided;
+  return finished;
+}
+
+/// Writes the results of a finished plan.
+int publish_results(const CasePlan& plan, const FinishedCases& finished_cases, RunFolder& outputs,
+                    const Options& options) {
+  work.doing = "writing the results";
+  const std::vector<TunnelResult> results = finished_cases.results(plan);
+  const CaseOutputs made = outputs_of(plan, results);
+  // A diagram of one rock has the id of that tunnel's run.
+  const bool is_one_rock = plan.parts().verb == PlanVerb::diagram && plan.parts().realisations == 1;
+  const std::string id = is_one_rock ? RunId("tunnel").add(plan.input()).text() : plan.run_id();
+  std::string names;
+  for (const auto& [name, text] : made.files) {
+    outputs.add(name, text, id);
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!options.quiet) std::cout << made.summary;
+  publish(outputs, options, names);
+  return status_of(results);
+}
+
+/// A part of a list, as even as can be.
+std::vector<std::size_t> part_of(const std::vector<std::size_t>& all, std::size_t part,
+                                 std::size_t parts) {
+  const auto at = [&](std::size_t k) {
+    return all.begin() + static_cast<std::ptrdiff_t>(all.size() * k / parts);
+  };
+  return {at(part), at(part + 1)};
+}
+
+/// Computes one case, so that chunks can be made to last. @return seconds it took
+double trial(const CasePlan& plan, const fs::path& folder, FinishedCases& finished_cases,
+             ProgressLine& line) {
+  auto journal = journal_of(folder, plan, "local");
+  if (!journal) throw std::runtime_error("another process computes cases in this folder");
+  const auto start = std::chrono::steady_clock::now();
+  const auto missing = finished_cases.missing(plan);
+  if (missing.empty()) return 0;
+  (void)work_on(plan, {missing[missing.size() / 2]}, finished_cases, *journal,
+                {.threads = 1, .report = shown_on(line)});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Options& options,
+               const PlanOptions& settings, ProgressLine& line) {
+  Engine engine{.name = settings.engine,
+                .program = utf8_path(options.program),
+                .folder = fs::absolute(utf8_path(options.folder)).lexically_normal()};
+  std::string chunk_text;
+  if (settings.chunks > 0) {
+    engine.chunks = std::min(settings.chunks, static_cast<int>(plan.size()));
+  } else {
+    const double seconds = trial(plan, utf8_path(options.folder), finished_cases, line);
+    line.clear();
+    const double wanted =
+        std::ceil(seconds * static_cast<double>(plan.size()) / (60 * settings.chunk_minutes));
+    engine.chunks = static_cast<int>(
+        std::clamp(wanted, 1.0, std::min(1000.0, static_cast<double>(plan.size()))));
+    chunk_text =
+        "; one case took " + readable_text(seconds, 2) + " s here, so that a chunk lasts about " +
+        readable_text(seconds * std::ceil(static_cast<double>(plan.size()) / engine.chunks) / 60,
+                      2) +
+        " min";
+    // Cases differ, and a node may be slower: ten times what the trial says, an hour at least.
+    engine.minutes = static_cast<int>(std::clamp(
+        10 * seconds * static_cast<double>(plan.size()) / engine.chunks / 60, 60.0, 6000.0));
+  }
+  std::vector<std::string> results;
+  switch (plan.parts().verb) {
+    case PlanVerb::diagram:
+      results = {"interaction.csv"};
+      break;
+    case PlanVerb::realisations:
+      results = {"realisations.csv"};
+      break;
+    case PlanVerb::sweep:
+      results = {"sweep.csv"};
+      break;
+  }
+  OutputSet scripts;
+  std::string names;
+  for (const auto& [name, text] : engine_scripts(plan, engine, results)) {
+    const fs::path path = utf8_path(options.folder) / name;
+    fs::create_directories(path.parent_path());
+    scripts.add(path, text);
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  scripts.publish();
+  if (!options.quiet)
+    std::cout << "plan     " << plan.size() << " cases in " << engine.chunks
+              << (engine.chunks == 1 ? " chunk" : " chunks") << chunk_text << "\nwritten  "
+              << utf8_text(plan_file("", plan.parts().verb)) << ", " << names << " in "
+              << options.folder << "\n"
+              << engine_advice(plan, engine);
+  return finished;
+}
+
+}  // namespace
+
+int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings) {
+  if (const std::string why = why_ranks_are_apart(); !why.empty()) throw InvalidInput(why);
+  work = {"reading " + options.file, "a smaller input file"};
+  PlanParts parts{.verb = verb,
+                  .file = options.file,
+                  .text = read_text(utf8_path(options.file)),
+                  .directory = utf8_path(options.file).parent_path(),
+                  .overrides = options.overrides,
+                  .realisations = settings.realisations};
+  for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
+  const CasePlan plan(std::move(parts));
+  work = {"computing the cases with --threads " + std::to_string(options.threads),
+          "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a "
+          "larger blocks.min_inscribed_radius, or fewer --threads"};
+  const Ranks& ranks = *options.ranks;
+  const bool is_first = ranks.rank() == 0;
+
+  // The first of several processes holds the folder for all.
+  std::optional<RunFolder> outputs;
+  FinishedCases finished_cases;
+  std::string trouble;
+  const auto try_to = [&](const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      trouble = error.what();
+    }
+    if (ranks.largest(trouble.empty() ? 0 : 1) == 0) return;
+    throw std::runtime_error(trouble.empty() ? "another of the processes has failed" : trouble);
+  };
+  try_to([&] {
+    if (!is_first) return;
+    outputs.emplace(options.folder);
+    adopt_plan(utf8_path(options.folder), plan, settings.discard);
+    outputs->keep();
+  });
+  try_to([&] { finished_cases.add_folder(utf8_path(options.folder), plan); });
+  if (is_first) say_remarks(finished_cases);
+  ProgressLine line(options.quiet || !is_first);
+  if (!settings.engine.empty()) return write_plan(plan, finished_cases, options, settings, line);
+
+  std::vector<std::size_t> todo;
+  for (const std::size_t index : plan.work_order())
+    if (!finished_cases.has(plan.name(index))) todo.push_back(index);
+  WorkDone done;
+  int status = finished;
+  if (!todo.empty()) {
+    const std::string name =
+        ranks.size() == 1 ? "local" : "rank-" + std::to_string(ranks.rank() + 1);
+    std::optional<Journal> journal;
+    try_to([&] {
+      journal = journal_of(utf8_path(options.folder), plan, name);
+      if (!journal)
+        throw std::runtime_error("another process writes the journal " + name + ".jsonl in " +
+                                 options.folder);
+    });
+    try_to([&] {
+      try {
+        done = work_on(plan,
+                       part_of(todo, static_cast<std::size_t>(ranks.rank()),
+                               static_cast<std::size_t>(ranks.size())),
+                       finished_cases, *journal,
+                       {.threads = options.threads, .report = shown_on(line)});
+      } catch (const Stopped&) {
+        status = interrupted;
+      }
+    });
+  }
+  line.clear();
+  if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
+  status = ranks.largest(status);
+  if (status == interrupted) return is_first ? say_kept(finished_cases, plan) : interrupted;
+  if (!done.refused.empty()) status = say_refused(done);
+  status = ranks.largest(status);
+  if (status != finished || !is_first) return status;
+  return publish_results(plan, finished_cases, *outputs, options);
+}
+
+int case_verb(const Options& options, const std::string& chunk) {
+  const auto refuse = [&](const std::string& reason) {
+    throw InvalidInput("--chunk " + printable(chunk) + ": " + reason +
+                       "\n   = accepted: --chunk 3/60, the third of sixty parts");
+  };
+  const std::size_t slash = chunk.find('/');
+  const auto whole = [&](const std::string& text) {
+    if (text.empty() || text.size() > 7 ||
+        text.find_first_not_of("0123456789") != std::string::npos)
+      refuse("not two whole numbers");
+    return static_cast<std::size_t>(std::stoul(text));
+  };
+  if (slash == std::string::npos) refuse("how many chunks there are is missing");
+  const std::size_t part = whole(chunk.substr(0, slash)), parts = whole(chunk.substr(slash + 1));
+  if (part < 1 || part > parts) refuse("there is no such chunk");
+
+  work = {"reading the plan " + options.file, "a smaller plan"};
+  const CasePlan plan = plan_in(utf8_path(options.file));
+  const fs::path folder = fs::is_directory(utf8_path(options.file))
+                              ? utf8_path(options.file)
+                              : utf8_path(options.file).parent_path();
+  work = {"computing a chunk with --threads " + std::to_string(options.threads),
+          "fewer --threads, or a machine with more memory"};
+  // With other chunks, but not with a run that computes everything.
+  const RunFolder held(folder.empty() ? "." : utf8_text(folder), "the plan's folder",
+                       LockedFile::Mode::shared);
+  char name[64];
+  std::snprintf(name, sizeof name, "chunk-%04zu-of-%04zu", part, parts);
+  auto journal = journal_of(folder, plan, name);
+  if (!journal)
+    throw std::runtime_error("chunk " + chunk + " is being computed by another process, which " +
+                             "writes its journal\n   = accepted: another chunk, or this one when "
+                             "that process has ended");
+  FinishedCases finished_cases;
+  finished_cases.add_folder(folder, plan);
+  say_remarks(finished_cases);
+  const std::vector<std::size_t> cases = part_of(plan.work_order(), part - 1, parts);
+  ProgressLine line(options.quiet);
+  try {
+    const WorkDone done = work_on(plan, cases, finished_cases, *journal,
+                                  {.threads = options.threads, .report = shown_on(line)});
+    line.clear();
+    if (!options.quiet)
+      std::cout << "chunk    " << chunk << " of the " << to_string(plan.parts().verb) << ": "
+                << cases.size() << (cases.size() == 1 ? " case" : " cases") << ", " << done.computed
+                << " computed now\n";
+    return done.refused.empty() ? finished : say_refused(done);
+  } catch (const Stopped&) {
+    line.clear();
+    return say_kept(finished_cases, plan);
+  }
+}
+
+int merge_verb(const Options& options, const std::vector<std::string>& folders) {
+  work = {"reading the journals", "fewer cases"};
+  const CasePlan plan = plan_in(utf8_path(folders.front()));
+  FinishedCases finished_cases;
+  for (const std::string& path : folders) {
+    const CasePlan other = plan_in(utf8_path(path));
+    const auto different = differences(other.content(), plan.content());
+    if (!different.empty()) {
+      std::string all;
+      for (const std::string& line : different) all += "\n   | " + line;
+      throw std::runtime_error("the plans of " + folders.front() + " and " + path + " differ:" +
+                               all + "\n   = accepted: folders with parts of one plan");
+    }
+    finished_cases.add_folder(
+        fs::is_directory(utf8_path(path)) ? utf8_path(path) : utf8_path(path).parent_path(), plan);
+  }
+  say_remarks(finished_cases);
+  const auto missing = finished_cases.missing(plan);
+  if (!missing.empty()) {
+    std::cerr << "not complete: " << plan.size() - missing.size() << " of " << plan.size()
+              << " cases are finished; missing:\n";
+    constexpr std::size_t most = 10;
+    for (std::size_t k = 0; k < std::min(most, missing.size()); ++k)
+      std::cerr << "   | " << plan.label(plan.at(missing[k])) << "\n";
+    if (missing.size() > most) std::cerr << "   | and " << missing.size() - most << " more\n";
+    std::cerr << "nothing written\n   = accepted: all cases, in the folders given: run the chunks "
+                 "that are missing again\n";
+    return incomplete;
+  }
+  Options where = options;
+  if (where.folder.empty())
+    where.folder = fs::is_directory(utf8_path(folders.front()))
+                       ? folders.front()
+                       : utf8_text(utf8_path(folders.front()).parent_path());
+  if (where.folder.empty()) where.folder = ".";
+  RunFolder outputs(where.folder);
+  return publish_results(plan, finished_cases, outputs, where);
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,590 @@
+// SPDX-License-Identifier: MIT
+// Long work as cases: the same results whoever computes them, in whatever order and however often
+// it is killed.
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/random.hpp>
+#include <voussoir/statistics/sample.hpp>
+
+#include "case_plan.hpp"
+#include "case_statistics.hpp"
+#include "case_work.hpp"
+#include "harness.hpp"
+
+using namespace voussoir_test;
+using namespace voussoir::program;
+using voussoir::InvalidInput;
+using voussoir::Verdict;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A 3 m tunnel in some 150 blocks: a case takes milliseconds.
+std::string small_input() {
+  InputText input;
+  input.shape = "shape = \"circle\"\ndiameter = \"3 m\"\n";
+  input.rest =
+      "[diagram]\nspacing = [\"30 deg\", \"60 deg\", \"none\"]\n"
+      "thickness = [\"0 cm\", \"8 cm\"]\n";
+  std::string text = input.text();
+  text = replaced(text, "width = \"24 m\"", "width = \"14 m\"");
+  text = replaced(text, "below_invert = \"8 m\"", "below_invert = \"4 m\"");
+  return replaced(text, "cover = \"8 m\"", "cover = \"4 m\"");
+}
+
+std::vector<std::string> sweep(const std::string& file, const std::string& out,
+                               const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"sweep",  file,
+                                        "--out",  out,
+                                        "--vary", "support.bolts.spacing=30 deg, 60 deg",
+                                        "--vary", "joint.friction=30..40 deg:3",
+                                        "-n",     "3"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// The files of results in a folder, by name: neither journals nor plans.
+std::map<std::string, std::string> results_in(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& [path, text] : contents(folder)) {
+    const std::string name = fs::path(path).filename().string();
+    if (fs::path(path).parent_path() == fs::path(folder) && fs::is_regular_file(path) &&
+        !name.ends_with(".plan.json") && !name.ends_with(".joints.csv") && !name.starts_with("."))
+      files[name] = text;
+  }
+  return files;
+}
+
+/// Lines of cases in all journals of a folder, by name of the case.
+std::map<std::string, int> finished_in(const std::string& folder) {
+  std::map<std::string, int> counts;
+  for (const auto& [path, text] : contents(folder)) {
+    if (!path.ends_with(".jsonl")) continue;
+    if (const auto journal = voussoir::read_journal(path))
+      for (const auto& entry : journal->entries) ++counts[entry.name];
+  }
+  return counts;
+}
+
+PlanParts parts_of(PlanVerb verb, const std::string& text, std::vector<VariedKey> varied = {},
+                   int realisations = 1) {
+  return {.verb = verb,
+          .file = "case.toml",
+          .text = text,
+          .directory = ".",
+          .overrides = {},
+          .varied = std::move(varied),
+          .realisations = realisations};
+}
+
+}  // namespace
+
+TEST_SUITE("program/cases") {
+  TEST_CASE("values are lists or ranges, and what is neither is refused in a sentence") {
+    CHECK(varied_key("a.b=1, 2 ,3").values == std::vector<std::string>{"1", "2", "3"});
+    CHECK(varied_key(" a.b = [\"0 deg\", \"9 deg\"], [\"1 deg\", \"2 deg\"]").values ==
+          std::vector<std::string>{"[\"0 deg\", \"9 deg\"]", "[\"1 deg\", \"2 deg\"]"});
+    CHECK(varied_key("k=\"a, b\"").values == std::vector<std::string>{"\"a, b\""});
+    CHECK(varied_key("k=10..30 cm:5").values ==
+          std::vector<std::string>{"10 cm", "15 cm", "20 cm", "25 cm", "30 cm"});
+    CHECK(varied_key("k=0.1..0.4:4").values ==
+          std::vector<std::string>{"0.1", "0.2", "0.3", "0.4"});  // not 0.30000000000000004
+    CHECK(varied_key("k=1..-1 m:3").values == std::vector<std::string>{"1 m", "0 m", "-1 m"});
+    for (const auto& [text, word] :
+         std::map<std::string, std::string>{{"k", "no `=`"},
+                                            {"=1", "no key"},
+                                            {"k=", "a value is empty"},
+                                            {"k=1,,2", "a value is empty"},
+                                            {"k=1,1", "stands there twice"},
+                                            {"k=1..2", "how many values"},
+                                            {"k=1..2:1", "2 to 10000"},
+                                            {"k=1..2:2.5", "2 to 10000"},
+                                            {"k=1..1:3", "different numbers"},
+                                            {"k=1..m:3", "ends with a number"}}) {
+      CAPTURE(text);
+      CHECK_THROWS_WITH_AS((void)varied_key(text), doctest::Contains(word.c_str()), InvalidInput);
+    }
+  }
+
+  TEST_CASE("every case has a name of its own, and the same one in every plan") {
+    const std::string text = small_input();
+    const VariedKey friction{"joint.friction", {"30 deg", "35 deg"}};
+    const VariedKey thickness{"support.lining.thickness", {"8 cm", "10 cm"}};
+    const CasePlan one(parts_of(PlanVerb::sweep, text, {friction, thickness}, 3));
+    const CasePlan other(parts_of(PlanVerb::sweep, text, {thickness, friction}, 5));
+    REQUIRE(one.size() == 12);
+    REQUIRE(other.size() == 20);
+    std::map<std::string, std::string> names;
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const Case c = other.at(k);
+      CHECK(names.emplace(other.name(k), c.overrides[1] + c.overrides[0] + std::to_string(c.seed))
+                .second);
+    }
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      const Case c = one.at(k);
+      CHECK(names[one.name(k)] == c.overrides[0] + c.overrides[1] + std::to_string(c.seed));
+    }
+    // 35 deg and 8 cm are the file's own values: the realisations of it have the same names.
+    const CasePlan plain(parts_of(PlanVerb::realisations, text, {}, 3));
+    std::set<std::string> of_file;
+    for (std::size_t k = 0; k < plain.size(); ++k) of_file.insert(plain.name(k));
+    CHECK(of_file.size() == 3);
+    CHECK(one.run_id() != other.run_id());
+    CHECK(CasePlan(parts_of(PlanVerb::sweep, "# a remark\n" + text, {friction, thickness}, 3))
+              .run_id() == one.run_id());
+  }
+
+  TEST_CASE("the order of work has every case once, those of one rock together") {
+    const CasePlan plan(parts_of(PlanVerb::sweep, small_input(),
+                                 {{"support.lining.thickness", {"8 cm", "10 cm", "12 cm"}},
+                                  {"stress.K0", {"1", "0.8"}},
+                                  {"support.bolts.length", {"2 m", "3 m"}}},
+                                 4));
+    const std::vector<std::size_t> order = plan.work_order();
+    CHECK(std::set<std::size_t>(order.begin(), order.end()).size() == plan.size());
+    REQUIRE(order.size() == 48);
+    std::set<std::string> rocks;
+    std::string last;
+    for (const std::size_t index : order) {
+      const Case c = plan.at(index);
+      const std::string rock = c.overrides[1] + " " + std::to_string(c.seed);
+      if (rock != last) CHECK(rocks.insert(rock).second);  // it was not left before
+      last = rock;
+    }
+    CHECK(rocks.size() == 8);
+  }
+
+  TEST_CASE("a result is read back from its journal to the last bit") {
+    TunnelResult r;
+    r.verdict = Verdict::stable;
+    r.fallen = 0.1 + 0.2;
+    r.reason = "with \"quotes\", \\ and \n a break";
+    r.convergence = {1.0 / 3, -0.0, 5e-324, TunnelResult::not_computed, 1e300};
+    r.demand = {1, 2, 1.0 / 7, 4, 5};
+    r.error_estimate = TunnelResult::not_computed;
+    r.out_of_balance = 1e-17;
+    r.blocks = 12345;
+    r.boundary = "rollers";
+    r.warnings = {"one", "two"};
+    const TunnelResult back = result_from_json(result_json(r));
+    CHECK(result_json(back) == result_json(r));
+    CHECK(back.fallen == r.fallen);
+    CHECK(back.convergence.left_springing == 5e-324);
+    CHECK(std::signbit(back.convergence.right_springing));
+    CHECK(std::isnan(back.convergence.invert));
+    CHECK(back.reason == r.reason);
+    CHECK(back.word() == "stable after rockfall");
+    CHECK_THROWS_AS((void)result_from_json("{}"), std::runtime_error);
+    CHECK_THROWS_AS((void)result_from_json("{\"verdict\":"), std::runtime_error);
+  }
+
+  TEST_CASE("statistics over realisations: by hand, and by the library's own") {
+    std::vector<TunnelResult> results(10);
+    for (std::size_t k = 0; k < 10; ++k) {
+      results[k].verdict = k == 9   ? Verdict::undecided
+                           : k == 8 ? Verdict::collapse
+                                    : Verdict::stable;
+      results[k].fallen = k == 7 ? 2 : 0;
+      results[k].convergence.crown = 1e-3 * static_cast<double>(k + 1);
+    }
+    const Realised r(results);
+    CHECK(r.whole == 7);
+    CHECK(r.shedding == 1);
+    CHECK(r.verdicts() == "7 stable, 1 stable after rockfall, 1 collapse, 1 undecided");
+    CHECK(r.rockfall().events == 2);
+    CHECK(r.rockfall().trials == 9);
+    CHECK(r.crown.mean() == doctest::Approx(4.5e-3));
+    CHECK(r.crown.deviation() == doctest::Approx(std::sqrt(42.0 / 7) * 1e-3));
+    // Student's t of 7 degrees of freedom, 0.975: 2.3646 (tables).
+    REQUIRE(r.crown.mean_between());
+    CHECK(r.crown.mean_between()->width() ==
+          doctest::Approx(2 * 2.3646 * std::sqrt(6.0 / 8) * 1e-3).epsilon(1e-4));
+    // Sorted 1 to 8 mm, then two without a value: the median of ten lies between the 5th and 6th.
+    CHECK(r.crown.quantile(0.5) == doctest::Approx(5.5e-3));
+    CHECK(r.crown.quantile(0) == doctest::Approx(1e-3));
+    CHECK(std::isnan(r.crown.quantile(0.9)));  // among those that did not stand
+    CHECK(std::isnan(r.crown.quantile(1)));
+    CHECK(Realised(std::vector<TunnelResult>(1)).crown.quantile() !=
+          Realised(std::vector<TunnelResult>(1)).crown.quantile());  // undecided: none
+  }
+
+#ifdef VOUSSOIR_TEST_PROGRAM
+
+  TEST_CASE("threads, chunks, a merge and a second start give the same bytes") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    const Outcome local = run_program(sweep(file, folder / "local", {"-j", "1"}));
+    CAPTURE(local.err);
+    REQUIRE(local.status == 0);
+    const auto expected = results_in(folder / "local");
+    REQUIRE(expected.size() == 2);
+    CHECK(finished_in(folder / "local").size() == 18);
+
+    CHECK(run_program(sweep(file, folder / "threads", {"-j", "3"})).status == 0);
+    CHECK(results_in(folder / "threads") == expected);
+
+    // Again in the same folder: nothing is computed, and the journal stays as it is.
+    const auto before = contents(folder / "local/sweep.journal");
+    fs::remove(folder / "local/sweep.csv");
+    CHECK(run_program(sweep(file, folder / "local")).status == 0);
+    CHECK(results_in(folder / "local") == expected);
+    CHECK(contents(folder / "local/sweep.journal") == before);
+
+    // In five chunks, in two folders, backwards.
+    for (const std::string part : {"one", "two"}) {
+      const Outcome plan =
+          run_program(sweep(file, folder / part, {"--plan", "slurm", "--chunks", "5"}));
+      CAPTURE(plan.err);
+      REQUIRE(plan.status == 0);
+      CHECK(results_in(folder / part).count("sweep.csv") == 0);
+    }
+    for (int k = 5; k >= 1; --k)
+      CHECK(run_program({"case", folder / (k % 2 == 0 ? "one" : "two"), "--chunk",
+                         std::to_string(k) + "/5"})
+                .status == 0);
+    const Outcome incomplete = run_program({"merge", folder / "one"});
+    CHECK(incomplete.status == 8);
+    CHECK(incomplete.err.find("missing:") != std::string::npos);
+    CHECK(incomplete.err.find("seed 3") != std::string::npos);
+    CHECK(results_in(folder / "one").count("sweep.csv") == 0);
+    const Outcome merged =
+        run_program({"merge", folder / "two", folder / "one", "--out", folder / "all"});
+    CAPTURE(merged.err);
+    CHECK(merged.status == 0);
+    CHECK(results_in(folder / "all") == expected);
+    CHECK(merged.out.find("18 stable") != std::string::npos);
+  }
+
+  TEST_CASE("killed at random moments a sweep loses nothing, does nothing twice, ends the same") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    const auto start = std::chrono::steady_clock::now();
+    REQUIRE(run_program(sweep(file, folder / "whole")).status == 0);
+    const double whole =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto expected = results_in(folder / "whole");
+    voussoir::Random random(20);
+    int kills = 0;
+    for (int round = 0; round < 6; ++round) {
+      const std::string out = folder / ("out" + std::to_string(round));
+      for (int attempt = 0;; ++attempt) {
+        REQUIRE(attempt < 200);
+        const auto before = finished_in(out);
+        Running run(sweep(file, out, {"-j", attempt % 2 == 0 ? "1" : "2"}));
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.4 * whole * random.uniform()));
+        run.signal(SIGKILL);
+        const bool was_killed = run.wait().status == 1000 + SIGKILL;
+        const auto after = finished_in(out);
+        for (const auto& [name, count] : before) CHECK(after.count(name) == 1);  // nothing is lost
+        for (const auto& [name, count] : after) CHECK(count == 1);               // nor done twice
+        if (!was_killed) break;
+        ++kills;
+      }
+      CHECK(results_in(out) == expected);
+    }
+    CHECK(kills >= 6);
+  }
+
+  TEST_CASE("another input in the same folder is refused with what differs, or discarded") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    REQUIRE(run_program(sweep(file, out)).status == 0);
+    const auto before = contents(out);
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
+      const Outcome outcome = run_program(sweep(file, out, more));
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 1);
+      CHECK(outcome.err.find(words) != std::string::npos);
+      CHECK(contents(out) == before);
+    };
+    refused({"--set", "stress.K0=1.5"}, "stress.K0 = 1.5, was 1");
+    refused({"--vary", "rock.density=2600 kg/m^3, 2700 kg/m^3"},
+            "--vary rock.density = 2600 kg/m^3, 2700 kg/m^3, was not there");
+    Outcome outcome =
+        run_program({"sweep", file, "--out", out, "--vary", "support.bolts.spacing=30 deg, 60 deg",
+                     "--vary", "joint.friction=30..40 deg:3", "-n", "2"});
+    CHECK(outcome.err.find("realisations = 2, was 3") != std::string::npos);
+    // Another program of the same version.
+    const std::string plan = out + "/sweep.plan.json";
+    const std::string text = read_file(plan);
+    write_file(plan, replaced(text, "\"program = ", "\"program = 0"));
+    outcome = run_program(sweep(file, out));
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("program = ") != std::string::npos);
+    outcome = run_program({"case", out, "--chunk", "1/2"});
+    CHECK(outcome.err.find("is not what this program would compute") != std::string::npos);
+    write_file(plan, "{");
+    outcome = run_program(sweep(file, out));
+    CHECK(outcome.err.find("its plan cannot be read") != std::string::npos);
+    fs::remove(plan);
+    outcome = run_program(sweep(file, out));
+    CHECK(outcome.err.find("without their plan") != std::string::npos);
+    CHECK(run_program(sweep(file, out, {"--set", "stress.K0=1.5", "--discard"})).status == 0);
+    CHECK(finished_in(out).size() == 18);
+    for (const auto& [name, count] : finished_in(out)) CHECK(before.count(name) == 0);
+  }
+
+  TEST_CASE("a damaged line is said and computed again; two journals that differ are refused") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    REQUIRE(run_program(sweep(file, out)).status == 0);
+    const auto expected = results_in(out);
+    const std::string journal = out + "/sweep.journal/local.jsonl", text = read_file(journal);
+    write_file(journal, replaced(text, "\"fallen_m2\":0.0", "\"fallen_m2\":1.0"));
+    Outcome outcome = run_program(sweep(file, out));
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.find("line 2 is damaged") != std::string::npos);
+    CHECK(results_in(out) == expected);
+    // A line that is whole, of the same case, with another result.
+    auto second = voussoir::Journal::open(out + "/sweep.journal/other.jsonl",
+                                          voussoir::read_journal(journal)->header);
+    REQUIRE(second);
+    auto entry = voussoir::read_journal(journal)->entries.back();
+    entry.fields = replaced(entry.fields, "\"fallen_m2\":0.0", "\"fallen_m2\":1.0");
+    second->add(entry);
+    outcome = run_program({"merge", out});
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("two journals differ on the case") != std::string::npos);
+  }
+
+  TEST_CASE("a case that fails is a result with its reason, and the others go on") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    // The moduli of rock that is hardly cut cannot be measured, which elastic ground needs.
+    const Outcome outcome = run_program({"sweep", file, "--out", folder / "out", "--set",
+                                         "boundary={sides=\"elastic\",base=\"elastic\"}", "--vary",
+                                         "blocks.max_elongation=20, 2", "-n", "2"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 3);
+    CHECK(outcome.out.find("2 stable, 2 failed") != std::string::npos);
+    const std::string table = read_file(folder / "out/sweep.csv");
+    CHECK(table.find("the moduli of the rock cannot be measured") != std::string::npos);
+    CHECK(table.find(",failed,") != std::string::npos);
+    CHECK(table.find(",stable,") != std::string::npos);
+  }
+
+  TEST_CASE("the input of every case is checked before anything is computed") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    const auto refused = [&](std::vector<std::string> more, const std::string& words) {
+      more.insert(more.begin(), {"sweep", file, "--out", folder / "out"});
+      const Outcome outcome = run_program(more);
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find(words) != std::string::npos);
+      CHECK_FALSE(fs::exists(folder / "out"));
+    };
+    refused({"--vary", "joint.friction=30 deg, 95 deg"},
+            "in the case joint.friction=95 deg, seed 3");
+    refused({"--vary", "joint.frction=30 deg, 35 deg"}, "did you mean `friction`");
+    refused({"--vary", "support.bolts.length=2 m, 20 m"}, "a bolt would end at");
+    refused({}, "a sweep varies nothing");
+    refused({"--vary", "model.seed=1, 2"}, "seeds are counted by --realisations");
+    refused({"--vary", "joint.friction=30 deg, 35 deg", "--vary", "joint.friction=31 deg"},
+            "is given twice");
+    refused({"--vary", "stress.K0=0.5..1.5:1001", "--vary", "joint.friction=20..40 deg:1001"},
+            "at most 1000000");
+    CHECK(run_program({"realisations", file, "--out", folder / "out"}).status == 2);
+    CHECK(run_program({"realisations", file, "-n", "0", "--out", folder / "out"}).status == 2);
+  }
+
+  TEST_CASE("two runs in one folder: one works, the other says so; chunks share it") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    const std::vector<std::string> endless = {"--set", "run.method=explicit",
+                                              "--set", "run.damping=0",
+                                              "--set", "run.max_steps=2000000000"};
+    auto arguments = sweep(file, out, endless);
+    REQUIRE(run_program([&] {
+              auto plan = arguments;
+              plan.insert(plan.end(), {"--plan", "snakemake", "--chunks", "3"});
+              return plan;
+            }())
+                .status == 0);
+    Running chunk({"case", out, "--chunk", "1/3"});
+    const std::string journal = out + "/sweep.journal/chunk-0001-of-0003.jsonl";
+    for (int k = 0; k < 3000 && !fs::exists(journal); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    REQUIRE(fs::exists(journal));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    Outcome second = run_program({"case", out, "--chunk", "1/3"});
+    CAPTURE(second.err);
+    CHECK(second.status == 1);
+    CHECK(second.err.find("chunk 1/3 is being computed by another process") != std::string::npos);
+    second = run_program(arguments);
+    CHECK(second.status == 1);
+    CHECK(second.err.find("the folder is in use: process " + std::to_string(chunk.process())) !=
+          std::string::npos);
+    Running other({"case", out, "--chunk", "2/3"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    for (Running* const running : {&other, &chunk}) {
+      const auto asked = std::chrono::steady_clock::now();
+      running->signal(running == &other ? SIGINT : SIGTERM);
+      const Outcome stopped = running->wait();
+      CHECK(stopped.status == 130);
+      CHECK(stopped.err.find("cases are finished and kept") != std::string::npos);
+      // Ten times what it takes here: machines are shared.
+      CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(10));
+    }
+    Running whole(arguments);
+    for (int k = 0; k < 3000 && !fs::exists(out + "/sweep.journal/local.jsonl"); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    second = run_program({"case", out, "--chunk", "3/3"});
+    CHECK(second.status == 1);
+    CHECK(second.err.find("is in use") != std::string::npos);
+    whole.signal(SIGTERM);
+    CHECK(whole.wait().status == 130);
+  }
+
+  TEST_CASE("a folder that cannot be written, chunks and plans that are not there: sentences") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    const auto says = [&](const std::vector<std::string>& arguments, int status,
+                          const std::string& words) {
+      const Outcome outcome = run_program(arguments);
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == status);
+      CHECK(outcome.err.find(words) != std::string::npos);
+    };
+    says({"case", out, "--chunk", "1/2"}, 1, "holds no plan");
+    says({"merge", out}, 1, "holds no plan");
+    REQUIRE(run_program(sweep(file, out, {"--plan", "slurm", "--chunks", "2"})).status == 0);
+    for (const char* const chunk : {"0/2", "3/2", "1", "1/x", "/", "-1/2", "1/99999999"})
+      says({"case", out, "--chunk", chunk}, 2, "third of sixty parts");
+    says(sweep(file, folder / "x", {"--plan", "lsf"}), 2, "lsf");
+    write_file(out + "/diagram.plan.json", "{}");
+    says({"case", out, "--chunk", "1/2"}, 1, "holds 2 plans");
+    says({"merge", out + "/diagram.plan.json"}, 1, "is no plan");
+    write_file(out + "/diagram.plan.json", "{\"schema\": 9}");
+    says({"merge", out + "/diagram.plan.json"}, 1, "schema 9");
+    if (getuid() != 0) {
+      fs::create_directory(folder / "locked");
+      chmod((folder / "locked").c_str(), 0500);
+      says(sweep(file, folder / "locked"), 1, "no permission to write");
+    }
+    write_file(folder / "other.toml", replaced(small_input(), "K0 = 1.0", "K0 = 1.1"));
+    REQUIRE(run_program(sweep(folder / "other.toml", folder / "other",
+                              {"--plan", "slurm", "--chunks", "2"}))
+                .status == 0);
+    says({"merge", out + "/sweep.plan.json", folder / "other"}, 1, "stress.K0 = 1.1, was 1");
+  }
+
+  TEST_CASE("a full disk stops the work with a sentence; what was finished stays") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    REQUIRE(run_program(sweep(file, folder / "whole")).status == 0);
+    // A limit on the size of files, inherited by the program, is as good as a full disk: a write
+    // ends short.
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{8000, before.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const Outcome full = run_program(sweep(file, out, {"-j", "2"}));
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, SIG_DFL);
+    CAPTURE(full.err);
+    CHECK(full.status == 1);
+    CHECK(full.err.find("cannot write '") != std::string::npos);
+    CHECK(full.err.find("local.jsonl': File too large") != std::string::npos);
+    const auto kept = finished_in(out);
+    CHECK(kept.size() > 2);
+    CHECK(kept.size() < 18);
+    CHECK(run_program(sweep(file, out)).status == 0);
+    for (const auto& [name, count] : finished_in(out)) CHECK(count == 1);
+    CHECK(results_in(out) == results_in(folder / "whole"));
+  }
+
+  TEST_CASE("mapped joints travel with the plan") {
+    const Folder folder;
+    std::string text = small_input();
+    text = replaced(text, "[joint]\n", "[joints]\nfile = \"traces.csv\"\n[joint]\n");
+    const std::string file = write_file(folder / "case.toml", text);
+    write_file(folder / "traces.csv", "-9,3,9,3\n-9,-3,9,-2\n");
+    REQUIRE(run_program(sweep(file, folder / "local")).status == 0);
+    REQUIRE(
+        run_program(sweep(file, folder / "plan", {"--plan", "slurm", "--chunks", "1"})).status ==
+        0);
+    fs::remove(folder / "traces.csv");
+    fs::rename(folder / "plan", folder / "elsewhere");
+    const Outcome chunk = run_program({"case", folder / "elsewhere", "--chunk", "1/1"});
+    CAPTURE(chunk.err);
+    CHECK(chunk.status == 0);
+    CHECK(run_program({"merge", folder / "elsewhere", "-o", folder / "merged"}).status == 0);
+    CHECK(results_in(folder / "merged") == results_in(folder / "local"));
+    write_file(folder / "elsewhere/sweep.joints.csv", "-9,3,9,3\n");
+    const Outcome changed = run_program({"case", folder / "elsewhere", "--chunk", "1/1"});
+    CHECK(changed.status == 1);
+    CHECK(changed.err.find("joints.file (its content)") != std::string::npos);
+  }
+
+  TEST_CASE("one tunnel is the same by run, realisations, sweep and diagram") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    REQUIRE(run_program({"run", file, "--out", folder / "run"}).status == 0);
+    const auto run = nlohmann::json::parse(read_file(folder / "run/run.json"));
+    const double crown = run["convergence"]["crown_mm"];
+    const auto cell = [&](const std::string& table, std::size_t row, const std::string& column) {
+      std::vector<std::vector<std::string>> rows(1, {""});
+      bool quoted = false;
+      for (const char c : table) {
+        if (c == '"')
+          quoted = !quoted;
+        else if (c == '\n' && !quoted)
+          rows.push_back({""});
+        else if (c == ',' && !quoted)
+          rows.back().emplace_back();
+        else if (c != '\r')
+          rows.back().back() += c;
+      }
+      const auto& header = rows.front();
+      const auto at = std::find(header.begin(), header.end(), column);
+      REQUIRE(at != header.end());
+      return rows.at(row).at(static_cast<std::size_t>(at - header.begin()));
+    };
+    // Six digits are written.
+    const auto same = [&](const std::string& text) {
+      CHECK(std::stod(text) == doctest::Approx(crown).epsilon(1e-5));
+    };
+    REQUIRE(run_program({"realisations", file, "-n", "2", "-o", folder / "r"}).status == 0);
+    same(cell(read_file(folder / "r/realisations.csv"), 1, "crown_convergence_mm"));
+    REQUIRE(run_program({"sweep", file, "--vary", "support.lining.thickness=10 cm, 8 cm", "-o",
+                         folder / "s"})
+                .status == 0);
+    const std::string table = read_file(folder / "s/sweep.csv");
+    CHECK(cell(table, 2, "support.lining.thickness_cm") == "8");
+    same(cell(table, 2, "crown_convergence_mm"));
+    const int diagram = run_program({"diagram", file, "-o", folder / "d"}).status;
+    CHECK((diagram == 0 || diagram == 3));
+    same(cell(read_file(folder / "d/interaction.csv"), 2, "crown_convergence_mm"));
+    // Over realisations: the mean of those that realisations has one by one.
+    REQUIRE(run_program({"diagram", file, "-n", "2", "-o", folder / "dn"}).status >= 0);
+    const std::string both = read_file(folder / "r/realisations.csv");
+    const double mean = (std::stod(cell(both, 1, "crown_convergence_mm")) +
+                         std::stod(cell(both, 2, "crown_convergence_mm"))) /
+                        2;
+    CHECK(std::stod(cell(read_file(folder / "dn/interaction.csv"), 2,
+                         "crown_convergence_mm_mean")) == doctest::Approx(mean).epsilon(1e-5));
+    for (const char* const name : {"interaction_quantile.svg", "interaction_rockfall.svg"})
+      CHECK(read_file(folder / "dn" + std::string("/") + name).ends_with("</svg>\n"));
+  }
+
+#endif
+}
