@@ -16,6 +16,7 @@
 #include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/io/operating_system.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
@@ -132,7 +133,7 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
 /// Mapped joints as the input's file has them.
 std::vector<Joint> mapped_joints(const Input& input, const Domain<2>& domain,
                                  const Progress& progress, std::vector<std::string>& warnings) {
-  const std::string name = input.joints_file.string();
+  const std::string name = utf8_text(input.joints_file);
   const std::string accepted =
       "\n   = accepted: the name of a file of traces, relative to the input file";
   std::error_code error;
@@ -306,7 +307,7 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
     const double blocks = estimated_blocks(joints, domain, limits.min_inscribed_radius);
     if (blocks > largest_count || static_cast<double>(joints.size()) > largest_count)
       throw InvalidInput(
-          "joints.file: with " + input.joints_file.string() + " the rock has " +
+          "joints.file: with " + utf8_text(input.joints_file) + " the rock has " +
           counted(joints.size(), "joint") + " and would come to about " + number(blocks, "%.0f") +
           " blocks\n   = accepted: at most 1000000 of either in the domain: a smaller "
           "domain, fewer joints, or a larger blocks.min_inscribed_radius");

@@ -176,7 +176,7 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
                        " cases\n   = accepted: at most " + std::to_string(most_cases));
   joints_ = joints_hash(input_);
   if (!input_.joints_file.empty() && joints_.empty())
-    throw InvalidInput("joints.file: " + input_.joints_file.string() +
+    throw InvalidInput("joints.file: " + utf8_text(input_.joints_file) +
                        " cannot be read again and again\n   = accepted: a regular file");
 
   content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,
@@ -337,7 +337,7 @@ std::string CasePlan::json() const {
 
 CasePlan CasePlan::from_json(const std::string& text, const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& reason) {
-    throw std::runtime_error("'" + path.string() + "' " + reason);
+    throw std::runtime_error("'" + utf8_text(path) + "' " + reason);
   };
   std::vector<std::string> content;
   std::optional<CasePlan> plan;

@@ -98,13 +98,13 @@ double trial(const CasePlan& plan, const fs::path& folder, FinishedCases& finish
 int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Options& options,
                const PlanOptions& settings, ProgressLine& line) {
   Engine engine{.name = settings.engine,
-                .program = options.program,
-                .folder = fs::absolute(options.folder).lexically_normal()};
+                .program = utf8_path(options.program),
+                .folder = fs::absolute(utf8_path(options.folder)).lexically_normal()};
   std::string chunk_text;
   if (settings.chunks > 0) {
     engine.chunks = std::min(settings.chunks, static_cast<int>(plan.size()));
   } else {
-    const double seconds = trial(plan, options.folder, finished_cases, line);
+    const double seconds = trial(plan, utf8_path(options.folder), finished_cases, line);
     line.clear();
     const double wanted =
         std::ceil(seconds * static_cast<double>(plan.size()) / (60 * settings.chunk_minutes));
@@ -134,7 +134,7 @@ int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Option
   OutputSet scripts;
   std::string names;
   for (const auto& [name, text] : engine_scripts(plan, engine, results)) {
-    const fs::path path = fs::path(options.folder) / name;
+    const fs::path path = utf8_path(options.folder) / name;
     fs::create_directories(path.parent_path());
     scripts.add(path, text);
     names += (names.empty() ? "" : ", ") + name;
@@ -143,7 +143,7 @@ int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Option
   if (!options.quiet)
     std::cout << "plan     " << plan.size() << " cases in " << engine.chunks
               << (engine.chunks == 1 ? " chunk" : " chunks") << chunk_text << "\nwritten  "
-              << plan_file("", plan.parts().verb).string() << ", " << names << " in "
+              << utf8_text(plan_file("", plan.parts().verb)) << ", " << names << " in "
               << options.folder << "\n"
               << engine_advice(plan, engine);
   return finished;
@@ -156,8 +156,8 @@ int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings
   work = {"reading " + options.file, "a smaller input file"};
   PlanParts parts{.verb = verb,
                   .file = options.file,
-                  .text = read_text(options.file),
-                  .directory = fs::path(options.file).parent_path(),
+                  .text = read_text(utf8_path(options.file)),
+                  .directory = utf8_path(options.file).parent_path(),
                   .overrides = options.overrides,
                   .realisations = settings.realisations};
   for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
@@ -184,10 +184,10 @@ int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings
   try_to([&] {
     if (!is_first) return;
     outputs.emplace(options.folder);
-    adopt_plan(options.folder, plan, settings.discard);
+    adopt_plan(utf8_path(options.folder), plan, settings.discard);
     outputs->keep();
   });
-  try_to([&] { finished_cases.add_folder(options.folder, plan); });
+  try_to([&] { finished_cases.add_folder(utf8_path(options.folder), plan); });
   if (is_first) say_remarks(finished_cases);
   ProgressLine line(options.quiet || !is_first);
   if (!settings.engine.empty()) return write_plan(plan, finished_cases, options, settings, line);
@@ -202,7 +202,7 @@ int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings
         ranks.size() == 1 ? "local" : "rank-" + std::to_string(ranks.rank() + 1);
     std::optional<Journal> journal;
     try_to([&] {
-      journal = journal_of(options.folder, plan, name);
+      journal = journal_of(utf8_path(options.folder), plan, name);
       if (!journal)
         throw std::runtime_error("another process writes the journal " + name + ".jsonl in " +
                                  options.folder);
@@ -220,7 +220,7 @@ int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings
     });
   }
   line.clear();
-  if (ranks.size() > 1 && is_first) finished_cases.add_folder(options.folder, plan);
+  if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
   status = ranks.largest(status);
   if (status == interrupted) return is_first ? say_kept(finished_cases, plan) : interrupted;
   if (!done.refused.empty()) status = say_refused(done);
@@ -246,13 +246,14 @@ int case_verb(const Options& options, const std::string& chunk) {
   if (part < 1 || part > parts) refuse("there is no such chunk");
 
   work = {"reading the plan " + options.file, "a smaller plan"};
-  const CasePlan plan = plan_in(options.file);
-  const fs::path folder = fs::is_directory(options.file) ? fs::path(options.file)
-                                                         : fs::path(options.file).parent_path();
+  const CasePlan plan = plan_in(utf8_path(options.file));
+  const fs::path folder = fs::is_directory(utf8_path(options.file))
+                              ? utf8_path(options.file)
+                              : utf8_path(options.file).parent_path();
   work = {"computing a chunk with --threads " + std::to_string(options.threads),
           "fewer --threads, or a machine with more memory"};
   // With other chunks, but not with a run that computes everything.
-  const RunFolder held(folder.empty() ? "." : folder.string(), "the plan's folder",
+  const RunFolder held(folder.empty() ? "." : utf8_text(folder), "the plan's folder",
                        LockedFile::Mode::shared);
   char name[64];
   std::snprintf(name, sizeof name, "chunk-%04zu-of-%04zu", part, parts);
@@ -283,10 +284,10 @@ int case_verb(const Options& options, const std::string& chunk) {
 
 int merge_verb(const Options& options, const std::vector<std::string>& folders) {
   work = {"reading the journals", "fewer cases"};
-  const CasePlan plan = plan_in(folders.front());
+  const CasePlan plan = plan_in(utf8_path(folders.front()));
   FinishedCases finished_cases;
   for (const std::string& path : folders) {
-    const CasePlan other = plan_in(path);
+    const CasePlan other = plan_in(utf8_path(path));
     const auto different = differences(other.content(), plan.content());
     if (!different.empty()) {
       std::string all;
@@ -295,7 +296,7 @@ int merge_verb(const Options& options, const std::vector<std::string>& folders) 
                                all + "\n   = accepted: folders with parts of one plan");
     }
     finished_cases.add_folder(
-        fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path(), plan);
+        fs::is_directory(utf8_path(path)) ? utf8_path(path) : utf8_path(path).parent_path(), plan);
   }
   say_remarks(finished_cases);
   const auto missing = finished_cases.missing(plan);
@@ -312,9 +313,9 @@ int merge_verb(const Options& options, const std::vector<std::string>& folders) 
   }
   Options where = options;
   if (where.folder.empty())
-    where.folder = fs::is_directory(folders.front())
+    where.folder = fs::is_directory(utf8_path(folders.front()))
                        ? folders.front()
-                       : fs::path(folders.front()).parent_path().string();
+                       : utf8_text(utf8_path(folders.front()).parent_path());
   if (where.folder.empty()) where.folder = ".";
   RunFolder outputs(where.folder);
   return publish_results(plan, finished_cases, outputs, where);

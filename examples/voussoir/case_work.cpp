@@ -38,7 +38,7 @@ double number_at(const Json& json, const char* key) {
 
 std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read '" + path.string() + "'");
+  if (!file) throw std::runtime_error("cannot read '" + utf8_text(path) + "'");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -211,27 +211,27 @@ void FinishedCases::add_folder(const fs::path& folder, const CasePlan& plan) {
     const auto journal = read_journal(path);
     if (!journal) continue;
     if (journal->header != journal_header(plan))
-      throw std::runtime_error("'" + path.string() + "' is the journal of another plan: {" +
+      throw std::runtime_error("'" + utf8_text(path) + "' is the journal of another plan: {" +
                                journal->header + "}\n   = accepted: journals of {" +
                                journal_header(plan) + "}");
     for (const std::size_t line : journal->damaged_lines)
-      remarks_.push_back("'" + path.string() + "', line " + std::to_string(line) +
+      remarks_.push_back("'" + utf8_text(path) + "', line " + std::to_string(line) +
                          " is damaged: the case on it counts as not finished");
     for (const JournalEntry& entry : journal->entries) {
       std::string result;
       try {
         result = Json::parse("{" + entry.fields + "}").at("result").dump(-1, ' ', false, replace);
       } catch (const Json::exception& error) {
-        throw std::runtime_error("'" + path.string() + "': case " + entry.name + ": " +
+        throw std::runtime_error("'" + utf8_text(path) + "': case " + entry.name + ": " +
                                  error.what());
       }
       const auto [place, is_new] = results_.try_emplace(entry.name, result);
       if (!is_new && place->second != result)
         throw std::runtime_error(
             "two journals differ on the case " + entry.name + ": '" + journals_[entry.name] +
-            "' and '" + path.string() +
+            "' and '" + utf8_text(path) +
             "'\n   = accepted: results of one program; remove the journal that is wrong");
-      if (is_new) journals_[entry.name] = path.string();
+      if (is_new) journals_[entry.name] = utf8_text(path);
     }
   }
 }
@@ -269,7 +269,7 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
       std::string all;
       for (const std::string& line : different) all += "\n   | " + line;
       if (!trouble.empty()) all = "\n   | its plan cannot be read: " + trouble;
-      throw std::runtime_error("the folder " + folder.string() + " holds another " +
+      throw std::runtime_error("the folder " + utf8_text(folder) + " holds another " +
                                to_string(verb) + ", which differs:" + all +
                                "\n   = accepted: another --out, the same input and program, or "
                                "--discard to remove what is there");
@@ -280,8 +280,8 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
     fs::remove(joints);
     fs::remove(path);
   } else if (!journals_in(journals).empty()) {
-    throw std::runtime_error("the folder " + folder.string() + " holds the journals of a " +
-                             to_string(verb) + " without their plan, '" + path.string() +
+    throw std::runtime_error("the folder " + utf8_text(folder) + " holds the journals of a " +
+                             to_string(verb) + " without their plan, '" + utf8_text(path) +
                              "'\n   = accepted: another --out, or --discard to remove them");
   }
   fs::create_directories(journals);
@@ -297,13 +297,13 @@ CasePlan plan_in(const fs::path& path) {
     for (const PlanVerb verb : {PlanVerb::diagram, PlanVerb::realisations, PlanVerb::sweep})
       if (fs::exists(plan_file(path, verb))) plans.push_back(plan_file(path, verb));
   if (plans.empty())
-    throw std::runtime_error("'" + path.string() +
+    throw std::runtime_error("'" + utf8_text(path) +
                              "' holds no plan\n   = accepted: a folder in which sweep, "
                              "realisations or diagram were started, or the plan's file in it");
   if (plans.size() > 1)
-    throw std::runtime_error("'" + path.string() + "' holds " + std::to_string(plans.size()) +
+    throw std::runtime_error("'" + utf8_text(path) + "' holds " + std::to_string(plans.size()) +
                              " plans\n   = accepted: the file of one, such as " +
-                             plans.front().string());
+                             utf8_text(plans.front()));
   return CasePlan::from_json(content_of(plans.front()), plans.front());
 }
 

@@ -7,6 +7,7 @@
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 #include "input_document.hpp"
 #include "input_section.hpp"
@@ -483,8 +484,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
       return;
     }
     // A path in the file is UTF-8 whatever the system's own encoding.
-    input.joints_file =
-        directory / std::filesystem::path(std::u8string(text->begin(), text->end()));
+    input.joints_file = directory / utf8_path(*text);
   });
   file.table("joint", [&](Section& s) { read_joint(s, input.joint); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
@@ -751,7 +751,7 @@ Input read_input_text(std::string_view text, const std::string& name,
 }
 
 Input read_input(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return read_input_text(read_text(file), file.string(), file.parent_path(), overrides);
+  return read_input_text(read_text(file), utf8_text(file), file.parent_path(), overrides);
 }
 
 }  // namespace voussoir::program

@@ -20,6 +20,7 @@
 #include <system_error>
 #include <utility>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 namespace voussoir::program {
 
@@ -480,7 +481,7 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  const std::string name = file.string();
+  const std::string name = utf8_text(file);
   std::error_code status;
   if (name.empty()) refuse_file("\"\"", "the input file has no name", "an input file in TOML");
   if (std::filesystem::is_directory(file, status))

@@ -19,6 +19,7 @@
 #include <vector>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 #include "analysis.hpp"
 #include "case_plan.hpp"
@@ -40,7 +41,10 @@ Work work;
 
 namespace {
 
-extern "C" void ask_to_stop(int) { stop_asked = 1; }
+extern "C" void ask_to_stop(int signal) {
+  stop_asked = 1;
+  std::signal(signal, ask_to_stop);  // Windows forgets it
+}
 
 const char* const smaller_model =
     "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a larger "
@@ -67,7 +71,7 @@ ExitStatus status_of(const RunResult& run) {
 
 int run_verb(const Options& options) {
   work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(options.file, options.overrides);
+  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
@@ -151,9 +155,9 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
 
 /// Where this program lies, for scripts that call it from elsewhere.
 std::string program_path(const char* called) {
-  const std::filesystem::path path(called == nullptr ? "voussoir" : called);
-  return path.has_parent_path() ? std::filesystem::absolute(path).lexically_normal().string()
-                                : path.string();
+  const std::filesystem::path path = voussoir::utf8_path(called == nullptr ? "voussoir" : called);
+  return voussoir::utf8_text(
+      path.has_parent_path() ? std::filesystem::absolute(path).lexically_normal() : path);
 }
 
 /// What was given in place of a verb; nothing if it is one, or none was given.
@@ -312,6 +316,9 @@ int run_program(int argc, char** argv) {
   }
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+#ifdef SIGBREAK  // Windows: Ctrl-Break, or the window is closed
+  std::signal(SIGBREAK, ask_to_stop);
+#endif
   try {
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);
@@ -353,7 +360,12 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int status = run_program(argc, argv);
+  const voussoir::PlainOutput plain;
+  std::vector<std::string> words = voussoir::program_arguments(argc, argv);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int status = run_program(static_cast<int>(words.size()), arguments.data());
   // A full disk behind `> file` shows only now.
   errno = 0;
   std::cout.flush();

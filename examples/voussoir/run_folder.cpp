@@ -109,7 +109,7 @@ Holder holder_of(const std::filesystem::path& lock) {
 }  // namespace
 
 RunFolder::RunFolder(const std::string& folder, const std::string& option, LockedFile::Mode mode)
-    : path_(folder) {
+    : path_(utf8_path(folder)) {
   namespace fs = std::filesystem;
   if (folder.empty())
     throw InvalidInput(option + " \"\": the folder for the results has no name\n   = accepted: " +
@@ -122,17 +122,18 @@ RunFolder::RunFolder(const std::string& folder, const std::string& option, Locke
     there = there.parent_path();
   }
   if (!fs::is_directory(there, error))
-    throw std::runtime_error(option + " " + folder + ": '" + there.string() + "' is not a folder");
+    throw std::runtime_error(option + " " + folder + ": '" + utf8_text(there) +
+                             "' is not a folder");
   if (!may_write_in(there))
     throw std::runtime_error(option + " " + folder + ": no permission to write in '" +
-                             there.string() + "'");
+                             utf8_text(there) + "'");
   while (!missing.empty()) {
     const bool is_new = fs::create_directory(missing.back(), error);
     if (error) {
       const std::string reason = error.message();
       let_go();
       throw std::runtime_error(option + " " + folder + ": cannot make the folder '" +
-                               missing.back().string() + "': " + reason);
+                               utf8_text(missing.back()) + "': " + reason);
     }
     if (is_new) made_.push_back(missing.back());
     missing.pop_back();
@@ -159,7 +160,7 @@ void RunFolder::publish() {
 void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
   const std::filesystem::path path = path_ / ".voussoir.lock";
   const auto refuse = [&](const std::string& reason) {
-    throw std::runtime_error(option + " " + path_.string() + ": " + reason);
+    throw std::runtime_error(option + " " + utf8_text(path_) + ": " + reason);
   };
   const auto refuse_held = [&](const Holder& holder) {
     const std::string who =
@@ -168,7 +169,7 @@ void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
             : "process " + std::to_string(holder.process) +
                   (holder.host == host_name() || holder.host.empty() ? "" : " on " + holder.host);
     refuse("the folder is in use: " + who + " is computing results for it (it holds '" +
-           path.string() +
+           utf8_text(path) +
            "')\n   = accepted: another folder, or this one when that run has ended");
   };
   try {
@@ -180,8 +181,8 @@ void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {
         holder.process != process_number() && process_runs(holder.process))
       refuse_held(holder);
     // Of several that share it the first is named, while it lives.
-    const bool is_named_already = mode == LockedFile::Mode::shared &&
-                                  holder.host == host_name() && process_runs(holder.process);
+    const bool is_named_already = mode == LockedFile::Mode::shared && holder.host == host_name() &&
+                                  process_runs(holder.process);
     if (is_named_already) return;
     lock_->cut(0);
     lock_->append(std::to_string(process_number()) + " " + host_name() +

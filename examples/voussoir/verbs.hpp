@@ -57,23 +57,35 @@ class ProgressLine {
     // Asked every few milliseconds: what it said already is not drawn again.
     if (shown_ && (fraction >= 0 || what != doing_)) {
       doing_ = what;
+      std::string line = what + " ...";
       if (fraction >= 0) {
-        const int filled = static_cast<int>(30 * fraction);
-        std::fprintf(stderr, "\r\033[K%s [%-30s] %3.0f %%", what.c_str(),
-                     std::string(static_cast<std::size_t>(filled), '#').c_str(), 100 * fraction);
-      } else {
-        std::fprintf(stderr, "\r\033[K%s ...", what.c_str());
+        char bar[64];
+        std::snprintf(bar, sizeof bar, " [%-30s] %3.0f %%",
+                      std::string(static_cast<std::size_t>(30 * fraction), '#').c_str(),
+                      100 * fraction);
+        line = what + bar;
       }
-      std::fflush(stderr);
+      draw(line);
     }
     return stop_asked == 0;
   }
   void clear() {
-    if (shown_) std::fprintf(stderr, "\r\033[K");
+    if (length_ == 0) return;
+    draw("");
+    std::fputc('\r', stderr);
   }
 
  private:
+  /// Blanks over what is longer: not every console of Windows can be told to erase a line.
+  void draw(const std::string& line) {
+    const std::size_t longer = length_ > line.size() ? length_ - line.size() : 0;
+    std::fprintf(stderr, "\r%s%s", line.c_str(), std::string(longer, ' ').c_str());
+    std::fflush(stderr);
+    length_ = line.size();
+  }
+
   bool shown_;
+  std::size_t length_ = 0;  ///< of what stands there [bytes]
   std::string doing_;
 };
 

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Which header may include which. Run by CTest:
-#   cmake -DROOT=<.../include/voussoir> -P layers.cmake        checks the tree
+#   cmake -DROOT=<.../include/voussoir> -DPROGRAMS=<.../examples> -P layers.cmake
+#                                                              checks the tree
 #   cmake -DSELF_CHECK=<scratch folder> -P layers.cmake        checks that planted violations are found
 #
 # A header includes its own folder or a strictly lower layer: never a higher one, nor a neighbour.
+# Headers of operating systems are for one header, which all programs use, too: what is built on
+# another system is otherwise broken by the next change, and found out there.
 cmake_minimum_required(VERSION 3.25)
 
 set(layer_core 0)
@@ -28,12 +31,28 @@ set(layer_io 9)
 set(layer_design 9)
 set(core_only theory statistics linear drawing)  # beside the tower: they stand on core alone
 
+set(operating_system_header io/operating_system.hpp)
+set(of_operating_systems
+    "^((unistd|fcntl|signal|pthread|dirent|termios|poll|dlfcn|sched|semaphore|syslog|spawn|pwd|grp|glob|fnmatch|netdb)\\.h|(io|process|direct|conio|tchar|[Ww]indows|[Ww]insock2?|winbase|synchapi|fileapi|shellapi|psapi)\\.h|(sys|linux|asm|net|netinet|arpa|mach)/.*)$")
+
+# What `header` includes that only one header may, in `out`, or "".
+function(system_complaint header included out)
+  set(${out} "" PARENT_SCOPE)
+  if(included MATCHES "${of_operating_systems}" AND NOT header STREQUAL operating_system_header)
+    set(${out} "headers of an operating system belong in ${operating_system_header} alone"
+        PARENT_SCOPE)
+  endif()
+endfunction()
+
 # One complaint about `header` including `included` (both relative to the root, or an outside name), or "".
 function(complaint_about header included inside out)
   set(${out} "" PARENT_SCOPE)
   string(REGEX REPLACE "/.*" "" from "${header}")
   if(NOT inside)
-    if(included MATCHES "^boost/" AND NOT header MATCHES "^io/|^statistics/|^geometry/(detail/)?boost_[^/]*$")
+    system_complaint("${header}" "${included}" complaint)
+    if(complaint)
+      set(${out} "${complaint}" PARENT_SCOPE)
+    elseif(included MATCHES "^boost/" AND NOT header MATCHES "^io/|^statistics/|^geometry/(detail/)?boost_[^/]*$")
       set(${out} "Boost belongs in io/, statistics/ and geometry/boost_*.hpp" PARENT_SCOPE)
     elseif(included MATCHES "^(Eigen|unsupported/Eigen)/" AND from STREQUAL "core"
            AND NOT included STREQUAL "Eigen/Core")
@@ -109,6 +128,24 @@ function(check_tree root out)
   set(${out} "${found}" PARENT_SCOPE)
 endfunction()
 
+# Complaints about the sources under `root`, which are no headers of a layer, one a line, in `out`.
+function(check_programs root out)
+  set(found "")
+  file(GLOB_RECURSE sources RELATIVE "${root}" "${root}/*.cpp" "${root}/*.hpp" "${root}/*.cpp.in")
+  foreach(source IN LISTS sources)
+    file(READ "${root}/${source}" text)
+    string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[<\"][^>\"\n]+" includes "\n${text}")
+    foreach(include IN LISTS includes)
+      string(REGEX REPLACE "^[^<\"]*[<\"]" "" name "${include}")
+      system_complaint("the program ${source}" "${name}" complaint)
+      if(complaint)
+        string(APPEND found "${source}: includes ${name}: ${complaint}\n")
+      endif()
+    endforeach()
+  endforeach()
+  set(${out} "${found}" PARENT_SCOPE)
+endfunction()
+
 # plant(<header> <include line>...): a header in the scratch tree.
 function(plant header)
   list(JOIN ARGN "\n" lines)
@@ -127,6 +164,7 @@ if(SELF_CHECK)
     plant(detection/a.hpp "#include <voussoir/geometry/a.hpp>" "#include <Eigen/Dense>")
     plant(rockmass/a.hpp "#include \"voussoir/geometry/a.hpp\"")
     plant(io/a.hpp "#include <voussoir/detection/a.hpp>" "#include <boost/x.hpp>")
+    plant(io/operating_system.hpp "#include <unistd.h>" "#include <sys/stat.h>" "#include <io.h>")
     plant(voussoir.hpp "#include <voussoir/io/a.hpp>" "#include <voussoir/theory/a.hpp>")
   endmacro()
   clean_tree()
@@ -146,6 +184,11 @@ if(SELF_CHECK)
       "theory/x.hpp|#include <voussoir/geometry/a.hpp>|core only"
       "solver/x.hpp|#include <toml++/toml.h>|stay out"
       "solver/x.hpp|#include <voussoir/core/none.hpp>|does not exist"
+      "io/x.hpp|#include <unistd.h>|operating system"
+      "core/x.hpp|#include <windows.h>|operating system"
+      "core/operating_system.hpp|# include <fcntl.h>|operating system"
+      "core/x.hpp|#include <sys/stat.h>|operating system"
+      "io/detail/x.hpp|#include \"io.h\"|operating system"
       "elsewhere/x.hpp|#include <vector>|no folder")
   foreach(row IN LISTS violations)
     string(REPLACE "|" ";" row "${row}")
@@ -159,9 +202,25 @@ if(SELF_CHECK)
       message(FATAL_ERROR "${header} with ${line}: expected one complaint `${expected}`, got:\n${found}")
     endif()
   endforeach()
+  clean_tree()
+  plant(verb.cpp "#include <csignal>" "#include <voussoir/io/operating_system.hpp>")
+  file(REMOVE "${SELF_CHECK}/io/operating_system.hpp")
+  check_programs("${SELF_CHECK}" found)
+  if(found)
+    message(FATAL_ERROR "clean programs are refused:\n${found}")
+  endif()
+  plant(verb.cpp "#include <sys/wait.h>")
+  check_programs("${SELF_CHECK}" found)
+  if(NOT found MATCHES "^verb.cpp: [^\n]*operating system[^\n]*\n$")
+    message(FATAL_ERROR "a program with <sys/wait.h>: expected one complaint, got:\n${found}")
+  endif()
   file(REMOVE_RECURSE "${SELF_CHECK}")
 else()
   check_tree("${ROOT}" found)
+  if(PROGRAMS)
+    check_programs("${PROGRAMS}" found_in_programs)
+    string(APPEND found "${found_in_programs}")
+  endif()
   if(found)
     message(FATAL_ERROR "${found}")
   endif()

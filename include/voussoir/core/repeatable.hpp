@@ -11,14 +11,15 @@
 /// rock everywhere. IEEE double precision, rounding to nearest, no -ffast-math.
 ///
 /// Two things spoil that in plain code. A compiler may fuse a product and a sum into one operation
-/// that rounds once (-march=native with GCC's default -ffp-contract=fast); here a product is an
-/// explicit `std::fma(a, b, 0)`, which is rounded and can be fused with nothing. And the last digit
-/// of sin or log is the library's choice, or the compiler's where it knows the argument; here they
-/// are sums of IEEE operations in twice the digits (pairs of doubles), rounded at the end.
+/// that rounds once (-march=native with GCC's default -ffp-contract=fast); here a product has a
+/// zero added, with which it may be fused, and with nothing else. And the last digit of sin or log
+/// is the library's choice, or the compiler's where it knows the argument; here they are sums of
+/// IEEE operations in twice the digits (pairs of doubles), rounded at the end. Nothing of it is the
+/// library's, not even `std::fma`: that of mingw-w64 rounds twice.
 namespace voussoir::repeatable {
 
 /// a b, rounded. (-0 becomes +0.)
-[[nodiscard]] inline double product(double a, double b) { return std::fma(a, b, 0.0); }
+[[nodiscard]] inline double product(double a, double b) { return a * b + 0.0; }
 
 template <int Dim>
 [[nodiscard]] Vec<Dim> scaled(double factor, const Vec<Dim>& v) {
@@ -66,9 +67,19 @@ struct Pair {
   const double s = a + b, part = s - a;
   return {s, (a - (s - part)) + (b - part)};
 }
+/// In two parts of 26 digits, whose products with such parts are exact.
+[[nodiscard]] inline Pair halves(double a) {
+  const double shifted = product(0x1p27 + 1, a), high = shifted - (shifted - a);
+  return {high, a - high};
+}
 [[nodiscard]] inline Pair exact_product(double a, double b) {
   const double p = product(a, b);
+#ifdef __FP_FAST_FMA  // an operation of the processor
   return {p, std::fma(a, b, -p)};
+#else  // the same
+  const Pair x = halves(a), y = halves(b);
+  return {p, ((x.high * y.high - p) + x.high * y.low + x.low * y.high) + x.low * y.low};
+#endif
 }
 [[nodiscard]] inline Pair operator+(const Pair& a, const Pair& b) {
   const Pair high = exact_sum(a.high, b.high), low = exact_sum(a.low, b.low);
@@ -92,7 +103,8 @@ struct Pair {
 
 [[nodiscard]] inline Pair operator/(const Pair& a, double b) {
   const double q = a.high / b;
-  return exact_sum(q, (std::fma(-q, b, a.high) + a.low) / b);
+  const Pair whole = exact_product(q, b);
+  return exact_sum(q, (((a.high - whole.high) - whole.low) + a.low) / b);
 }
 
 /// pi / 2 and ln 2 in three doubles.
@@ -117,7 +129,7 @@ inline constexpr double log_of_2[3] = {0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-
 [[nodiscard]] inline Pair alternating_series(const Pair& minus_square, int m) {
   double end = 1;
   for (int n = m + 20; n >= m + 8; n -= 2)
-    end = std::fma(minus_square.high, end / (n * (n + 1)), 1);
+    end = product(minus_square.high, end / (n * (n + 1))) + 1;
   Pair sum{end, 0};
   for (int n = m + 6; n >= m; n -= 2) sum = 1 + minus_square * sum / (n * (n + 1));
   return sum;

@@ -19,7 +19,7 @@ namespace voussoir {
 namespace detail {
 [[noreturn]] inline void throw_write_error(const std::filesystem::path& path,
                                            const std::string& reason) {
-  throw std::runtime_error("cannot write '" + path.string() + "': " + reason);
+  throw std::runtime_error("cannot write '" + utf8_text(path) + "': " + reason);
 }
 
 /// Writes all of `content` and closes the file.
@@ -113,7 +113,7 @@ VOUSSOIR_INLINE StagedFile::StagedFile(const std::filesystem::path& path, std::s
     is_device_ = true;
     return;
   }
-  temporary_ = path_.parent_path() / detail::part_name(path_.filename().string());
+  temporary_ = path_.parent_path() / utf8_path(detail::part_name(utf8_text(path_.filename())));
   errno = 0;
   std::FILE* file = create_new_file(temporary_);
   if (file == nullptr) {
@@ -131,7 +131,7 @@ VOUSSOIR_INLINE void StagedFile::publish() {
   if (is_device_) {
     is_device_ = false;
     errno = 0;
-    std::FILE* file = std::fopen(path_.string().c_str(), "wb");
+    std::FILE* file = open_to_write(path_);
     const int reason = file == nullptr ? errno : detail::write_and_close(file, content_for_device_);
     if (reason != 0) detail::throw_write_error(path_, detail::error_text(reason));
   }
@@ -167,7 +167,7 @@ class OutputSet {
   void add(const std::filesystem::path& path, std::string_view content) {
     for (const StagedFile& file : files_) {
       if (file.path().lexically_normal() == path.lexically_normal()) {
-        throw std::invalid_argument("OutputSet: '" + path.string() + "' was added twice");
+        throw std::invalid_argument("OutputSet: '" + utf8_text(path) + "' was added twice");
       }
     }
     files_.emplace_back(path, content);
@@ -232,7 +232,7 @@ VOUSSOIR_INLINE int clear_abandoned_parts(const std::filesystem::path& folder) {
   std::vector<fs::path> abandoned;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
        entry.increment(ignored))
-    if (detail::is_abandoned_part(entry->path().filename().string()))
+    if (detail::is_abandoned_part(utf8_text(entry->path().filename())))
       abandoned.push_back(entry->path());
   int removed = 0;
   for (const fs::path& path : abandoned)

@@ -151,7 +151,7 @@ VOUSSOIR_INLINE std::optional<JournalText> read_journal(const std::filesystem::p
     if (++number == 1) {
       const auto header = detail::checked_fields(line, detail::journal_first);
       if (!header)
-        throw std::runtime_error("'" + path.string() +
+        throw std::runtime_error("'" + utf8_text(path) +
                                  "' is no journal of this version: its first line is `" +
                                  line.substr(0, 60) + "`\n   = accepted: a file that begins {" +
                                  detail::journal_first + ",\"check\":");
@@ -183,7 +183,7 @@ VOUSSOIR_INLINE std::optional<Journal> Journal::open(const std::filesystem::path
   const auto before = read_journal(path);
   if (before) {
     if (before->header != header)
-      throw std::runtime_error("'" + path.string() + "' is the journal of other work: {" +
+      throw std::runtime_error("'" + utf8_text(path) + "' is the journal of other work: {" +
                                before->header + "}\n   = accepted: one of {" + header + "}");
     if (before->torn_bytes > 0) file->cut(std::filesystem::file_size(path) - before->torn_bytes);
   } else {

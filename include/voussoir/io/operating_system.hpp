@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 #include <voussoir/core/bodies.hpp>
 #if VOUSSOIR_BODIES
 #include <algorithm>
@@ -34,6 +35,11 @@ __declspec(dllimport) void* __stdcall OpenProcess(unsigned long, int, unsigned l
 __declspec(dllimport) int __stdcall GetExitCodeProcess(void*, unsigned long*);
 __declspec(dllimport) int __stdcall CloseHandle(void*);
 __declspec(dllimport) unsigned long __stdcall GetLastError();
+__declspec(dllimport) wchar_t* __stdcall GetCommandLineW();
+__declspec(dllimport) wchar_t** __stdcall CommandLineToArgvW(const wchar_t*, int*);
+__declspec(dllimport) void* __stdcall LocalFree(void*);
+__declspec(dllimport) unsigned __stdcall GetConsoleOutputCP();
+__declspec(dllimport) int __stdcall SetConsoleOutputCP(unsigned);
 }
 #else
 #include <fcntl.h>
@@ -62,6 +68,34 @@ namespace voussoir {
 /// Opens a file for writing that must not exist yet.
 /// @return  null, and errno says why
 [[nodiscard]] VOUSSOIR_INLINE std::FILE* create_new_file(const std::filesystem::path& path);
+/// Opens a file or device for writing from its beginning.
+/// @return  null, and errno says why
+[[nodiscard]] VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path);
+/// A path from its text in UTF-8. (`path(std::string)` is that on POSIX alone: Windows takes the
+/// text for one in the letters of the country that it was bought in.)
+[[nodiscard]] inline std::filesystem::path utf8_path(std::string_view text) {
+  return std::u8string(text.begin(), text.end());
+}
+/// The text of a path, in UTF-8.
+[[nodiscard]] inline std::string utf8_text(const std::filesystem::path& path) {
+  const std::u8string text = path.u8string();
+  return {text.begin(), text.end()};
+}
+/// What `main` was given, the name of the program first, in UTF-8.
+[[nodiscard]] VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv);
+
+/// While it lives, standard output and error take bytes as they are: UTF-8, and no carriage return
+/// before the end of a line. On POSIX they do so anyway.
+class PlainOutput {
+ public:
+  VOUSSOIR_INLINE PlainOutput();
+  VOUSSOIR_INLINE ~PlainOutput();
+  PlainOutput(const PlainOutput&) = delete;
+  PlainOutput& operator=(const PlainOutput&) = delete;
+
+ private:
+  unsigned code_page_ = 0;  ///< of the console before; 0: there is none
+};
 
 /// A file open for writing and locked, until it is closed or its process ends in whatever way: no
 /// lock outlives its owner. Others may read it meanwhile.
@@ -124,7 +158,7 @@ namespace detail {
 
 [[noreturn]] inline void throw_file_error(const char* what, const std::filesystem::path& path,
                                           int error_number) {
-  throw std::runtime_error(std::string(what) + " '" + path.string() +
+  throw std::runtime_error(std::string(what) + " '" + utf8_text(path) +
                            "': " + std::generic_category().message(error_number));
 }
 
@@ -230,6 +264,26 @@ VOUSSOIR_INLINE std::FILE* create_new_file(const std::filesystem::path& path) {
   errno = _wsopen_s(&descriptor, path.c_str(), mode, 0x40 /* share all */, _S_IREAD | _S_IWRITE);
   return descriptor < 0 ? nullptr : _fdopen(descriptor, "wb");
 }
+VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
+  return _wfopen(path.c_str(), L"wb");
+}
+VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
+  int count = 0;
+  wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &count);
+  if (words == nullptr) return {argv, argv + argc};
+  std::vector<std::string> arguments;
+  for (int k = 0; k < count; ++k) arguments.push_back(utf8_text(words[k]));
+  LocalFree(words);
+  return arguments;
+}
+VOUSSOIR_INLINE PlainOutput::PlainOutput() : code_page_(GetConsoleOutputCP()) {
+  constexpr unsigned utf8 = 65001;
+  for (std::FILE* const stream : {stdout, stderr}) _setmode(_fileno(stream), _O_BINARY);
+  if (code_page_ != 0) SetConsoleOutputCP(utf8);
+}
+VOUSSOIR_INLINE PlainOutput::~PlainOutput() {
+  if (code_page_ != 0) SetConsoleOutputCP(code_page_);
+}
 
 #else
 
@@ -250,6 +304,14 @@ VOUSSOIR_INLINE bool may_write_in(const std::filesystem::path& folder) {
 VOUSSOIR_INLINE std::FILE* create_new_file(const std::filesystem::path& path) {
   return std::fopen(path.c_str(), "wbx");
 }
+VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
+  return std::fopen(path.c_str(), "wb");
+}
+VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
+  return {argv, argv + argc};
+}
+VOUSSOIR_INLINE PlainOutput::PlainOutput() = default;
+VOUSSOIR_INLINE PlainOutput::~PlainOutput() { (void)code_page_; }
 
 #endif
 
