@@ -6,3 +6,8 @@ add_custom_target(
           "-DOUTPUT=${PROJECT_BINARY_DIR}/single/voussoir.hpp" -P
           "${CMAKE_CURRENT_LIST_DIR}/single_header.cmake"
   VERBATIM)
+add_custom_target(
+  voussoir_debian
+  COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" "-DOUTPUT=${PROJECT_BINARY_DIR}/debian"
+          "-DVERSION=${PROJECT_VERSION}" -P "${CMAKE_CURRENT_LIST_DIR}/debian.cmake"
+  VERBATIM)
