@@ -23,6 +23,22 @@ install(
         "${PROJECT_BINARY_DIR}/cmake/voussoirConfigVersion.cmake"
   DESTINATION "${package_dir}"
   COMPONENT voussoir_headers)
+# For pkg-config; the prefix is counted from where the file lies, so that a package can be moved.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_DATADIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  set(pc_prefix "${CMAKE_INSTALL_PREFIX}")
+  set(pc_includedir "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+else()
+  file(RELATIVE_PATH up "/${CMAKE_INSTALL_DATADIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" up "${up}")
+  set(pc_prefix "\${pcfiledir}/${up}")
+  set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+configure_file("${CMAKE_CURRENT_LIST_DIR}/voussoir.pc.in" "${PROJECT_BINARY_DIR}/cmake/voussoir.pc"
+               @ONLY)
+install(
+  FILES "${PROJECT_BINARY_DIR}/cmake/voussoir.pc"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig"
+  COMPONENT voussoir_headers)
 install(
   FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}"
