@@ -366,8 +366,12 @@ TEST_SUITE("program/cases") {
 
   TEST_CASE("a case that fails is a result with its reason, and the others go on") {
     const Folder folder;
-    const std::string file = write_file(folder / "case.toml", small_input());
-    // The moduli of rock that is hardly cut cannot be measured, which elastic ground needs.
+    std::string text = small_input();
+    const std::size_t second = text.rfind("[[joint_set]]");
+    text.erase(second, text.find("[joint]") - second);
+    const std::string file = write_file(folder / "case.toml", text);
+    // The moduli of rock that is hardly cut, and in one direction, cannot be measured, which
+    // elastic ground needs.
     const Outcome outcome = run_program({"sweep", file, "--out", folder / "out", "--set",
                                          "boundary={sides=\"elastic\",base=\"elastic\"}", "--vary",
                                          "blocks.max_elongation=20, 2", "-n", "2"});
