@@ -516,6 +516,19 @@ TEST_SUITE("program/cases") {
     CHECK(results_in(out) == results_in(folder / "whole"));
   }
 
+  TEST_CASE(
+      "several processes of a program without MPI are told that they cannot share their work") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    setenv("OMPI_COMM_WORLD_SIZE", "4", 1);
+    const Outcome outcome = run_program(sweep(file, folder / "out"));
+    unsetenv("OMPI_COMM_WORLD_SIZE");
+    if (outcome.status == 0) return;  // a program with MPI: tests/engines/run
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("was built without MPI, and mpirun has started it 4 times") !=
+          std::string::npos);
+  }
+
   TEST_CASE("mapped joints travel with the plan") {
     const Folder folder;
     std::string text = small_input();
