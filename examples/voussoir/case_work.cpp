@@ -210,28 +210,27 @@ void FinishedCases::add_folder(const fs::path& folder, const CasePlan& plan) {
   for (const fs::path& path : journals_in(journal_folder(folder, plan.parts().verb))) {
     const auto journal = read_journal(path);
     if (!journal) continue;
+    const std::string name = "'" + utf8_text(path) + "'";
     if (journal->header != journal_header(plan))
-      throw std::runtime_error("'" + utf8_text(path) + "' is the journal of another plan: {" +
-                               journal->header + "}\n   = accepted: journals of {" +
-                               journal_header(plan) + "}");
+      throw std::runtime_error(name + " is the journal of another plan: {" + journal->header +
+                               "}\n   = accepted: journals of {" + journal_header(plan) + "}");
     for (const std::size_t line : journal->damaged_lines)
-      remarks_.push_back("'" + utf8_text(path) + "', line " + std::to_string(line) +
+      remarks_.push_back(name + ", line " + std::to_string(line) +
                          " is damaged: the case on it counts as not finished");
     for (const JournalEntry& entry : journal->entries) {
       std::string result;
       try {
         result = Json::parse("{" + entry.fields + "}").at("result").dump(-1, ' ', false, replace);
       } catch (const Json::exception& error) {
-        throw std::runtime_error("'" + utf8_text(path) + "': case " + entry.name + ": " +
-                                 error.what());
+        throw std::runtime_error(name + ": case " + entry.name + ": " + error.what());
       }
       const auto [place, is_new] = results_.try_emplace(entry.name, result);
       if (!is_new && place->second != result)
         throw std::runtime_error(
-            "two journals differ on the case " + entry.name + ": '" + journals_[entry.name] +
-            "' and '" + utf8_text(path) +
-            "'\n   = accepted: results of one program; remove the journal that is wrong");
-      if (is_new) journals_[entry.name] = utf8_text(path);
+            "two journals differ on the case " + entry.name + ": " + journals_[entry.name] +
+            " and " + name +
+            "\n   = accepted: results of one program; remove the journal that is wrong");
+      if (is_new) journals_[entry.name] = name;
     }
   }
 }

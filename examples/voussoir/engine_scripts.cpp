@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/io/operating_system.hpp>
 
 namespace voussoir::program {
 

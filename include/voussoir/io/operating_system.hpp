@@ -77,10 +77,7 @@ namespace voussoir {
   return std::u8string(text.begin(), text.end());
 }
 /// The text of a path, in UTF-8.
-[[nodiscard]] inline std::string utf8_text(const std::filesystem::path& path) {
-  const std::u8string text = path.u8string();
-  return {text.begin(), text.end()};
-}
+[[nodiscard]] VOUSSOIR_INLINE std::string utf8_text(const std::filesystem::path& path);
 /// What `main` was given, the name of the program first, in UTF-8.
 [[nodiscard]] VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv);
 
@@ -315,6 +312,11 @@ VOUSSOIR_INLINE PlainOutput::~PlainOutput() { (void)code_page_; }
 
 #endif
 
+VOUSSOIR_INLINE std::string utf8_text(const std::filesystem::path& path) {
+  const std::u8string text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
 VOUSSOIR_INLINE std::optional<LockedFile> LockedFile::open(const std::filesystem::path& path,
                                                            Mode mode) {
   while (true) {
@@ -362,15 +364,19 @@ VOUSSOIR_INLINE void LockedFile::close() noexcept {
 
 VOUSSOIR_INLINE void LockedFile::close_and_remove() noexcept {
   if (descriptor_ < 0) return;
+  std::error_code ignored;  // nothing left to tell it to
+#ifdef _WIN32
+  // Windows removes no file that is open, here or elsewhere. (Nor would it lock this one a second
+  // time, to see whether others hold it: not even for the process that has locked it.)
+  close();
+  std::filesystem::remove(path_, ignored);
+#else
   // While it is still locked, and by nobody else: a file that others hold is theirs to remove.
   const bool is_sole =
       !is_locked_ || detail::lock_descriptor(descriptor_, true) == detail::LockOutcome::locked;
-  std::error_code ignored;  // nothing left to tell it to
-#ifdef _WIN32
-  close();  // Windows removes no open file
-#endif
   if (is_sole) std::filesystem::remove(path_, ignored);
   close();
+#endif
 }
 
 }  // namespace voussoir
