@@ -246,8 +246,9 @@ TEST_SUITE("program/bad_input") {
       CHECK(outcome.status == 2);
       CHECK(outcome.err.find("`" + c.word + "` is not a verb") != std::string::npos);
       CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
-      CHECK(outcome.err.find("accepted: run, diagram, patterns, paper, verify") !=
-            std::string::npos);
+      CHECK(outcome.err.find(
+                "accepted: run, diagram, realisations, sweep, case, merge, patterns, paper, "
+                "verify") != std::string::npos);
     }
   }
 
