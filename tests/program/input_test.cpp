@@ -632,7 +632,7 @@ TEST_SUITE("program/input") {
   }
 
   TEST_CASE("the content of an input is that of its keys, however they are written") {
-    const std::string content = read(good).content;
+    const std::vector<std::string> content = read(good).content;
     CHECK(read("# a comment\n\n" + good).content == content);
     CHECK(read(with("K0 = 1\n", "K0   =  1  # hydrostatic\r\n")).content == content);
     CHECK(read(with("K0 = 1", "K0 = 2"), {"stress.K0=1"}).content == content);
