@@ -218,8 +218,8 @@ std::string engine_advice(const CasePlan& plan, const Engine& engine) {
            "\n         voussoir merge " + shell_quoted(folder) +
            "   (when it has ended, or to see what is missing)\n";
   return "next     snakemake -s " + shell_quoted(folder + "/" + verb + ".snakefile") +
-         " --profile " + shell_quoted(folder + "/" + verb + ".local") + "\n         or with " + verb +
-         ".slurm in its place: each chunk is then a job of Slurm\n";
+         " --profile " + shell_quoted(folder + "/" + verb + ".local") + "\n         or with " +
+         verb + ".slurm in its place: each chunk is then a job of Slurm\n";
 }
 
 }  // namespace voussoir::program

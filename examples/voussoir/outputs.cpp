@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,8 +25,6 @@ namespace {
 double beam_moment(const FeetInput& feet, double bearing) {
   return feet.on_beam().moment * bearing * feet.beam->spacing * feet.beam->spacing;
 }
-
-constexpr double degree = std::numbers::pi / 180;
 
 std::string text(const char* format, double value) {
   char buffer[64];

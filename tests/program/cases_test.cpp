@@ -106,19 +106,20 @@ TEST_SUITE("program/cases") {
     CHECK(varied_key("k=0.1..0.4:4").values ==
           std::vector<std::string>{"0.1", "0.2", "0.3", "0.4"});  // not 0.30000000000000004
     CHECK(varied_key("k=1..-1 m:3").values == std::vector<std::string>{"1 m", "0 m", "-1 m"});
-    for (const auto& [text, word] :
-         std::map<std::string, std::string>{{"k", "no `=`"},
-                                            {"=1", "no key"},
-                                            {"k=", "a value is empty"},
-                                            {"k=1,,2", "a value is empty"},
-                                            {"k=1,1", "stands there twice"},
-                                            {"k=1..2", "how many values"},
-                                            {"k=1..2:1", "2 to 10000"},
-                                            {"k=1..2:2.5", "2 to 10000"},
-                                            {"k=1..1:3", "different numbers"},
-                                            {"k=1..m:3", "ends with a number"}}) {
-      CAPTURE(text);
-      CHECK_THROWS_WITH_AS((void)varied_key(text), doctest::Contains(word.c_str()), InvalidInput);
+    const std::map<std::string, std::string> faulty{{"k", "no `=`"},
+                                                    {"=1", "no key"},
+                                                    {"k=", "a value is empty"},
+                                                    {"k=1,,2", "a value is empty"},
+                                                    {"k=1,1", "stands there twice"},
+                                                    {"k=1..2", "how many values"},
+                                                    {"k=1..2:1", "2 to 10000"},
+                                                    {"k=1..2:2.5", "2 to 10000"},
+                                                    {"k=1..1:3", "different numbers"},
+                                                    {"k=1..m:3", "ends with a number"}};
+    for (const auto& fault : faulty) {
+      CAPTURE(fault.first);
+      CHECK_THROWS_WITH_AS((void)varied_key(fault.first), doctest::Contains(fault.second.c_str()),
+                           InvalidInput);
     }
   }
 
