@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -39,6 +40,18 @@ int say_refused(const WorkDone& done) {
             << " left for another run; those that are finished are kept\n   = accepted: fewer "
                "--threads, or a machine with more memory\n";
   return failed;
+}
+
+int say_missing(const CasePlan& plan, const std::vector<std::size_t>& missing) {
+  std::cerr << "not complete: " << plan.size() - missing.size() << " of " << plan.size()
+            << " cases are finished; missing:\n";
+  constexpr std::size_t most = 10;
+  for (std::size_t k = 0; k < std::min(most, missing.size()); ++k)
+    std::cerr << "   | " << plan.label(plan.at(missing[k])) << "\n";
+  if (missing.size() > most) std::cerr << "   | and " << missing.size() - most << " more\n";
+  std::cerr << "nothing written\n   = accepted: all cases, in the folders given: run the chunks "
+               "that are missing again\n";
+  return incomplete;
 }
 
 /// What reports of the work do: show them, and pass on a wish to stop.
@@ -90,8 +103,11 @@ double trial(const CasePlan& plan, const fs::path& folder, FinishedCases& finish
   const auto start = std::chrono::steady_clock::now();
   const auto missing = finished_cases.missing(plan);
   if (missing.empty()) return 0;
-  (void)work_on(plan, {missing[missing.size() / 2]}, finished_cases, *journal,
-                {.threads = 1, .report = shown_on(line)});
+  const WorkDone done = work_on(plan, {missing[missing.size() / 2]}, finished_cases, *journal,
+                                {.threads = 1, .report = shown_on(line)});
+  if (!done.refused.empty())
+    throw std::runtime_error("the case that was tried, " + done.refused.front() +
+                             "\n   = accepted: --chunks N, and machines with more memory");
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -149,10 +165,29 @@ int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Option
   return finished;
 }
 
-}  // namespace
+/// Of several processes that work together one has failed, and says so itself.
+struct FailedElsewhere {};
 
-int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings) {
-  if (const std::string why = why_ranks_are_apart(); !why.empty()) throw InvalidInput(why);
+/// A step of all processes together: none goes on to the next if one has failed in this.
+/// @throws FailedElsewhere  in all but the first of those that failed: that one throws what its
+/// step
+///                          threw
+template <class Step>
+void together(const Ranks& ranks, const Step& step) {
+  std::exception_ptr trouble;
+  try {
+    step();
+  } catch (...) {
+    trouble = std::current_exception();
+  }
+  const int order = ranks.size() - ranks.rank(),  // the first has the largest
+      first_failed = ranks.largest(trouble ? order : 0);
+  if (first_failed == 0) return;
+  if (first_failed == order) std::rethrow_exception(trouble);
+  throw FailedElsewhere();
+}
+
+CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& settings) {
   work = {"reading " + options.file, "a smaller input file"};
   PlanParts parts{.verb = verb,
                   .file = options.file,
@@ -161,72 +196,80 @@ int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings
                   .overrides = options.overrides,
                   .realisations = settings.realisations};
   for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
-  const CasePlan plan(std::move(parts));
+  return CasePlan(std::move(parts));
+}
+
+int worked_plan(const Options& options, PlanVerb verb, const PlanOptions& settings) {
+  const Ranks& ranks = *options.ranks;
+  const bool is_first = ranks.rank() == 0;
+  std::optional<CasePlan> made;
+  together(ranks, [&] { made.emplace(plan_of(options, verb, settings)); });
+  const CasePlan& plan = *made;
   work = {"computing the cases with --threads " + std::to_string(options.threads),
           "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a "
           "larger blocks.min_inscribed_radius, or fewer --threads"};
-  const Ranks& ranks = *options.ranks;
-  const bool is_first = ranks.rank() == 0;
 
   // The first of several processes holds the folder for all.
   std::optional<RunFolder> outputs;
   FinishedCases finished_cases;
-  std::string trouble;
-  const auto try_to = [&](const auto& step) {
-    try {
-      step();
-    } catch (const std::exception& error) {
-      trouble = error.what();
-    }
-    if (ranks.largest(trouble.empty() ? 0 : 1) == 0) return;
-    throw std::runtime_error(trouble.empty() ? "another of the processes has failed" : trouble);
-  };
-  try_to([&] {
+  together(ranks, [&] {
     if (!is_first) return;
     outputs.emplace(options.folder);
     adopt_plan(utf8_path(options.folder), plan, settings.discard);
     outputs->keep();
   });
-  try_to([&] { finished_cases.add_folder(utf8_path(options.folder), plan); });
+  together(ranks, [&] { finished_cases.add_folder(utf8_path(options.folder), plan); });
   if (is_first) say_remarks(finished_cases);
   ProgressLine line(options.quiet || !is_first);
-  if (!settings.engine.empty()) return write_plan(plan, finished_cases, options, settings, line);
+  if (!settings.engine.empty())
+    return is_first ? write_plan(plan, finished_cases, options, settings, line) : finished;
 
-  std::vector<std::size_t> todo;
-  for (const std::size_t index : plan.work_order())
-    if (!finished_cases.has(plan.name(index))) todo.push_back(index);
+  // Parts of all cases, not of those that are left: of these two processes may think differently,
+  // if a network drive shows one of them a journal later than the other.
+  const std::vector<std::size_t> cases =
+      part_of(plan.work_order(), static_cast<std::size_t>(ranks.rank()),
+              static_cast<std::size_t>(ranks.size()));
+  const std::string name = ranks.size() == 1 ? "local" : "rank-" + std::to_string(ranks.rank() + 1);
   WorkDone done;
   int status = finished;
-  if (!todo.empty()) {
-    const std::string name =
-        ranks.size() == 1 ? "local" : "rank-" + std::to_string(ranks.rank() + 1);
-    std::optional<Journal> journal;
-    try_to([&] {
-      journal = journal_of(utf8_path(options.folder), plan, name);
-      if (!journal)
-        throw std::runtime_error("another process writes the journal " + name + ".jsonl in " +
-                                 options.folder);
-    });
-    try_to([&] {
-      try {
-        done = work_on(plan,
-                       part_of(todo, static_cast<std::size_t>(ranks.rank()),
-                               static_cast<std::size_t>(ranks.size())),
-                       finished_cases, *journal,
-                       {.threads = options.threads, .report = shown_on(line)});
-      } catch (const Stopped&) {
-        status = interrupted;
-      }
-    });
-  }
+  std::optional<Journal> journal;
+  together(ranks, [&] {
+    journal = journal_of(utf8_path(options.folder), plan, name);
+    if (!journal)
+      throw std::runtime_error("another process writes the journal " + name + ".jsonl in " +
+                               options.folder);
+  });
+  together(ranks, [&] {
+    try {
+      done = work_on(plan, cases, finished_cases, *journal,
+                     {.threads = options.threads, .report = shown_on(line)});
+    } catch (const Stopped&) {
+      status = interrupted;
+    }
+  });
   line.clear();
-  if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
+  together(ranks, [&] {
+    if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
+  });
   status = ranks.largest(status);
   if (status == interrupted) return is_first ? say_kept(finished_cases, plan) : interrupted;
   if (!done.refused.empty()) status = say_refused(done);
   status = ranks.largest(status);
   if (status != finished || !is_first) return status;
+  if (const auto missing = finished_cases.missing(plan); !missing.empty())
+    return say_missing(plan, missing);
   return publish_results(plan, finished_cases, *outputs, options);
+}
+
+}  // namespace
+
+int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings) {
+  if (const std::string why = why_ranks_are_apart(); !why.empty()) throw InvalidInput(why);
+  try {
+    return worked_plan(options, verb, settings);
+  } catch (const FailedElsewhere&) {
+    return failed;
+  }
 }
 
 int case_verb(const Options& options, const std::string& chunk) {
@@ -299,18 +342,8 @@ int merge_verb(const Options& options, const std::vector<std::string>& folders) 
         fs::is_directory(utf8_path(path)) ? utf8_path(path) : utf8_path(path).parent_path(), plan);
   }
   say_remarks(finished_cases);
-  const auto missing = finished_cases.missing(plan);
-  if (!missing.empty()) {
-    std::cerr << "not complete: " << plan.size() - missing.size() << " of " << plan.size()
-              << " cases are finished; missing:\n";
-    constexpr std::size_t most = 10;
-    for (std::size_t k = 0; k < std::min(most, missing.size()); ++k)
-      std::cerr << "   | " << plan.label(plan.at(missing[k])) << "\n";
-    if (missing.size() > most) std::cerr << "   | and " << missing.size() - most << " more\n";
-    std::cerr << "nothing written\n   = accepted: all cases, in the folders given: run the chunks "
-                 "that are missing again\n";
-    return incomplete;
-  }
+  if (const auto missing = finished_cases.missing(plan); !missing.empty())
+    return say_missing(plan, missing);
   Options where = options;
   if (where.folder.empty())
     where.folder = fs::is_directory(utf8_path(folders.front()))

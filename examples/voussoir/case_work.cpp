@@ -114,7 +114,7 @@ TunnelResult computed(const CasePlan& plan, std::size_t index, RockStore& rocks,
   try {
     const auto rock = rocks.of(input, report);
     return supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
-  } catch (const InvalidInput& error) {
+  } catch (const std::logic_error& error) {  // InvalidInput, and an invariant that does not hold
     return failed(error.what());
   } catch (const NumericalFault& fault) {
     return failed(fault.what());
@@ -345,9 +345,12 @@ WorkDone work_on(const CasePlan& plan, const std::vector<std::size_t>& cases,
     if (!settings.report(text, static_cast<double>(finished.size()) / static_cast<double>(all)))
       go_on = false;
   };
-  // Asked every few milliseconds from every thread: whether to stop, no more.
+  // Asked every few milliseconds from every thread: whether to stop. And to the disk with a
+  // short case behind which a long one is computed.
   const Report quiet = [&](const std::string&, double) {
     if (settings.report && !settings.report("", -1)) go_on = false;
+    const std::scoped_lock lock(guard);
+    journal.sync_when_due();
     return go_on.load();
   };
   const auto next = [&]() -> std::optional<std::size_t> {

@@ -63,7 +63,8 @@ struct JournalText {
 ///   journal->add({"a1", "\"result\":3"});   // on return a killed process loses it no more
 ///
 /// Each line goes to the operating system in one write, and to the disk itself at most a second
-/// later (`sync_interval`): a power cut costs that second.
+/// later (`sync_interval`), if somebody calls `sync_when_due` meanwhile: a power cut costs that
+/// second.
 class Journal {
  public:
   static constexpr double sync_interval = 1;  ///< [s]
@@ -80,6 +81,8 @@ class Journal {
   VOUSSOIR_INLINE void add(const JournalEntry& entry);
   /// @throws std::runtime_error
   VOUSSOIR_INLINE void sync();
+  /// Does so if a line waits for it since `sync_interval`. @throws std::runtime_error
+  VOUSSOIR_INLINE void sync_when_due();
 
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
   /// See `LockedFile::is_locked`.
@@ -89,7 +92,8 @@ class Journal {
   explicit Journal(LockedFile file) : file_(std::move(file)) {}
 
   LockedFile file_;
-  double synced_ = 0;  ///< by the steady clock [s]
+  double synced_ = 0;       ///< by the steady clock [s]
+  bool is_behind_ = false;  ///< lines were added since
 };
 
 #if VOUSSOIR_BODIES
@@ -195,14 +199,18 @@ VOUSSOIR_INLINE std::optional<Journal> Journal::open(const std::filesystem::path
 
 VOUSSOIR_INLINE void Journal::add(const JournalEntry& entry) {
   file_.append(detail::journal_line("\"case\":\"" + entry.name + "\"", entry.fields));
-  const double now = detail::steady_seconds();
-  if (now - synced_ < sync_interval) return;
-  sync();
+  is_behind_ = true;
+  sync_when_due();
 }
 
 VOUSSOIR_INLINE void Journal::sync() {
   file_.sync();
   synced_ = detail::steady_seconds();
+  is_behind_ = false;
+}
+
+VOUSSOIR_INLINE void Journal::sync_when_due() {
+  if (is_behind_ && detail::steady_seconds() - synced_ >= sync_interval) sync();
 }
 
 #endif
