@@ -213,11 +213,17 @@ std::map<std::string, std::string> engine_scripts(const CasePlan& plan, const En
 
 std::string engine_advice(const CasePlan& plan, const Engine& engine) {
   const std::string verb = to_string(plan.parts().verb), folder = utf8_text(engine.folder);
+  const std::string starter = engine.name == "slurm" ? "sbatch" : "snakemake";
+  const std::string elsewhere =
+      finds_program(starter) ? ""
+                             : "note     there is no " + starter +
+                                   " on this machine: take the folder to one that has it, and "
+                                   "edit program and paths in what is written\n";
   if (engine.name == "slurm")
-    return "next     sbatch " + shell_quoted(folder + "/" + verb + ".slurm.sh") +
+    return elsewhere + "next     sbatch " + shell_quoted(folder + "/" + verb + ".slurm.sh") +
            "\n         voussoir merge " + shell_quoted(folder) +
            "   (when it has ended, or to see what is missing)\n";
-  return "next     snakemake -s " + shell_quoted(folder + "/" + verb + ".snakefile") +
+  return elsewhere + "next     snakemake -s " + shell_quoted(folder + "/" + verb + ".snakefile") +
          " --profile " + shell_quoted(folder + "/" + verb + ".local") + "\n         or with " +
          verb + ".slurm in its place: each chunk is then a job of Slurm\n";
 }

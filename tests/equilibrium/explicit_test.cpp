@@ -7,6 +7,8 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/geometry/planar.hpp>
+#include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/bolt_spring.hpp>
 #include <voussoir/model/system.hpp>
 
 namespace explicit_test {

@@ -14,7 +14,10 @@
 #include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
+#include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/bolt_spring.hpp>
 #include <voussoir/model/contact_update.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/rockmass/domain.hpp>
 

@@ -10,6 +10,8 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
+#include <voussoir/model/bolt_set.hpp>
+#include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 
 #include "linear/dense_matrix.hpp"

@@ -471,6 +471,17 @@ TEST_SUITE("program/cases") {
     says({"case", out, "--chunk", "1/2"}, 1, "holds no plan");
     says({"merge", out}, 1, "holds no plan");
     REQUIRE(run_program(sweep(file, out, {"--plan", "slurm", "--chunks", "2"})).status == 0);
+    const std::string path = std::getenv("PATH");
+    for (const bool is_there : {false, true}) {
+      CAPTURE(is_there);
+      if (is_there) write_file(folder / "sbatch", "");
+      setenv("PATH", ("/nowhere::" + std::string(folder / "")).c_str(), 1);
+      const Outcome advice = run_program(sweep(file, out, {"--plan", "slurm", "--chunks", "2"}));
+      setenv("PATH", path.c_str(), 1);
+      CHECK((advice.out.find("there is no sbatch on this machine") == std::string::npos) ==
+            is_there);
+      CHECK(advice.out.find("next     sbatch '") != std::string::npos);
+    }
     for (const char* const chunk : {"0/2", "3/2", "1", "1/x", "/", "-1/2", "1/99999999"})
       says({"case", out, "--chunk", chunk}, 2, "third of sixty parts");
     says(sweep(file, folder / "x", {"--plan", "lsf"}), 2, "lsf");

@@ -13,6 +13,7 @@
 #if VOUSSOIR_BODIES
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -22,8 +23,6 @@
 #include <io.h>
 #include <process.h>
 #include <sys/stat.h>
-
-#include <cstdlib>
 
 // The few functions of Windows that are needed, declared as its own header does: that one defines
 // `near`, `far`, `min` and hundreds of other words of ours as macros.
@@ -78,6 +77,8 @@ namespace voussoir {
 }
 /// The text of a path, in UTF-8.
 [[nodiscard]] VOUSSOIR_INLINE std::string utf8_text(const std::filesystem::path& path);
+/// Whether a program of this name lies in a folder of PATH.
+[[nodiscard]] VOUSSOIR_INLINE bool finds_program(const std::string& name);
 /// What `main` was given, the name of the program first, in UTF-8.
 [[nodiscard]] VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv);
 
@@ -191,6 +192,8 @@ inline int open_for_writing(const std::filesystem::path& path) {
   errno = _wsopen_s(&descriptor, path.c_str(), mode, 0x40 /* share all */, _S_IREAD | _S_IWRITE);
   return descriptor;
 }
+constexpr char between_folders = ';';  // in PATH
+constexpr const char* program_suffix = ".exe";
 inline bool is_named(int, const std::filesystem::path&) { return true; }  // cannot be removed
 inline std::int64_t end_of(int descriptor) { return _lseeki64(descriptor, 0, SEEK_END); }
 inline std::int64_t write_some(int descriptor, const char* text, std::size_t size) {
@@ -207,6 +210,8 @@ inline LockOutcome lock_descriptor(int descriptor, bool exclusive) {
   return errno == EWOULDBLOCK ? LockOutcome::held : LockOutcome::impossible;
 }
 
+constexpr char between_folders = ':';  // in PATH
+constexpr const char* program_suffix = "";
 inline int open_for_writing(const std::filesystem::path& path) {
   return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
 }
@@ -315,6 +320,19 @@ VOUSSOIR_INLINE PlainOutput::~PlainOutput() { (void)code_page_; }
 VOUSSOIR_INLINE std::string utf8_text(const std::filesystem::path& path) {
   const std::u8string text = path.u8string();
   return {text.begin(), text.end()};
+}
+
+VOUSSOIR_INLINE bool finds_program(const std::string& name) {
+  const char* const path = std::getenv("PATH");
+  std::string_view rest = path == nullptr ? "" : path;
+  std::error_code ignored;  // what cannot be looked at is not there
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(detail::between_folders), rest.size());
+    const auto file = utf8_path(rest.substr(0, end)) / (name + detail::program_suffix);
+    if (end > 0 && std::filesystem::is_regular_file(file, ignored)) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
 }
 
 VOUSSOIR_INLINE std::optional<LockedFile> LockedFile::open(const std::filesystem::path& path,
