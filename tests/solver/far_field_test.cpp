@@ -15,6 +15,7 @@
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/theory/circular_opening.hpp>
 #include <voussoir/tunnel/boundary_bias.hpp>
+#include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/elastic_tunnel.hpp"
