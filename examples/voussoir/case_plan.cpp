@@ -181,17 +181,20 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
 
   content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,
               std::string("program = ") + sources_hash, std::string("verb = ") + to_string(p.verb),
-              "realisations = " + std::to_string(p.realisations)};
+              std::string(realisations_line) + std::to_string(p.realisations)};
   if (!joints_.empty()) content_.push_back("joints.file (its content) = " + joints_);
   for (const VariedKey& varied : p.varied)
     content_.push_back("--vary " + varied.key + " = " + joined(varied.values));
   for (const std::string& line : input_.content)
     if (!line.starts_with("joints.file = ")) content_.push_back(line);
   std::sort(content_.begin(), content_.end());
-  std::string all;
-  for (const std::string& line : content_)
-    if (!line.starts_with("program = ")) all += line + "\n";
-  run_id_ = text_hash(all);
+  std::string of_run, of_work;
+  for (const std::string& line : content_) {
+    if (!line.starts_with("program = ")) of_run += line + "\n";
+    if (!line.starts_with(realisations_line)) of_work += line + "\n";
+  }
+  run_id_ = text_hash(of_run);
+  work_id_ = text_hash(of_work);
 
   names_.reserve(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {

@@ -85,6 +85,8 @@ class CasePlan {
   [[nodiscard]] const std::vector<std::string>& content() const { return content_; }
   /// Hash of the content, but for the program: of input, version and seeds.
   [[nodiscard]] const std::string& run_id() const { return run_id_; }
+  /// Hash of the content, but for the number of realisations: of which cases a journal may hold.
+  [[nodiscard]] const std::string& work_id() const { return work_id_; }
 
   /// As a file that another machine goes on from: input, overrides and content in it.
   [[nodiscard]] std::string json() const;
@@ -102,8 +104,11 @@ class CasePlan {
   Input input_;
   std::string joints_;  ///< hash of the mapped joints
   std::vector<std::string> names_, content_;
-  std::string run_id_;
+  std::string run_id_, work_id_;
 };
+
+/// Of the content of a plan: how many realisations it has, which may grow in the same folder.
+inline constexpr std::string_view realisations_line = "realisations = ";
 
 /// Whether the rock, its stress and its boundary do not depend on a key.
 /// @param key  or a line of an input's content that begins with one

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <future>
@@ -122,8 +123,15 @@ TunnelResult computed(const CasePlan& plan, std::size_t index, RockStore& rocks,
 }
 
 std::string journal_header(const CasePlan& plan) {
-  return std::string("\"of\":\"") + to_string(plan.parts().verb) + " " + plan.run_id() + " " +
-         sources_hash + "\"";
+  return std::string("\"of\":\"") + to_string(plan.parts().verb) + " " + plan.work_id() + "\"";
+}
+
+/// Than a plan with this content. With fewer, files of results of the larger number might stay.
+bool has_more_realisations(const CasePlan& plan, const std::vector<std::string>& content) {
+  for (const std::string& line : content)
+    if (line.starts_with(realisations_line))
+      return plan.parts().realisations > std::atoi(line.c_str() + realisations_line.size());
+  return false;
 }
 
 /// Paths of the journals in a folder, sorted.
@@ -264,6 +272,10 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
     }
     const auto different = differences(plan.content(), before);
     if (trouble.empty() && different.empty()) return;
+    if (trouble.empty() && different.size() == 1 && has_more_realisations(plan, before)) {
+      write_atomically(path, plan.json());
+      return;
+    }
     if (!discard) {
       std::string all;
       for (const std::string& line : different) all += "\n   | " + line;

@@ -51,7 +51,7 @@ class FinishedCases {
   std::vector<std::string> remarks_;
 };
 
-/// Puts a plan into a folder, or finds the same plan there.
+/// Puts a plan into a folder, or finds the same plan there, with as many realisations or fewer.
 /// @param discard  removes another plan of this verb, and its journals, first
 /// @throws std::runtime_error  the folder holds another plan: names what differs
 void adopt_plan(const std::filesystem::path& folder, const CasePlan& plan, bool discard);

@@ -341,6 +341,29 @@ TEST_SUITE("program/cases") {
     for (const auto& [name, count] : finished_in(out)) CHECK(before.count(name) == 0);
   }
 
+  TEST_CASE("more realisations in the same folder: those that are there are not computed again") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
+    const auto realisations = [&](const std::string& where, int count) {
+      const Outcome outcome =
+          run_program({"realisations", file, "--out", where, "-n", std::to_string(count)});
+      CAPTURE(outcome.err);
+      REQUIRE(outcome.status == 0);
+      return results_in(where);
+    };
+    const auto three = realisations(out, 3);
+    CHECK(three == realisations(folder / "fewer", 3));
+    const auto five = realisations(out, 5);
+    for (const auto& [name, count] : finished_in(out)) CHECK(count == 1);
+    CHECK(finished_in(out).size() == 5);
+    CHECK(five == realisations(folder / "at once", 5));
+    // Two folders with different numbers are not merged: which of them would be meant?
+    const Outcome merged = run_program({"merge", out, folder / "fewer"});
+    CHECK(merged.status == 1);
+    CHECK(merged.err.find("realisations = 3, was 5") != std::string::npos);
+    CHECK(results_in(out) == five);
+  }
+
   TEST_CASE("a damaged line is said and computed again; two journals that differ are refused") {
     const Folder folder;
     const std::string file = write_file(folder / "case.toml", small_input()), out = folder / "out";
