@@ -242,6 +242,7 @@ TEST_SUITE("io/interaction_picture") {
     CHECK(text.find("bolt force, kN") != std::string::npos);
     CHECK(text.find(">204<") != std::string::npos);  // 0.0204 e7 N at its point
     CHECK(text.find("% of a") == std::string::npos);
+    CHECK(text.find(">kN<") == text.rfind(">kN<"));  // one scale beside the colours
     CHECK(draw_interaction_picture(small_diagram()).find("% of a") != std::string::npos);
   }
 

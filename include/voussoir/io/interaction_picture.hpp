@@ -61,12 +61,14 @@ VOUSSOIR_INLINE void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar,
   }
   for (std::size_t k = 0; k < bands.levels().size(); ++k) {
     const double y = bar.high.y() - step * static_cast<double>(k) + 4.5, level = bands.levels()[k];
-    canvas.text({bar.low.x() - 6, y}, trimmed_text(level, 6), {.anchor = TextAnchor::end});
+    if (!shown.has_one_unit())
+      canvas.text({bar.low.x() - 6, y}, trimmed_text(level, 6), {.anchor = TextAnchor::end});
     canvas.text({bar.high.x() + 6, y},
                 trimmed_text(level / shown.contour_scale * shown.point_scale, 3));
   }
-  canvas.text({bar.low.x() - 6, bar.low.y() - 14}, shown.contour_unit,
-              {.anchor = TextAnchor::end, .bold = true});
+  if (!shown.has_one_unit())
+    canvas.text({bar.low.x() - 6, bar.low.y() - 14}, shown.contour_unit,
+                {.anchor = TextAnchor::end, .bold = true});
   canvas.text({bar.high.x() + 6, bar.low.y() - 14}, shown.point_unit, {.bold = true});
   canvas.end_layer();
 }

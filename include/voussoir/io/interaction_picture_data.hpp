@@ -30,6 +30,10 @@ struct InteractionQuantity {
   [[nodiscard]] static InteractionQuantity in(std::string name, double scale, std::string unit) {
     return {std::move(name), scale, unit, "", scale, std::move(unit)};
   }
+  /// Then one scale beside the colours says all.
+  [[nodiscard]] bool has_one_unit() const {
+    return contour_unit == point_unit && contour_scale == point_scale;
+  }
 };
 
 /// What an interaction diagram shows: crown convergence, or another quantity, over lining thickness
