@@ -304,16 +304,21 @@ std::vector<std::size_t> CasePlan::work_order() const {
     }
     return rock;
   };
-  std::vector<std::pair<std::size_t, std::size_t>> order;
+  // Spacings of a diagram grow, and "none" comes last; thicknesses grow.
+  const auto support_of = [&](std::size_t index) {
+    const auto place = at(index).place;
+    return place ? (input_.diagram->spacing.size() - 1 - (*place)[0]) *
+                           input_.diagram->thickness.size() +
+                       (*place)[1]
+                 : index;
+  };
+  std::vector<std::array<std::size_t, 3>> order;
   order.reserve(size());
-  // Spacings of a diagram grow, and "none" comes last: backwards the least supported is first.
-  for (std::size_t k = 0; k < size(); ++k)
-    order.emplace_back(rock_of(k), parts_.verb == PlanVerb::diagram ? size() - 1 - k : k);
+  for (std::size_t k = 0; k < size(); ++k) order.push_back({rock_of(k), support_of(k), k});
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> result;
   result.reserve(size());
-  for (const auto& [rock, k] : order)
-    result.push_back(parts_.verb == PlanVerb::diagram ? size() - 1 - k : k);
+  for (const auto& entry : order) result.push_back(entry[2]);
   return result;
 }
 
