@@ -128,9 +128,7 @@ int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Option
         std::clamp(wanted, 1.0, std::min(1000.0, static_cast<double>(plan.size()))));
     chunk_text =
         "; one case took " + readable_text(seconds, 2) + " s here, so that a chunk lasts about " +
-        readable_text(seconds * std::ceil(static_cast<double>(plan.size()) / engine.chunks) / 60,
-                      2) +
-        " min";
+        duration_text(seconds * std::ceil(static_cast<double>(plan.size()) / engine.chunks));
     // Cases differ, and a node may be slower: ten times what the trial says, an hour at least.
     engine.minutes = static_cast<int>(std::clamp(
         10 * seconds * static_cast<double>(plan.size()) / engine.chunks / 60, 60.0, 6000.0));

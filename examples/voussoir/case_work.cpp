@@ -52,12 +52,6 @@ std::string utc_now() {
   return text;
 }
 
-std::string duration_text(double seconds) {
-  if (seconds < 90) return std::to_string(static_cast<int>(std::ceil(seconds))) + " s";
-  if (seconds < 5400) return std::to_string(static_cast<int>(std::ceil(seconds / 60))) + " min";
-  return std::to_string(static_cast<int>(std::ceil(seconds / 3600))) + " h";
-}
-
 /// Rocks that are being made or were made last: cases that differ in their supports share one.
 class RockStore {
  public:
@@ -146,6 +140,12 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 90) return std::to_string(static_cast<int>(std::ceil(seconds))) + " s";
+  if (seconds < 5400) return std::to_string(static_cast<int>(std::ceil(seconds / 60))) + " min";
+  return std::to_string(static_cast<int>(std::ceil(seconds / 3600))) + " h";
+}
 
 std::string result_json(const TunnelResult& r) {
   const Json json = {{"verdict", to_string(r.verdict)},

@@ -16,6 +16,9 @@
 /// machines, each with a journal of its own.
 namespace voussoir::program {
 
+/// "12 s", "3 min", "2 h": rounded up.
+[[nodiscard]] std::string duration_text(double seconds);
+
 /// A result as it stands in a journal, and back: equal to the last bit.
 [[nodiscard]] std::string result_json(const TunnelResult& result);
 /// @throws std::runtime_error  no result of this form
