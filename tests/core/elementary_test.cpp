@@ -61,6 +61,38 @@ TEST_SUITE("core/elementary") {
     }
   }
 
+  // A number that is none must stay none: it would otherwise pass for an angle.
+  TEST_CASE("beyond what the elementary functions are made for they say so, as the library's do") {
+    const double inf = std::numeric_limits<double>::infinity(),
+                 none = std::numeric_limits<double>::quiet_NaN();
+    for (const double x : {inf, -inf, none}) {
+      CAPTURE(x);
+      CHECK(std::isnan(elementary::sine(x)));
+      CHECK(std::isnan(elementary::cosine(x)));
+      CHECK(std::isnan(elementary::tangent(x)));
+      CHECK(std::isnan(elementary::angle_of(x, 1)));
+      CHECK(std::isnan(elementary::angle_of(-1, x)));
+      CHECK(std::isnan(elementary::angle_of(x, x)));
+    }
+    for (const double x : {1e5, -1e5, 1e300}) CHECK(std::isnan(elementary::sine(x)));
+    CHECK(elementary::sine(99999.0) == doctest::Approx(std::sin(99999.0)).epsilon(1e-10));
+    for (const double x : {inf, 1e300, 1001.0, 710.0, -750.0, -1001.0, -1e300, -inf}) {
+      CAPTURE(x);
+      CHECK(elementary::exponential(x) == std::exp(x));
+    }
+    CHECK(elementary::exponential(709.5) == doctest::Approx(std::exp(709.5)).epsilon(1e-14));
+    CHECK(std::isnan(elementary::exponential(none)));
+    CHECK(elementary::logarithm(0) == -inf);
+    CHECK(elementary::logarithm(inf) == inf);
+    for (const double x : {-1.0, -inf, none}) {
+      CAPTURE(x);
+      CHECK(std::isnan(elementary::logarithm(x)));
+      CHECK(std::isnan(elementary::cube_root(x)));
+    }
+    CHECK(elementary::power(0, 0.5) == 0);
+    CHECK(elementary::cube_root(0) == 0);
+  }
+
   TEST_CASE("beside multiples of a right angle little is left of a sine, and that is right") {
     for (int k = -40; k <= 40; ++k) {
       const double x = k * (std::numbers::pi / 2);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 /// The elementary functions that mechanics needs, from sums, products, quotients and roots alone:
@@ -16,16 +17,22 @@
 /// functions that not even this changes, ten times as slow.
 namespace voussoir::elementary {
 
+namespace detail {
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(),
+                        infinite = std::numeric_limits<double>::infinity();
+}
+
 struct SineCosine {
   double sine, cosine;
 };
 
-/// Both of one angle [rad]. @pre |x| < 1e5
+/// Both of one angle [rad]; not a number where |x| >= 1e5, or where it is none.
 [[nodiscard]] inline SineCosine sine_cosine(double x) {
   // Multiples of a right angle are taken off in three parts, of which the first two have so few
   // digits that their products with a small whole number are exact.
   double turns = 0;
   if (std::abs(x) > 0.25 * std::numbers::pi) {
+    if (!(std::abs(x) < 1e5)) return {detail::not_a_number, detail::not_a_number};
     turns = std::floor(x * (2 / std::numbers::pi) + 0.5);
     x = ((x - turns * 0x1.921fb544p+0) - turns * 0x1.0b4611a6p-34) - turns * 0x1.3198a2e037073p-69;
   }
@@ -60,19 +67,21 @@ struct SineCosine {
       return {-cosine, sine};
   }
 }
-/// @pre |x| < 1e5
+/// See `sine_cosine`.
 [[nodiscard]] inline double sine(double x) { return sine_cosine(x).sine; }
-/// @pre |x| < 1e5
+/// See `sine_cosine`.
 [[nodiscard]] inline double cosine(double x) { return sine_cosine(x).cosine; }
-/// @pre |x| < 1e5
+/// See `sine_cosine`.
 [[nodiscard]] inline double tangent(double x) {
   const SineCosine both = sine_cosine(x);
   return both.sine / both.cosine;
 }
 
-/// Of the point (x, y), from the x axis anticlockwise: -pi to pi [rad]; 0 of (0, 0).
+/// Of the point (x, y), from the x axis anticlockwise: -pi to pi [rad]; 0 of (0, 0); not a number
+/// if one of them is none or infinite.
 [[nodiscard]] inline double angle_of(double y, double x) {
   const double a = std::abs(x), b = std::abs(y);
+  if (!(a + b < detail::infinite)) return detail::not_a_number;
   const double longer = std::max(a, b), shorter = std::min(a, b);
   if (!(longer > 0)) return std::signbit(x) ? std::copysign(std::numbers::pi, y) : y;
   // Within 0.004 rad of the angle, then what is missing by its tangent.
@@ -86,8 +95,9 @@ struct SineCosine {
   return std::copysign(angle, y);
 }
 
-/// e^x. @pre |x| < 700
+/// e^x
 [[nodiscard]] inline double exponential(double x) {
+  if (!(std::abs(x) < 1000)) return x > 0 ? detail::infinite : x < 0 ? 0 : x;
   const double count = std::floor(x * std::numbers::log2e + 0.5);
   const double r = (x - count * 0x1.62e42fee00000p-1) - count * 0x1.a39ef35793c76p-33;
   double sum = 1;
@@ -95,8 +105,10 @@ struct SineCosine {
   return std::ldexp(1 + r * sum, static_cast<int>(count));
 }
 
-/// Natural. @pre x > 0, finite
+/// Natural; -infinity of 0, not a number below.
 [[nodiscard]] inline double logarithm(double x) {
+  if (!(x > 0)) return x == 0 ? -detail::infinite : detail::not_a_number;
+  if (x == detail::infinite) return x;
   int exponent = 0;
   double part = std::frexp(x, &exponent);  // 0.5 to 1
   if (part < 0.5 * std::numbers::sqrt2) {
@@ -111,12 +123,12 @@ struct SineCosine {
   return count * 0x1.62e42fee00000p-1 + (log + count * 0x1.a39ef35793c76p-33);
 }
 
-/// x to the power of y, to 1e-15 of it where |y log x| is a few. @pre x > 0
+/// x to the power of y, to 1e-15 of it where |y log x| is a few. @pre x > 0, or x = 0 and y > 0
 [[nodiscard]] inline double power(double x, double y) { return exponential(y * logarithm(x)); }
 
-/// The cube root. @pre x >= 0
+/// The cube root; not a number below 0.
 [[nodiscard]] inline double cube_root(double x) {
-  if (!(x > 0)) return 0;
+  if (!(x > 0)) return x == 0 ? 0 : detail::not_a_number;
   const double root = power(x, 1.0 / 3);
   return root - (root * root * root - x) / (3 * root * root);
 }
