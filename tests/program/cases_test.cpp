@@ -171,17 +171,15 @@ TEST_SUITE("program/cases") {
     }
     CHECK(rocks.size() == 8);
     // Of a diagram the least supported comes first: no bolts, the thinnest lining.
-    const CasePlan diagram(parts_of(PlanVerb::diagram,
-                                    small_input() + "[diagram]\nspacing = [\"30 deg\", \"none\"]\n"
-                                                    "thickness = [\"4 cm\", \"8 cm\"]\n",
-                                    {}, 2));
+    const CasePlan diagram(parts_of(PlanVerb::diagram, small_input(), {}, 2));
     std::vector<std::array<std::size_t, 2>> places;
     for (const std::size_t index : diagram.work_order()) {
       const Case c = diagram.at(index);
       REQUIRE(c.place);
       if (c.seed == diagram.at(diagram.work_order().front()).seed) places.push_back(*c.place);
     }
-    CHECK(places == std::vector<std::array<std::size_t, 2>>{{1, 0}, {1, 1}, {0, 0}, {0, 1}});
+    CHECK(places ==
+          std::vector<std::array<std::size_t, 2>>{{2, 0}, {2, 1}, {1, 0}, {1, 1}, {0, 0}, {0, 1}});
   }
 
   TEST_CASE("a result is read back from its journal to the last bit") {
