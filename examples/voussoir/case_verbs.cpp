@@ -167,9 +167,7 @@ int write_plan(const CasePlan& plan, FinishedCases& finished_cases, const Option
 struct FailedElsewhere {};
 
 /// A step of all processes together: none goes on to the next if one has failed in this.
-/// @throws FailedElsewhere  in all but the first of those that failed: that one throws what its
-/// step
-///                          threw
+/// @throws FailedElsewhere  in all but the first of those that failed, which throws its own error
 template <class Step>
 void together(const Ranks& ranks, const Step& step) {
   std::exception_ptr trouble;

@@ -62,7 +62,7 @@ TEST_SUITE("core/elementary") {
   }
 
   // A number that is none must stay none: it would otherwise pass for an angle.
-  TEST_CASE("beyond what the elementary functions are made for they say so, as the library's do") {
+  TEST_CASE("beyond their arguments elementary functions are infinite or not a number") {
     const double inf = std::numeric_limits<double>::infinity(),
                  none = std::numeric_limits<double>::quiet_NaN();
     for (const double x : {inf, -inf, none}) {
