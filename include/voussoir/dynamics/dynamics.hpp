@@ -45,6 +45,7 @@ class Dynamics : public MovingBodies<Dim> {
   static_assert(explain_contact_law<JointLaw, Dim>());
   static_assert(explain_contact_law<InterfaceLaw, Dim>());
   using Base = MovingBodies<Dim>;
+  using MovingPart = detail::MovingPart;
 
  public:
   using typename Base::Body;
@@ -167,9 +168,24 @@ class Dynamics : public MovingBodies<Dim> {
   }
   void set_held(double fraction) {
     held_fraction_ = fraction;
-    fresh_ = false;
+    are_loads_fresh_ = false;  // contacts know nothing of it
   }
   [[nodiscard]] double held() const { return held_fraction_; }
+  /// Lets these bodies alone move from now on; all others stay where they are, and what they had of
+  /// velocity is taken from them as damping would. A step costs what these bodies and their
+  /// contacts cost; forces on all bodies stay up to date.
+  void move_only(const std::vector<int>& bodies);
+  /// Lets all bodies move.
+  void move_all() { move(MovingPart{}); }
+  [[nodiscard]] bool moves(int b) const {
+    return part_.is_all || std::binary_search(part_.bodies.begin(), part_.bodies.end(),
+                                              static_cast<std::uint32_t>(b));
+  }
+  /// Moves bodies by hand, a little, and takes away the energy that this sets free: a step of a
+  /// search for equilibrium amid the motion. Joints slip on the way as they would.
+  /// @param step  for every body its shift [m] and turn [rad], world axes; those that are fixed or
+  ///              gone stay
+  void displace(const Eigen::VectorXd& step);
 
   // ---- what it does ----------------------------------------------------------------------------
 
@@ -188,10 +204,29 @@ class Dynamics : public MovingBodies<Dim> {
     const auto [force, moment] = network_.gather(index(b));
     return {force, moment};
   }
-  /// See `detail::ForcesOnBodies::unbalance_over_weight` [-].
+  /// Force and moment that nothing balances, world axes [N], [N m]; zero for one that is fixed.
+  [[nodiscard]] Load<Dim> out_of_balance(int b) {
+    begin();
+    return bodies_[index(b)].movable() ? forces().total(index(b)) : Load<Dim>{};
+  }
+  /// See `detail::ForcesOnBodies::unbalance_of` [-].
+  [[nodiscard]] double unbalance_of(int b) {
+    begin();
+    return forces().unbalance_of(index(b));
+  }
+  /// The same, with what is out of balance on it.
+  [[nodiscard]] double unbalance_of(int b, const Load<Dim>& out_of_balance) const {
+    return detail::unbalance_of(bodies_[index(b)], out_of_balance, settings_.gravity);
+  }
+  /// The same of the worst body [-].
   [[nodiscard]] double unbalance_over_weight() {
     begin();
     return forces().unbalance_over_weight();
+  }
+  /// Calls visit(other) for every body that a contact joins to this one.
+  template <class Visit>
+  void each_neighbour(int b, Visit&& visit) const {
+    network_.each_neighbour(index(b), visit);
   }
 
   /// Where energy has gone since the beginning.
@@ -230,9 +265,33 @@ class Dynamics : public MovingBodies<Dim> {
   /// Before anything is asked: bodies that are new are taken in, and forces computed.
   void begin() {
     take_in();
-    if (fresh_) return;
-    stepping_.freshen(forces());
-    fresh_ = true;
+    if (fresh_ && is_part_fresh_ && are_loads_fresh_) return;
+    if (fresh_ && is_part_fresh_)
+      stepping_.settle(forces());
+    else
+      (void)freshen();
+    are_loads_fresh_ = true;
+  }
+  /// @return  what contacts lose by that: of bodies that were moved by hand
+  Dissipation freshen() {
+    if (!fresh_) {
+      part_.contacts = network_.contacts_of(part_.bodies);  // they may have other numbers
+      const MovingPart all;
+      return freshen(all);
+    }
+    return freshen(part_);
+  }
+  Dissipation freshen(const MovingPart& part) {
+    const Dissipation lost = stepping_.freshen(forces(part));
+    fresh_ = is_part_fresh_ = true;
+    return lost;
+  }
+  void move(MovingPart part) {
+    begin();
+    only_part_has_moved_ = false;
+    part_ = std::move(part);
+    stable_step_ = 0;
+    (void)freshen();  // what acts on those that move anew
   }
 
   void take_in();
@@ -240,7 +299,7 @@ class Dynamics : public MovingBodies<Dim> {
   void forget() {
     sound_.reset();
     stable_step_ = 0;
-    fresh_ = false;
+    fresh_ = only_part_has_moved_ = false;
   }
 
   void start_audit() {
@@ -271,10 +330,12 @@ class Dynamics : public MovingBodies<Dim> {
     return sums;
   }
   [[nodiscard]] double choose_step();
-  [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces() {
+  [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces(const MovingPart& part) {
     return {bodies_, network_,       supports_,         loads_,
-            held_,   held_fraction_, settings_.gravity, settings_.local_damping};
+            held_,   held_fraction_, settings_.gravity, settings_.local_damping,
+            part};
   }
+  [[nodiscard]] detail::ForcesOnBodies<Dim, Network> forces() { return forces(part_); }
 
   /// Makes `count` steps, or fewer: contacts are looked for again before a body can have moved
   /// further than they are listed for. The way is summed up step by step, with the speeds there
@@ -298,6 +359,10 @@ class Dynamics : public MovingBodies<Dim> {
   using Base::shapes_;
   std::vector<Load<Dim>> held_;
   double held_fraction_ = 0;
+  MovingPart part_;
+  bool is_part_fresh_ = true;         ///< what acts on those that move is known, as all else is
+  bool are_loads_fresh_ = true;       ///< so is what else acts on them
+  bool only_part_has_moved_ = false;  ///< since contacts were last looked for
   SupportSet<Dim> supports_;
   std::optional<ContactTracker<Dim, Detector>> tracker_;
   EnergyBalance audit_;
@@ -346,6 +411,59 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vector<int>& bodies) {
+  begin();
+  MovingPart part;
+  part.is_all = false;
+  for (const int b : bodies)
+    if (bodies_[index(b)].movable()) part.bodies.push_back(static_cast<std::uint32_t>(b));
+  std::sort(part.bodies.begin(), part.bodies.end());
+  part.contacts = network_.contacts_of(part.bodies);
+  auto next = part.bodies.begin();
+  const auto rest = [&](std::size_t b) {
+    while (next != part.bodies.end() && *next < b) ++next;
+    if (next != part.bodies.end() && *next == b) return;
+    audit_.damping += bodies_[b].kinetic_energy();
+    bodies_[b].velocity = zeros<Vec<Dim>>();
+    bodies_[b].momentum = zeros<Spin<Dim>>();
+  };
+  part_.each_body(bodies_.size(), rest);  // the others rest already
+  move(std::move(part));
+}
+
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::VectorXd& step) {
+  constexpr int dof = Dim + spin_count<Dim>;
+  require(step.size() == dof * static_cast<Eigen::Index>(bodies_.size()), "values of a step",
+          static_cast<double>(step.size()), "those of all bodies");
+  begin();
+  const auto each = [&](auto&& visit) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (bodies_[b].movable())
+        visit(b, Vec<Dim>(voussoir::part<Dim>(step, dof * static_cast<Eigen::Index>(b))),
+              Spin<Dim>(voussoir::part<dof - Dim>(step, dof * static_cast<Eigen::Index>(b) + Dim)));
+  };
+  // What is taken away is the work of the forces out of balance, by the mean of both ends.
+  const auto work = [&](std::size_t b, const Vec<Dim>& shift, const Spin<Dim>& turn) {
+    const Load<Dim> load = forces().total(b);
+    audit_.damping += 0.5 * (load.force.dot(shift) + load.moment.dot(turn));
+  };
+  each(work);
+  each([&](std::size_t b, const Vec<Dim>& shift, const Spin<Dim>& turn) {
+    Body& body = bodies_[b];
+    const Load<Dim> load = forces().applied(b);
+    audit_.loads += load.force.dot(shift) + load.moment.dot(turn);
+    audit_.gravity -= body.mass * settings_.gravity * shift[Dim - 1];
+    body.pose.position += shift;
+    body.pose.rotation = rotation_by(turn) * body.pose.rotation;
+    if constexpr (Dim == 2) body.angle += turn[0];
+  });
+  fresh_ = only_part_has_moved_ = false;
+  audit_.friction += freshen().friction;
+  each(work);
+}
+
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
 void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
   if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
   const bool is_first = known_bodies_ == 0;
@@ -376,9 +494,15 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
         home_[index(b)].rotation * transposed(bodies_[index(b)].pose.rotation);
     return cut_facing(part, Vec<Dim>(turn * outward));
   };
-  if (!network_.find(*tracker_, bodies_, roles_, cut_of, audit_.contact_updates)) return;
+  const std::vector<std::uint32_t>* const moved =
+      only_part_has_moved_ && !part_.is_all ? &part_.bodies : nullptr;
+  const ContactChange change =
+      network_.find(*tracker_, bodies_, moved, roles_, cut_of, audit_.contact_updates);
+  only_part_has_moved_ = true;
+  if (change == ContactChange::none) return;
   stable_step_ = 0;
-  fresh_ = false;
+  is_part_fresh_ = false;
+  if (change == ContactChange::renumbered) fresh_ = false;
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
@@ -405,6 +529,8 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::check() {
   kinetic_given_ = sound_->kinetic_given;
   time_ = sound_->time;
   steps_ = checked_ = sound_->steps;
+  part_ = {};
+  only_part_has_moved_ = false;
   stable_step_ = 0;
   fresh_ = false;
   throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
@@ -418,7 +544,8 @@ double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   step_ = detail::chosen_time_step(settings_, stable_step_, steps_);
   if (!settings_.find_contacts || shapes_.size() < 2) return step_;
   begin();
-  step_ = detail::watched_time_step(step_, sizes_.longest_step(bodies_, stepping_.acting()),
+  const auto each = [this](auto&& visit) { part_.each_body(bodies_.size(), visit); };
+  step_ = detail::watched_time_step(step_, sizes_.longest_step(bodies_, stepping_.acting(), each),
                                     sizes_.reach, settings_, steps_);
   return step_;
 }
