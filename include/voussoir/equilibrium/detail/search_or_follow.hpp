@@ -15,8 +15,10 @@ namespace voussoir::detail {
 /// `decided` with a verdict, or with a reason to stop; `open`: something falls, or no end is found.
 enum class SearchEnd { decided, open };
 
-/// Whether a search ends `open` as soon as a block comes off, or takes it out and goes on.
-enum class AtAFall { gives_up, goes_on };
+/// Whether a search ends `open` as soon as a block has moved so far that contacts are to be updated
+/// (where rock stands in one step to its end, that is hardly ever so); as soon as one comes off; or
+/// takes it out and goes on.
+enum class AtAFall { gives_up_early, gives_up, goes_on };
 
 /// One stage by a solution procedure of its own and, where rock fails, in motion: the same for all
 /// procedures, so that all have the same answer.
