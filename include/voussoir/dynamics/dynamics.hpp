@@ -116,7 +116,7 @@ class Dynamics : public MovingBodies<Dim> {
   /// Contacts of a model that is set in motion, before anything is computed (see
   /// `ContactNetwork::carry_on`).
   void carry_on(typename Network::template Former<JointLaw> joints,
-                typename Network::template Former<SmoothWall> walls,
+                typename Network::template Former<typename Network::WallLaw> walls,
                 typename Network::template Former<InterfaceLaw> interface) {
     network_.carry_on(std::move(joints), std::move(walls), std::move(interface));
   }

@@ -121,9 +121,12 @@ class Handover {
     const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     const auto former = [&](const auto& group) {
       using State = typename std::decay_t<decltype(group)>::State;
-      return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
-        return group.points()[static_cast<std::size_t>(k)].state;
-      });
+      if constexpr (std::is_same_v<State, AnyState>)
+        return FormerOfAnyLaw<dim>(group.contacts(), group.points(), frames, u);
+      else
+        return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
+          return group.points()[static_cast<std::size_t>(k)].state;
+        });
     };
     run.carry_on(former(system_.joints), former(system_.boundary), former(system_.interface));
   }
@@ -194,7 +197,8 @@ class Handover {
                                        [&](const ReferencePoint<dim>& p) {
                                          points.push_back({p, {}});
                                        });
-      for (std::size_t k = 0; k < points.size(); ++k) points[k].state = of[k].state;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        points[k].state = moving.state_of(at(c.first) + k);
       next.add(contact, points);
     }
     group = std::move(next);

@@ -17,6 +17,7 @@
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/any_moving_contacts.hpp>
 #include <voussoir/model/detail/body_rates.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
 #include <voussoir/model/detail/contact_springs.hpp>
@@ -24,6 +25,7 @@
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/detail/impact.hpp>
 #include <voussoir/model/detail/kept_shear.hpp>
+#include <voussoir/model/detail/law_model.hpp>
 #include <voussoir/model/detail/left_contact.hpp>
 #include <voussoir/model/detail/limited_energy.hpp>
 #include <voussoir/model/moving_bodies.hpp>
@@ -43,12 +45,13 @@ class ContactNetwork {
   using Body = MovingBody<Dim>;
   using Bodies = std::vector<Body>;
   using Joints = MovingContacts<Dim, JointLaw>;
-  using Walls = MovingContacts<Dim, SmoothWall>;
+  using WallLaw = detail::WallLaw<Dim, JointLaw>;
+  using Walls = MovingContacts<Dim, WallLaw>;
   using Interface = MovingContacts<Dim, InterfaceLaw>;
   using Tracker = ContactTracker<Dim, Detector>;
 
   template <class Law>
-  using Former = detail::FormerContacts<Dim, typename Law::template State<Dim>>;
+  using Former = typename detail::FormerOfLaw<Dim, Law>::type;
 
   /// @param laws  of the joints;  @param wall_stiffness  of the walls [Pa/m]
   /// @param interface_laws  of linings that there are already
@@ -57,7 +60,7 @@ class ContactNetwork {
   ContactNetwork(std::vector<JointLaw> laws, double wall_stiffness,
                  std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
                  ContactPoints rule, double viscous_damping)
-      : groups_(Joints(std::move(laws)), Walls({SmoothWall(wall_stiffness)}),
+      : groups_(Joints(std::move(laws)), Walls(detail::wall_laws<Dim, JointLaw>(wall_stiffness)),
                 Interface(std::move(interface_laws))),
         law_of_cut_(std::move(law_of_cut)),
         rule_(rule),
@@ -97,7 +100,10 @@ class ContactNetwork {
 
   /// The contacts of a model that is set in motion: those that are found first carry them on.
   /// @param interface  laws numbered as by `set_interface_law`
-  void carry_on(Former<JointLaw> joints, Former<SmoothWall> walls, Former<InterfaceLaw> interface) {
+  void carry_on(Former<JointLaw> joints, Former<WallLaw> walls, Former<InterfaceLaw> interface) {
+    adopt(std::get<0>(groups_), joints);
+    adopt(std::get<1>(groups_), walls);
+    adopt(std::get<2>(groups_), interface);
     former_ = {std::move(joints), std::move(walls), std::move(interface)};
     is_everything_new_ = false;
   }
@@ -184,9 +190,10 @@ class ContactNetwork {
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
     std::size_t before = 0;
     each_group([&](auto& group) {
-      const std::size_t end = std::min(last, before + group.size());
-      for (std::size_t k = std::max(first, before); k < end; ++k)
-        sums_.reaction(k) = group.react(k - before, bodies, lost);
+      const std::size_t begin = std::max(first, before),
+                        end = std::min(last, before + group.size());
+      if (begin < end)
+        group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost);
       before += group.size();
     });
   }
@@ -245,6 +252,13 @@ class ContactNetwork {
       visit(std::get<1>(groups_), std::get<1>(former_));
     else
       visit(std::get<2>(groups_), std::get<2>(former_));
+  }
+
+  /// What former contacts remember, where that lies beside their points.
+  template <class Group, class FormerGroup>
+  static void adopt(Group& group, FormerGroup& former) {
+    if constexpr (requires { group.adopt(std::move(former.states)); })
+      group.adopt(std::move(former.states));
   }
 
   using Pair = typename Tracker::Pair;
@@ -435,7 +449,7 @@ class ContactNetwork {
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
-  std::tuple<Former<JointLaw>, Former<SmoothWall>, Former<InterfaceLaw>> former_;
+  std::tuple<Former<JointLaw>, Former<WallLaw>, Former<InterfaceLaw>> former_;
   bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
   bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;
