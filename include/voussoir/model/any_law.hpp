@@ -199,6 +199,15 @@ inline constexpr bool is_any_law<AnyLaw<Dim>> = true;
 
 namespace detail {
 
+/// Whether laws of these types are to be known at run time alone.
+template <class JointLaw, class InterfaceLaw, int Dim>
+inline constexpr bool hides_laws = !is_any_law<JointLaw> && !is_any_law<InterfaceLaw> &&
+                                   is_any_law_of<JointLaw, Dim> && is_any_law_of<InterfaceLaw, Dim>;
+
+}  // namespace detail
+
+namespace detail {
+
 /// What points remember, one behind the other, as the law's own type.
 template <class State>
 class StateColumn {

@@ -21,8 +21,7 @@ template <class System>
 inline constexpr bool has_laws_to_hide = false;
 template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 inline constexpr bool has_laws_to_hide<System<Geometry, JointLaw, InterfaceLaw, Detector>> =
-    !is_any_law<JointLaw> && !is_any_law<InterfaceLaw> && is_any_law_of<JointLaw, Geometry::dim> &&
-    is_any_law_of<InterfaceLaw, Geometry::dim>;
+    hides_laws<JointLaw, InterfaceLaw, Geometry::dim>;
 
 /// While this lives, a system with laws known at run time in the place of one whose laws are types:
 /// it has all that the other had, and gives it back in the end, however that comes.

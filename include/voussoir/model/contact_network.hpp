@@ -184,7 +184,7 @@ class ContactNetwork {
   }
 
   /// Other laws for the joints from now on: as many, of the same kind.
-  void set_laws(const LawsBySet<JointLaw>& laws) { std::get<0>(groups_).set_laws(laws.all()); }
+  void set_laws(std::vector<JointLaw> laws) { std::get<0>(groups_).set_laws(std::move(laws)); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {

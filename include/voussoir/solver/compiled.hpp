@@ -29,6 +29,10 @@
       const;                                                                                      \
   WORD EquilibriumReport Explicit::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
   WORD ContactUpdateReport update_contacts(AnySystem<GEOMETRY>&, double, const Progress&);        \
+  WORD MotionOf<AnySystem<GEOMETRY>>::type detail::run_of(const AnySystem<GEOMETRY>&,             \
+                                                          const DynamicsSettings&);               \
+  WORD void detail::take_from_run(MotionOf<AnySystem<GEOMETRY>>::type&, AnySystem<GEOMETRY>&,     \
+                                  const std::vector<int>&);                                       \
   WORD void detail::make_model<CutContacts>(                                                      \
       AnySystem<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,             \
       const FarField<GEOMETRY::dim>&, ContactPoints, std::vector<int>,                            \

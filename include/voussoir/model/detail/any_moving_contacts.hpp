@@ -99,6 +99,7 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
     return law_of(c).model().stored_energy(load, memory(state));
   }
   [[nodiscard]] AnyState state_of(std::size_t point) const { return states_.value(point); }
+  [[nodiscard]] const void* memory_of(std::size_t point) const { return states_.at(point); }
 
   template <class Bodies>
   [[nodiscard]] double stored_energy(std::size_t k, const Bodies& bodies) const {
