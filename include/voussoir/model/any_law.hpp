@@ -20,7 +20,7 @@ namespace voussoir {
 /// equilibrium and the motion of blocks are compiled once for all laws, not once for each.
 namespace detail {
 
-/// Makes and copies what a law remembers.
+/// Makes and copies what a law remembers. There is one for every type, which outlives all of them.
 class StateModel {
  public:
   static constexpr std::size_t most_bytes = 64, alignment = 16;
@@ -132,9 +132,15 @@ struct ReactionTask {
 /// A contact law behind functions that are called at run time: those of many contacts at once where
 /// time counts, of a point elsewhere.
 template <int Dim>
-class LawModel : public StateModel {
+class LawModel {
  public:
-  using StateModel::StateModel;
+  explicit LawModel(const StateModel& states) : states_(states) {}
+  LawModel(const LawModel&) = delete;
+  LawModel& operator=(const LawModel&) = delete;
+  virtual ~LawModel() = default;
+
+  /// Of what it remembers.
+  [[nodiscard]] const StateModel& states() const { return states_; }
 
   [[nodiscard]] virtual PointForce<Dim> force(const PointLoad<Dim>& load,
                                               const void* state) const = 0;
@@ -148,6 +154,31 @@ class LawModel : public StateModel {
   /// @pre all laws of the task are of the same type as this one
   virtual void add_forces(const ForceTask<Dim>& task) const = 0;
   virtual void react(const ReactionTask<Dim>& task) const = 0;
+
+ private:
+  const StateModel& states_;
+};
+
+template <class State>
+class StateModelOf final : public StateModel {
+ public:
+  [[nodiscard]] static const StateModel& one() {
+    static const StateModelOf model;
+    return model;
+  }
+
+  [[nodiscard]] const void* fresh() const override { return &fresh_; }
+  void copy(void* to, const void* from, std::size_t count) const override {
+    std::uninitialized_copy_n(static_cast<const State*>(from), count, static_cast<State*>(to));
+  }
+  void move_down(void* to, const void* from, std::size_t count) const override {
+    std::copy_n(static_cast<const State*>(from), count, static_cast<State*>(to));
+  }
+
+ private:
+  StateModelOf() : StateModel(sizeof(State)) {}
+
+  State fresh_{};
 };
 
 /// Whether a law can stand behind `AnyLaw`: what it remembers owns nothing and is small.
@@ -172,13 +203,13 @@ class AnyLaw {
       : model_(std::move(model)), normal_stiffness_(normal), shear_stiffness_(shear) {}
 
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const AnyState& state) const {
-    return model_->force(load, state.of(*model_));
+    return model_->force(load, state.of(model_->states()));
   }
   double commit(const PointLoad<Dim>& load, AnyState& state) const {
-    return model_->commit(load, state.of(*model_));
+    return model_->commit(load, state.of(model_->states()));
   }
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const AnyState& state) const {
-    return model_->stored_energy(load, state.of(*model_));
+    return model_->stored_energy(load, state.of(model_->states()));
   }
   [[nodiscard]] double joint_normal_stiffness() const { return normal_stiffness_; }
   [[nodiscard]] double joint_shear_stiffness() const { return shear_stiffness_; }

@@ -267,7 +267,7 @@ class ContactGroup {
   /// After a law has come.
   void prepare() {
     if constexpr (is_any_law<Law>)
-      if (!laws_.empty()) points_.states().set_model(laws_.front().model());
+      if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
   }
 
   /// Calls visit(contact, number of the point, point, offset) for every point.

@@ -63,7 +63,7 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
     detail::StateColumn<AnyState> states;
     contacts.reserve(contacts_.size());
     points.reserve(points_.size());
-    if (!laws_.empty()) states.set_model(laws_.front().model());
+    if (!laws_.empty()) states.set_model(laws_.front().model().states());
     states.reserve(points_.size());
     each([&](std::int32_t& number) {
       Contact c = contacts_[static_cast<std::size_t>(number)];
@@ -116,12 +116,12 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
   [[nodiscard]] const void* memory(State state) const {
     if (state.number >= 0) return states_.at(static_cast<std::size_t>(state.number));
     if (state.number < -1) return former_.at(static_cast<std::size_t>(-2 - state.number));
-    return laws_.front().model().fresh();
+    return laws_.front().model().states().fresh();
   }
   void prepare() {
     if (laws_.empty()) return;
-    states_.set_model(laws_.front().model());
-    inherited_.set_model(laws_.front().model());
+    states_.set_model(laws_.front().model().states());
+    inherited_.set_model(laws_.front().model().states());
   }
 
   std::vector<Law> laws_;

@@ -22,17 +22,9 @@ class LawModelOf final : public LawModel<Dim> {
  public:
   using State = typename Law::template State<Dim>;
 
-  explicit LawModelOf(const Law& law) : LawModel<Dim>(sizeof(State)), law_(law) {}
+  explicit LawModelOf(const Law& law) : LawModel<Dim>(StateModelOf<State>::one()), law_(law) {}
 
   [[nodiscard]] const Law& law() const { return law_; }
-
-  [[nodiscard]] const void* fresh() const override { return &fresh_; }
-  void copy(void* to, const void* from, std::size_t count) const override {
-    std::uninitialized_copy_n(static_cast<const State*>(from), count, static_cast<State*>(to));
-  }
-  void move_down(void* to, const void* from, std::size_t count) const override {
-    std::copy_n(static_cast<const State*>(from), count, static_cast<State*>(to));
-  }
 
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load,
                                       const void* state) const override {
@@ -76,7 +68,6 @@ class LawModelOf final : public LawModel<Dim> {
   }
 
   Law law_;
-  State fresh_{};
 };
 
 /// The same law, known at run time.

@@ -30,7 +30,7 @@ template <int Dim, class Law>
 [[nodiscard]] Stress<Dim> tangent_at(const Law& law, const PointLoad<Dim>& load,
                                      const typename Law::template State<Dim>& state) {
   if constexpr (is_any_law<Law>) {
-    return law.model().tangent_at(load, state.of(law.model()));
+    return law.model().tangent_at(load, state.of(law.model().states()));
   } else {
     constexpr double step = 1e-9;
     Stress<Dim> stiffness;
