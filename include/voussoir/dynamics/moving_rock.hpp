@@ -46,9 +46,7 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
   System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
       laws, laws.stiffest());
   std::vector<double> measures;
-  std::shared_ptr<const GroundAround<Geometry::dim>> around;
-  if (far_field.has(Boundary::elastic))
-    around = std::make_shared<const GroundAround<Geometry::dim>>(mass.domain, far_field);
+  const auto around = ground_around<Geometry::dim>(mass.domain, far_field);
   {
     detail::LawsAside<decltype(system)> aside(system);
     detail::make_model<Detector>(*aside, std::make_shared<const RockMass<Geometry>>(mass), in_situ,

@@ -84,16 +84,7 @@ class System : public SystemState<Geometry> {
 
   /// Out-of-balance force at displacement `u`; zero for bodies that cannot move.
   template <class History = Frozen>
-  void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
-    set_to_sum(f, load, wall_fraction, wall_load);
-    if (wall_held.size() > 0) add_to(f, wall_held);
-    joints.template add_forces<History>(u.data(), f.data());
-    boundary.template add_forces<History>(u.data(), f.data());
-    interface.template add_forces<History>(u.data(), f.data());
-    add_support_forces<History>(u.data(), f.data(), nullptr);
-    for (int b = 0; b < this->body_count(); ++b)
-      if (!this->body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
-  }
+  void forces(const Eigen::VectorXd& u, Eigen::VectorXd& f);
 
   /// Those of the supports alone, on chosen bodies (null: all).
   template <class History>
@@ -141,6 +132,20 @@ class System : public SystemState<Geometry> {
  private:
   using Base::bodies_;
 };
+
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+template <class History>
+void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces(const Eigen::VectorXd& u,
+                                                                     Eigen::VectorXd& f) {
+  set_to_sum(f, load, wall_fraction, wall_load);
+  if (wall_held.size() > 0) add_to(f, wall_held);
+  joints.template add_forces<History>(u.data(), f.data());
+  boundary.template add_forces<History>(u.data(), f.data());
+  interface.template add_forces<History>(u.data(), f.data());
+  add_support_forces<History>(u.data(), f.data(), nullptr);
+  for (int b = 0; b < this->body_count(); ++b)
+    if (!this->body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
+}
 
 template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
 auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::elastic_stiffness(

@@ -58,11 +58,7 @@ class SystemState {
   int add_bodies(std::span<const Body> bodies);
 
   /// Becomes the other, and the other this.
-  void exchange_state(SystemState& other) {
-    SystemState kept(std::move(*this));
-    *this = std::move(other);
-    other = std::move(kept);
-  }
+  void exchange_state(SystemState& other);
 
   [[nodiscard]] int body_count() const { return static_cast<int>(bodies_.size()); }
   [[nodiscard]] const Body& body(int b) const { return bodies_[static_cast<std::size_t>(b)]; }
@@ -184,12 +180,13 @@ class SystemState {
   }
 
  protected:
-  ~SystemState() = default;
-  SystemState() = default;
-  SystemState(const SystemState&) = default;
-  SystemState(SystemState&&) noexcept = default;
-  SystemState& operator=(const SystemState&) = default;
-  SystemState& operator=(SystemState&&) noexcept = default;
+  // Defined below: a class with so many vectors is copied in one place.
+  SystemState();
+  SystemState(const SystemState&);
+  SystemState(SystemState&&) noexcept;
+  SystemState& operator=(const SystemState&);
+  SystemState& operator=(SystemState&&) noexcept;
+  ~SystemState();
 
   std::vector<Body> bodies_;
 
@@ -204,6 +201,26 @@ class SystemState {
   Eigen::VectorXd updated_at_;         ///< displacement at which contacts were updated
   std::vector<Rotation<dim>> turned_;  ///< of bodies then
 };
+
+template <class Geometry>
+SystemState<Geometry>::SystemState() = default;
+template <class Geometry>
+SystemState<Geometry>::SystemState(const SystemState&) = default;
+template <class Geometry>
+SystemState<Geometry>::SystemState(SystemState&&) noexcept = default;
+template <class Geometry>
+SystemState<Geometry>& SystemState<Geometry>::operator=(const SystemState&) = default;
+template <class Geometry>
+SystemState<Geometry>& SystemState<Geometry>::operator=(SystemState&&) noexcept = default;
+template <class Geometry>
+SystemState<Geometry>::~SystemState() = default;
+
+template <class Geometry>
+void SystemState<Geometry>::exchange_state(SystemState& other) {
+  SystemState kept(std::move(*this));
+  *this = std::move(other);
+  other = std::move(kept);
+}
 
 template <class Geometry>
 int SystemState<Geometry>::add_bodies(std::span<const Body> bodies) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/core/bodies.hpp>
@@ -23,6 +25,10 @@
   WORD class SystemState<GEOMETRY>;                                                               \
   WORD class ContactGroup<GEOMETRY, AnyLaw<GEOMETRY::dim>>;                                       \
   WORD class System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>;                      \
+  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Frozen>(       \
+      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
+  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Committing>(   \
+      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
   WORD EquilibriumReport TwoLevel::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
   WORD EquilibriumReport Relaxation::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;   \
   WORD void Relaxation::follow(AnySystem<GEOMETRY>&, const SearchContext&, EquilibriumReport&)    \
@@ -69,6 +75,12 @@ VOUSSOIR_LINING(VOUSSOIR_PLANAR_TEMPLATE, Planar, EulerBernoulliBeam)
 VOUSSOIR_LINING(VOUSSOIR_PLANAR_TEMPLATE, Planar, TimoshenkoBeam)
 VOUSSOIR_LINING(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, EulerBernoulliBeam)
 VOUSSOIR_LINING(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, TimoshenkoBeam)
+
+// Bolts of the laws that are there.
+VOUSSOIR_PLANAR_TEMPLATE class BoltSet<2, AxialBolt>;
+VOUSSOIR_PLANAR_TEMPLATE class BoltSet<2, AxialShearBolt>;
+VOUSSOIR_SPATIAL_TEMPLATE class BoltSet<3, AxialBolt>;
+VOUSSOIR_SPATIAL_TEMPLATE class BoltSet<3, AxialShearBolt>;
 
 // The laws that are there.
 VOUSSOIR_PLANAR_TEMPLATE class detail::LawModelOf<2, CoulombJoint>;

@@ -264,8 +264,7 @@ ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
   in_situ_.check();
   far_field_.check();
   if (mass_->bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
-  if (far_field_.has(Boundary::elastic))
-    around_ = std::make_shared<const GroundAround<dim>>(mass_->domain, far_field_);
+  around_ = ground_around<dim>(mass_->domain, far_field_);
 }
 
 template <class Models>
