@@ -234,24 +234,47 @@ class ContactNetwork {
     return static_cast<std::size_t>(i);
   }
 
+  // Groups of one type, as those are whose laws are known at run time, are visited in a loop: what
+  // is done to a group is then compiled once instead of three times.
+  static constexpr bool is_of_one_type =
+      std::is_same_v<Joints, Walls> && std::is_same_v<Walls, Interface>;
+
   template <class Visit>
   void each_group(Visit&& visit) {
-    std::apply([&](auto&... group) { (visit(group), ...); }, groups_);
+    each_of(groups_, visit);
   }
   template <class Visit>
   void each_group(Visit&& visit) const {
-    std::apply([&](const auto&... group) { (visit(group), ...); }, groups_);
+    each_of(groups_, visit);
+  }
+  template <class Groups, class Visit>
+  static void each_of(Groups& groups, Visit& visit) {
+    auto& [joints, walls, interface] = groups;
+    if constexpr (is_of_one_type) {
+      for (auto* group : {&joints, &walls, &interface}) visit(*group);
+    } else {
+      visit(joints);
+      visit(walls);
+      visit(interface);
+    }
   }
   /// Calls visit(group, former) with the contacts of a kind and those that they carry on.
   /// @param kind  0: joints, 1: walls, 2: interface
   template <class Visit>
   void group_of_kind(std::size_t kind, Visit&& visit) {
-    if (kind == 0)
-      visit(std::get<0>(groups_), std::get<0>(former_));
-    else if (kind == 1)
-      visit(std::get<1>(groups_), std::get<1>(former_));
-    else
-      visit(std::get<2>(groups_), std::get<2>(former_));
+    auto& [joints, walls, interface] = groups_;
+    auto& [of_joints, of_walls, of_interface] = former_;
+    if constexpr (is_of_one_type) {
+      auto* const group = kind == 0 ? &joints : kind == 1 ? &walls : &interface;
+      auto* const former = kind == 0 ? &of_joints : kind == 1 ? &of_walls : &of_interface;
+      visit(*group, *former);
+    } else if (kind == 0) {
+      visit(joints, of_joints);
+    } else if (kind == 1) {
+      visit(walls, of_walls);
+    } else {
+      visit(interface, of_interface);
+    }
   }
 
   /// What former contacts remember, where that lies beside their points.
