@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -26,6 +27,7 @@
 #include <voussoir/geometry/cut_facing.hpp>
 #include <voussoir/model/contact_network.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/moving_contacts_view.hpp>
 #include <voussoir/model/moving_bodies.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -40,10 +42,8 @@ namespace voussoir {
 /// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
 /// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
 /// @tparam Detector  the narrow phase by which contacts are updated
-template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
-class Dynamics : public MovingBodies<Dim> {
-  static_assert(explain_contact_law<JointLaw, Dim>());
-  static_assert(explain_contact_law<InterfaceLaw, Dim>());
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+class Motion : public MovingBodies<Dim> {
   using Base = MovingBodies<Dim>;
   using MovingPart = detail::MovingPart;
 
@@ -52,19 +52,13 @@ class Dynamics : public MovingBodies<Dim> {
   using typename Base::Shape;
   using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>;
 
-  /// @throws InvalidInput  a setting out of range
-  explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
-      : Dynamics(LawsBySet<JointLaw>(law), {}, settings) {}
-  /// The same with joints of several laws.
-  /// @param law_of_cut  for every label of the blocks' faces the index of its law
-  Dynamics(const LawsBySet<JointLaw>& laws, std::vector<int> law_of_cut,
-           const DynamicsSettings& settings = {})
-      : Dynamics(laws.all(), laws.stiffest(), {}, std::move(law_of_cut), settings) {}
   /// @param wall_stiffness  of smooth walls [Pa/m]
   /// @param interface_laws  of linings
-  Dynamics(std::vector<JointLaw> laws, double wall_stiffness,
-           std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
-           const DynamicsSettings& settings)
+  /// @param law_of_cut      for every label of the blocks' faces the index of its law
+  /// @throws InvalidInput  a setting out of range
+  Motion(std::vector<JointLaw> laws, double wall_stiffness,
+         std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
+         const DynamicsSettings& settings)
       : settings_(settings),
         network_(std::move(laws), wall_stiffness, std::move(interface_laws), std::move(law_of_cut),
                  settings.points, settings.viscous_damping),
@@ -81,13 +75,8 @@ class Dynamics : public MovingBodies<Dim> {
     forget();
   }
   /// Adds the nodes of a lining; what joins them is a support.
-  /// @param interface_law  rock on lining
   /// @return  number of the first
   /// @throws InvalidInput  a node without mass or inertia
-  int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
-                       const InterfaceLaw& interface_law) {
-    return add_lining_nodes(nodes, network_.add_interface_law(interface_law));
-  }
   /// @param law  index into those of the rock-lining interface
   int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes, int law) {
     for (const auto& node : nodes) node.check();
@@ -117,7 +106,7 @@ class Dynamics : public MovingBodies<Dim> {
   /// Contacts of a model that is set in motion, before anything is computed (see
   /// `ContactNetwork::carry_on`).
   void carry_on(typename Network::template Former<JointLaw> joints,
-                typename Network::template Former<SmoothWall> walls,
+                typename Network::template Former<typename Network::WallLaw> walls,
                 typename Network::template Former<InterfaceLaw> interface) {
     network_.carry_on(std::move(joints), std::move(walls), std::move(interface));
   }
@@ -132,10 +121,10 @@ class Dynamics : public MovingBodies<Dim> {
   void add_inertia(double share);
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
-  void set_laws(const LawsBySet<JointLaw>& laws) {
+  void set_laws(std::vector<JointLaw> laws) {
     begin();
     const double before = network_.stored_energy(bodies_);
-    network_.set_laws(laws);
+    network_.set_laws(std::move(laws));
     contacts_at_start_ += network_.stored_energy(bodies_) - before;
     forget();
   }
@@ -344,7 +333,11 @@ class Dynamics : public MovingBodies<Dim> {
   int run_batch(int count, double step);
 
   DynamicsSettings settings_;
+
+ protected:
   Network network_;
+
+ private:
   detail::Stepping<Dim, Network> stepping_;
   static constexpr int lining_family = -1;
 
@@ -375,7 +368,7 @@ class Dynamics : public MovingBodies<Dim> {
 };
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) {
   require(share >= 0 && share < 1, "share of bodies with more inertia", share, ">= 0 and < 1");
   begin();
   const double kinetic = this->kinetic_energy();
@@ -386,7 +379,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) 
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
   begin();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto [force, moment] = network_.gather(b);
@@ -397,7 +390,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
   require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
   const double end = time_ + time;
   while (end - time_ > 1e-12 * std::max(time, step_)) {
@@ -411,7 +404,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vector<int>& bodies) {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vector<int>& bodies) {
   begin();
   MovingPart part;
   part.is_all = false;
@@ -432,7 +425,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vecto
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::VectorXd& step) {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::VectorXd& step) {
   constexpr int dof = Dim + spin_count<Dim>;
   require(step.size() == dof * static_cast<Eigen::Index>(bodies_.size()), "values of a step",
           static_cast<double>(step.size()), "those of all bodies");
@@ -464,7 +457,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::Vect
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
   if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
   const bool is_first = known_bodies_ == 0;
   if (is_first) {
@@ -487,7 +480,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
   const auto cut_of = [this](std::size_t shape, const Vec<Dim>& outward) {
     const auto& [part, b] = shapes_[shape];
     const Rotation<Dim> turn =
@@ -506,7 +499,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::check() {
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::check() {
   const std::string fault =
       detail::RunDiagnostics<Dim>(bodies_, roles_, origin_, sizes_.speed_limit,
                                   settings_.overlap_limit)
@@ -537,7 +530,7 @@ void Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::check() {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
+double Motion<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   take_in();
   if (!sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
@@ -551,7 +544,7 @@ double Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-int Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double step) {
+int Motion<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double step) {
   begin();
   step_ = step;
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -565,13 +558,87 @@ int Dynamics<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double
   return made;
 }
 
+namespace detail {
+
+/// What is compiled for a run: for laws that can be known at run time once for all.
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+using MotionFor = std::conditional_t<hides_laws<JointLaw, InterfaceLaw, Dim>,
+                                     Motion<Dim, AnyLaw<Dim>, AnyLaw<Dim>, Detector>,
+                                     Motion<Dim, JointLaw, InterfaceLaw, Detector>>;
+
+}  // namespace detail
+
+/// Blocks that move, their contacts by laws of these types: see `Motion`.
+/// @tparam Detector  the narrow phase by which contacts are updated
+template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
+class Dynamics : public detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector> {
+  static_assert(explain_contact_law<JointLaw, Dim>());
+  static_assert(explain_contact_law<InterfaceLaw, Dim>());
+  static constexpr bool is_hidden = detail::hides_laws<JointLaw, InterfaceLaw, Dim>;
+
+ public:
+  using Base = detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector>;
+
+  /// @throws InvalidInput  a setting out of range
+  explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
+      : Dynamics(LawsBySet<JointLaw>(law), {}, settings) {}
+  /// The same with joints of several laws.
+  /// @param law_of_cut  for every label of the blocks' faces the index of its law
+  Dynamics(const LawsBySet<JointLaw>& laws, std::vector<int> law_of_cut,
+           const DynamicsSettings& settings = {})
+      : Dynamics(laws.all(), laws.stiffest(), {}, std::move(law_of_cut), settings) {}
+  /// @param wall_stiffness  of smooth walls [Pa/m]
+  /// @param interface_laws  of linings
+  Dynamics(const std::vector<JointLaw>& laws, double wall_stiffness,
+           const std::vector<InterfaceLaw>& interface_laws, std::vector<int> law_of_cut,
+           const DynamicsSettings& settings)
+      : Base(as_compiled(laws), wall_stiffness, as_compiled(interface_laws), std::move(law_of_cut),
+             settings) {}
+  /// A run as it is, whose laws are of these types.
+  explicit Dynamics(Base&& run) : Base(std::move(run)) {}
+
+  using Base::add_lining_nodes;
+  /// @param interface_law  rock on lining
+  int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
+                       const InterfaceLaw& interface_law) {
+    return Base::add_lining_nodes(
+        nodes, this->network_.add_interface_law(as_compiled(std::vector{interface_law}).front()));
+  }
+  /// Other joint laws from now on, as many as there are; what the springs then hold differently is
+  /// no work of the run.
+  void set_laws(const LawsBySet<JointLaw>& laws) { Base::set_laws(as_compiled(laws.all())); }
+
+  /// Contacts, with their laws as types.
+  [[nodiscard]] decltype(auto) joints() const { return of_type<JointLaw>(Base::joints()); }
+  [[nodiscard]] decltype(auto) walls() const { return of_type<SmoothWall>(Base::walls()); }
+  [[nodiscard]] decltype(auto) interface() const {
+    return of_type<InterfaceLaw>(Base::interface());
+  }
+
+ private:
+  template <class Law>
+  [[nodiscard]] static auto as_compiled(const std::vector<Law>& laws) {
+    if constexpr (is_hidden)
+      return detail::any_laws<Dim>(laws);
+    else
+      return laws;
+  }
+  template <class Law, class Group>
+  [[nodiscard]] static decltype(auto) of_type(const Group& group) {
+    if constexpr (is_hidden)
+      return MovingContactsView<Dim, Law>(group);
+    else
+      return (group);
+  }
+};
+
 #ifdef VOUSSOIR_COMPILED
-VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, CoulombJoint>;
-VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, ContactNetwork<2, CoulombJoint>>;
-VOUSSOIR_PLANAR_TEMPLATE class Dynamics<2, CoulombJoint>;
-VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, CoulombJoint>;
-VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, ContactNetwork<3, CoulombJoint>>;
-VOUSSOIR_SPATIAL_TEMPLATE class Dynamics<3, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, AnyLaw<2>, AnyLaw<2>>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, ContactNetwork<2, AnyLaw<2>, AnyLaw<2>>>;
+VOUSSOIR_PLANAR_TEMPLATE class Motion<2, AnyLaw<2>, AnyLaw<2>, FaceContacts>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, AnyLaw<3>, AnyLaw<3>>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, ContactNetwork<3, AnyLaw<3>, AnyLaw<3>>>;
+VOUSSOIR_SPATIAL_TEMPLATE class Motion<3, AnyLaw<3>, AnyLaw<3>, FaceContacts>;
 #endif
 
 }  // namespace voussoir

@@ -46,12 +46,13 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
   System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
       laws, laws.stiffest());
   std::vector<double> measures;
-  detail::InitialModel<Detector, decltype(system)> model(mass, in_situ, far_field, settings.points,
-                                                         system);
-  std::shared_ptr<const GroundAround<Geometry::dim>> around;
-  if (far_field.has(Boundary::elastic))
-    around = std::make_shared<const GroundAround<Geometry::dim>>(mass.domain, far_field);
-  model.run(std::make_shared<const RockMass<Geometry>>(mass), laws, around, measures);
+  const auto around = ground_around<Geometry::dim>(mass.domain, far_field);
+  {
+    detail::LawsAside<decltype(system)> aside(system);
+    detail::make_model<Detector>(*aside, std::make_shared<const RockMass<Geometry>>(mass), in_situ,
+                                 far_field, settings.points, laws.of_cuts(mass), around, measures,
+                                 {});
+  }
   auto run = set_in_motion(system, settings);
   run.hold();
   return run;

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
+#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/detail/contact_frames.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/elastic_edge.hpp>
@@ -22,6 +24,10 @@ struct MotionOf;
 template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 struct MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>> {
   using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>;
+};
+template <class Geometry, int Dim, class Detector>
+struct MotionOf<System<Geometry, AnyLaw<Dim>, AnyLaw<Dim>, Detector>> {
+  using type = Motion<Dim, AnyLaw<Dim>, AnyLaw<Dim>, Detector>;
 };
 
 /// The run of a solver: composed of the same policies, in any order.
@@ -121,9 +127,12 @@ class Handover {
     const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     const auto former = [&](const auto& group) {
       using State = typename std::decay_t<decltype(group)>::State;
-      return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
-        return group.points()[static_cast<std::size_t>(k)].state;
-      });
+      if constexpr (std::is_same_v<State, AnyState>)
+        return FormerOfAnyLaw<dim>(group.contacts(), group.points(), frames, u);
+      else
+        return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
+          return group.points()[static_cast<std::size_t>(k)].state;
+        });
     };
     run.carry_on(former(system_.joints), former(system_.boundary), former(system_.interface));
   }
@@ -194,7 +203,8 @@ class Handover {
                                        [&](const ReferencePoint<dim>& p) {
                                          points.push_back({p, {}});
                                        });
-      for (std::size_t k = 0; k < points.size(); ++k) points[k].state = of[k].state;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        points[k].state = moving.state_of(at(c.first) + k);
       next.add(contact, points);
     }
     group = std::move(next);
@@ -202,6 +212,32 @@ class Handover {
 
   const System& system_;
 };
+
+/// See `set_in_motion`.
+template <class System>
+[[nodiscard]] typename MotionOf<System>::type run_of(const System& system,
+                                                     const DynamicsSettings& settings) {
+  const Handover<System> handover(system);
+  const auto& laws = system.joints.laws();
+  typename MotionOf<System>::type run(
+      laws, system.boundary.laws().front().joint_normal_stiffness(), system.interface.laws(),
+      laws.size() > 1 && system.law_of_cut != nullptr ? *system.law_of_cut : std::vector<int>{},
+      settings);
+  handover.add_bodies(run);
+  handover.add_loads(run);
+  handover.carry_contacts(run);
+  handover.carry_supports(run);
+  return run;
+}
+/// See `bring_to_rest`.
+template <class System>
+void take_from_run(typename MotionOf<System>::type& run, System& system,
+                   const std::vector<int>& gone) {
+  require(run.body_count() == system.body_count(), "bodies of the run", run.body_count(),
+          "those of the model");
+  Handover<System>::store(run, system);
+  if (!gone.empty()) system.remove(gone);
+}
 
 }  // namespace detail
 
@@ -216,20 +252,17 @@ class Handover {
 /// @param settings  gravity as that of the weights
 /// @throws InvalidInput  a body without shape; a lining without mass or thickness
 template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
-[[nodiscard]] Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector> set_in_motion(
-    const System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
-    const DynamicsSettings& settings) {
-  const detail::Handover<System<Geometry, JointLaw, InterfaceLaw, Detector>> handover(system);
-  const std::vector<JointLaw>& laws = system.joints.laws();
-  Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector> run(
-      laws, system.boundary.laws().front().joint_normal_stiffness(), system.interface.laws(),
-      laws.size() > 1 && system.law_of_cut != nullptr ? *system.law_of_cut : std::vector<int>{},
-      settings);
-  handover.add_bodies(run);
-  handover.add_loads(run);
-  handover.carry_contacts(run);
-  handover.carry_supports(run);
-  return run;
+[[nodiscard]] auto set_in_motion(const System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
+                                 const DynamicsSettings& settings) ->
+    typename MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>>::type {
+  if constexpr (detail::hides_laws<JointLaw, InterfaceLaw, Geometry::dim>) {
+    System<Geometry, JointLaw, InterfaceLaw, Detector> copy(system);
+    detail::LawsAside<decltype(copy)> aside(copy);
+    return Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>(
+        detail::run_of(*aside, settings));
+  } else {
+    return detail::run_of(system, settings);
+  }
 }
 
 /// The tunnel of a solver set in motion. Of several rounds those that are still held are let go
@@ -247,13 +280,11 @@ requires requires(const Solver& solver) { solver.in_situ().gravity; }
 /// @param system  from which the run was made
 /// @param gone    bodies that are taken out of it now: those that have fallen
 template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
-void bring_to_rest(Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
+void bring_to_rest(typename MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>>::type& run,
                    System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
                    const std::vector<int>& gone = {}) {
-  require(run.body_count() == system.body_count(), "bodies of the run", run.body_count(),
-          "those of the model");
-  detail::Handover<System<Geometry, JointLaw, InterfaceLaw, Detector>>::store(run, system);
-  if (!gone.empty()) system.remove(gone);
+  detail::LawsAside<System<Geometry, JointLaw, InterfaceLaw, Detector>> aside(system);
+  detail::take_from_run(run, *aside, gone);
 }
 
 }  // namespace voussoir

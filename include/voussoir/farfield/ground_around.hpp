@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/elementary.hpp>
@@ -168,9 +169,21 @@ class GroundAround {
   Eigen::MatrixXd stiffness_;
 };
 
+/// The ground beyond a domain; null where the far field has none that is elastic.
+template <int Dim>
+[[nodiscard]] std::shared_ptr<const GroundAround<Dim>> ground_around(
+    const Domain<Dim>& domain, const FarField<Dim>& far_field) {
+  if (!far_field.has(Boundary::elastic)) return nullptr;
+  return std::make_shared<const GroundAround<Dim>>(domain, far_field);
+}
+
 #ifdef VOUSSOIR_COMPILED
 VOUSSOIR_PLANAR_TEMPLATE class GroundAround<2>;
+VOUSSOIR_PLANAR_TEMPLATE std::shared_ptr<const GroundAround<2>> ground_around(const Domain<2>&,
+                                                                              const FarField<2>&);
 VOUSSOIR_SPATIAL_TEMPLATE class GroundAround<3>;
+VOUSSOIR_SPATIAL_TEMPLATE std::shared_ptr<const GroundAround<3>> ground_around(const Domain<3>&,
+                                                                               const FarField<3>&);
 #endif
 
 }  // namespace voussoir

@@ -43,7 +43,7 @@ class StrainedMass {
     InitialModel<CutContacts, System<Geometry, JointLaw>> model(mass, unstressed, rollers,
                                                                 ContactPoints::gauss, system_);
     model.add_bodies(measures);
-    model.add_contacts(laws);
+    model.add_contacts(laws.of_cuts(mass));
     const int ground = system_.body_count() - 1;
     visit_joined(boundary_facets(mass), [&](int body, SideOf<dim>, const auto& area) {
       system_.interface.add(body, ground, area, system_.body(body).centre,

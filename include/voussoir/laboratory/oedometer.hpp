@@ -66,7 +66,7 @@ struct Press {
     InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, rollers,
                                                              ContactPoints::gauss, system);
     model.add_bodies(measures);
-    model.add_contacts(LawsBySet<JointLaw>(joint_law));
+    model.add_contacts(LawsBySet<JointLaw>(joint_law).of_cuts(mass));
     std::fill(system.load.data(), system.load.data() + system.load.size(), 0.0);
     const int ground = system.body_count() - 1;
     platen = system.add_body({zeros<Vec<dim>>(), 0.0, 1.0, false});

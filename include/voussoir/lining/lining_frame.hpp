@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -185,5 +186,12 @@ template <class Geometry>
   }
   return shares;
 }
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE std::vector<LiningNodeShare> node_shares<Planar>(
+    const LiningFrame<Planar>&, const std::vector<LiningSection>&);
+VOUSSOIR_SPATIAL_TEMPLATE std::vector<LiningNodeShare> node_shares<Spatial>(
+    const LiningFrame<Spatial>&, const std::vector<LiningSection>&);
+#endif
 
 }  // namespace voussoir

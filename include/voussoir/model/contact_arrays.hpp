@@ -8,6 +8,7 @@
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/model/any_law.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
@@ -77,9 +78,16 @@ class ContactArrays {
 
   [[nodiscard]] Point operator[](std::size_t k) const {
     VOUSSOIR_ASSERT(k < size(), "there is such a point");
+    Point p;
+    static_cast<ReferencePoint<Dim>&>(p) = place(k);
+    p.state = states_.value(k);
+    return p;
+  }
+  /// A point but for what the law remembers of it.
+  [[nodiscard]] ReferencePoint<Dim> place(std::size_t k) const {
     const Record& r = records_[k];
     const Shift shift = has_shifts() ? shifts_[k] : Shift{};
-    Point p;
+    ReferencePoint<Dim> p;
     p.offset[0] = shift.height;
     p.weight = r.weight;
     p.initial.normal = r.initial_normal;
@@ -88,11 +96,15 @@ class ContactArrays {
       p.initial.tangential[m] = r.initial_tangential[m];
     }
     p.start = shift.start;
-    p.state = states_[k];
     return p;
   }
   /// Stores a point back, all of it.
   void set(std::size_t k, const Point& p) {
+    states_.set(k, p.state);
+    set_place(k, p);
+  }
+  /// The same but for what the law remembers of it.
+  void set_place(std::size_t k, const ReferencePoint<Dim>& p) {
     VOUSSOIR_ASSERT(k < size(), "there is such a point");
     Record& r = records_[k];
     r.weight = p.weight;
@@ -101,16 +113,23 @@ class ContactArrays {
       r.along[m] = p.offset[m + 1];
       r.initial_tangential[m] = p.initial.tangential[m];
     }
-    states_[k] = p.state;
     const bool is_shifted = p.offset[0] != 0 || !(p.start == zeros<Vec<Dim>>());
     if (is_shifted && shifts_.empty()) shifts_.resize(size());
     if (!shifts_.empty()) shifts_[k] = {p.offset[0], p.start};
   }
   void push_back(const Point& p) {
     records_.emplace_back();
-    states_.emplace_back();
+    states_.push_back(p.state);
     if (!shifts_.empty()) shifts_.emplace_back();
-    set(size() - 1, p);
+    set_place(size() - 1, p);
+  }
+  /// Becomes these points but for their states, which are to follow: as many.
+  template <class Other>
+  void take_places(ContactArrays<Dim, Other>& of) {
+    records_ = std::move(of.records_);
+    shifts_ = std::move(of.shifts_);
+    of.records_.clear();
+    of.shifts_.clear();
   }
   void reserve(std::size_t count) {
     records_.reserve(count);
@@ -125,7 +144,7 @@ class ContactArrays {
       for (std::size_t k = 0; k < count; ++k) array[to + k] = std::move(array[from + k]);
     };
     move(records_);
-    move(states_);
+    states_.move_down(from, to, count);
     if (!shifts_.empty()) move(shifts_);
   }
   /// Forgets all points but the first `count`.
@@ -135,19 +154,22 @@ class ContactArrays {
       array.erase(array.begin() + static_cast<std::ptrdiff_t>(count), array.end());
     };
     cut(records_);
-    cut(states_);
+    states_.truncate(count);
     if (!shifts_.empty()) cut(shifts_);
   }
 
   // The arrays themselves, for the kernel of forces.
   [[nodiscard]] const Record* records() const { return records_.data(); }
   [[nodiscard]] const Shift* shifts() const { return shifts_.data(); }  ///< null: none is shifted
-  [[nodiscard]] const State* states() const { return states_.data(); }
-  [[nodiscard]] State* states() { return states_.data(); }
+  [[nodiscard]] const detail::StateColumn<State>& states() const { return states_; }
+  [[nodiscard]] detail::StateColumn<State>& states() { return states_; }
 
  private:
+  template <int, class>
+  friend class ContactArrays;
+
   std::vector<Record> records_;
-  std::vector<State> states_;
+  detail::StateColumn<State> states_;
   std::vector<Shift> shifts_;  ///< empty: all are zero
 };
 

@@ -6,14 +6,17 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
+#include <voussoir/model/any_law.hpp>
 #include <voussoir/model/contact_arrays.hpp>
 #include <voussoir/model/contact_kernel.hpp>
+#include <voussoir/model/detail/law_steps.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
@@ -27,18 +30,20 @@ class ContactGroup {
  public:
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
+  using LawType = Law;
   using State = typename Law::template State<dim>;
 
   using Contact = ReferenceContact<dim>;
   using Points = ContactArrays<dim, State>;
   using Point = typename Points::Point;
 
-  explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) {}
+  explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
   /// @return  its index
   int add_law(Law law) {
     laws_.push_back(std::move(law));
+    prepare();
     return static_cast<int>(laws_.size()) - 1;
   }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
@@ -53,6 +58,11 @@ class ContactGroup {
     for (int k = c.first; k < c.last(); ++k) points.push_back(points_[static_cast<std::size_t>(k)]);
     return points;
   }
+
+  /// Takes the contacts of another group, whose laws are the same but known in another way: by
+  /// their type, or at run time. The other one is left without contacts.
+  template <class Other>
+  void take_contacts(ContactGroup<Geometry, Other>& from);
 
   /// Makes room for more contacts of so many points each.
   void reserve(std::size_t contacts, std::size_t points_each) {
@@ -89,11 +99,12 @@ class ContactGroup {
   /// Sets the initial force at every point from the stress there: on b, -traction of the facet.
   template <class StressAt>
   void set_initial(StressAt&& stress_at) {
-    for_each_point([&](const Contact& c, std::size_t k, Point p, const Vec<dim>& offset) {
-      const Vec<dim> force = stress_at(c, offset) * c.normal * p.weight;
-      p.initial = {c.normal.dot(force), transposed(c.tangents()) * force};
-      points_.set(k, p);
-    });
+    for_each_point(
+        [&](const Contact& c, std::size_t k, ReferencePoint<dim> p, const Vec<dim>& offset) {
+          const Vec<dim> force = stress_at(c, offset) * c.normal * p.weight;
+          p.initial = {c.normal.dot(force), transposed(c.tangents()) * force};
+          points_.set_place(k, p);
+        });
   }
 
   /// Makes `u` the displacement at which contacts first, first + 1, ... touch without force: for
@@ -103,10 +114,10 @@ class ContactGroup {
       const Contact& c = contacts_[k];
       for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last());
            ++i) {
-        Point p = points_[i];
+        ReferencePoint<dim> p = points_.place(i);
         p.initial = {};
         p.start = -c.linear_motion(p, u);
-        points_.set(i, p);
+        points_.set_place(i, p);
       }
     }
   }
@@ -114,20 +125,16 @@ class ContactGroup {
   /// Adds the contact forces at displacement `u` to `f`, both dof values per body.
   template <class History>
   void add_forces(const double* u, double* f) {
-    with_kernel<History>([&](const auto& kernel) {
-      for (const Contact& c : contacts_) kernel.add(c, law_of(c), u, f);
-    });
+    add_forces<History>(nullptr, contacts_.size(), u, f);
   }
   /// The same for the contacts with these numbers only.
   template <class History>
   void add_forces(std::span<const int> which, const double* u, double* f) {
-    with_kernel<History>([&](const auto& kernel) {
-      for (const int k : which) {
-        VOUSSOIR_ASSERT(static_cast<std::size_t>(k) < contacts_.size(), "there is such a contact");
-        const Contact& c = contacts_[static_cast<std::size_t>(k)];
-        kernel.add(c, law_of(c), u, f);
-      }
-    });
+    VOUSSOIR_ASSERT(
+        std::all_of(which.begin(), which.end(),
+                    [&](int k) { return static_cast<std::size_t>(k) < contacts_.size(); }),
+        "there are such contacts");
+    if (!which.empty()) add_forces<History>(which.data(), which.size(), u, f);
   }
 
   /// Brings the history up to date with displacement `u`.
@@ -139,9 +146,11 @@ class ContactGroup {
   template <class CreepLaw = Law>
   requires CreepingLaw<CreepLaw, dim>
   void creep(const double* u, double time) {
-    for_each_point([&](const Contact& c, std::size_t k, const Point& p, const Vec<dim>& offset) {
-      law_of(c).creep({p.weight, p.initial, c.motion(p, offset, u)}, points_.states()[k], time);
-    });
+    for_each_point(
+        [&](const Contact& c, std::size_t k, const ReferencePoint<dim>& p, const Vec<dim>& offset) {
+          law_of(c).creep({p.weight, p.initial, c.motion(p, offset, u)}, points_.states().data()[k],
+                          time);
+        });
   }
 
   /// Hands the elastic (closed, sticking) stiffness of each contact to `sink(a, b, aa, ab, bb)`.
@@ -151,7 +160,7 @@ class ContactGroup {
     for (const Contact& c : contacts_) {
       Block aa = zeros<Block>(), ab = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last(); ++k) {
-        const Point p = points_[static_cast<std::size_t>(k)];
+        const ReferencePoint<dim> p = points_.place(static_cast<std::size_t>(k));
         const Vec<dim> offset = c.offset_of(p);
         for (int direction = 0; direction < dim; ++direction) {
           const Vec<dim> unit = direction == 0 ? c.normal : column(c.tangents(), direction - 1);
@@ -177,25 +186,14 @@ class ContactGroup {
   void add_tangent(std::span<const int> which, const double* u, Sink&& sink) const {
     using Block = Fixed<dof, dof>;
     using Rows = Fixed<dof, dim>;
-    constexpr double step = 1e-9;
     for (const int number : which) {
       const Contact& c = contacts_[static_cast<std::size_t>(number)];
       Block aa = zeros<Block>(), ab = zeros<Block>(), ba = zeros<Block>(), bb = zeros<Block>();
       for (int k = c.first; k < c.last(); ++k) {
         const Point p = points_[static_cast<std::size_t>(k)];
         const Vec<dim> offset = c.offset_of(p);
-        const PointMotion<dim> motion = c.motion(p, offset, u);
-        Stress<dim> stiffness;
-        for (int l = 0; l < dim; ++l) {
-          PointLoad<dim> more{p.weight, p.initial, motion}, less = more;
-          (l == 0 ? more.motion.opening : more.motion.slip[l - 1]) += step;
-          (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
-          const PointForce<dim> up = law_of(c).force(more, p.state),
-                                down = law_of(c).force(less, p.state);
-          stiffness(0, l) = (down.normal - up.normal) / (2 * step);
-          for (int m = 1; m < dim; ++m)
-            stiffness(m, l) = (down.tangential[m - 1] - up.tangential[m - 1]) / (2 * step);
-        }
+        const Stress<dim> stiffness = detail::tangent_at<dim>(
+            law_of(c), {p.weight, p.initial, c.motion(p, offset, u)}, p.state);
         Rows a, b;
         for (int l = 0; l < dim; ++l) {
           const Vec<dim> axis = l == 0 ? c.normal : column(c.tangents(), l - 1);
@@ -242,13 +240,34 @@ class ContactGroup {
   }
 
  private:
-  /// Calls work(kernel) with what adds the force of one contact.
-  template <class History, class Work>
-  void with_kernel(Work&& work) {
-    if (points_.has_shifts())
-      work(detail::ContactKernel<dim, Law, History, true>(points_));
-    else
-      work(detail::ContactKernel<dim, Law, History, false>(points_));
+  template <class, class>
+  friend class ContactGroup;
+
+  /// @param which  null: the first `count`
+  template <class History>
+  void add_forces(const int* which, std::size_t count, const double* u, double* f) {
+    if (count == 0) return;
+    detail::ForceTask<dim> task;
+    task.commits = std::is_same_v<History, Committing>;
+    task.contacts = contacts_.data();
+    task.which = which;
+    task.count = count;
+    task.records = points_.records();
+    task.shifts = points_.shifts();
+    task.states = points_.states().data();
+    task.u = u;
+    task.f = f;
+    if constexpr (is_any_law<Law>) {
+      task.laws = laws_.data();
+      laws_.front().model().add_forces(task);
+    } else {
+      detail::add_forces<dim, Law>(task, [&](std::size_t law) -> const Law& { return laws_[law]; });
+    }
+  }
+  /// After a law has come.
+  void prepare() {
+    if constexpr (is_any_law<Law>)
+      if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
   }
 
   /// Calls visit(contact, number of the point, point, offset) for every point.
@@ -257,7 +276,7 @@ class ContactGroup {
     for (const Contact& c : contacts_)
       for (auto k = static_cast<std::size_t>(c.first); k < static_cast<std::size_t>(c.last());
            ++k) {
-        const Point p = points_[k];
+        const ReferencePoint<dim> p = points_.place(k);
         visit(c, k, p, c.offset_of(p));
       }
   }
@@ -292,17 +311,35 @@ void ContactGroup<Geometry, Law>::add(int a, int b, const Area& area, const Vec<
 }
 
 template <class Geometry, class Law>
+template <class Other>
+void ContactGroup<Geometry, Law>::take_contacts(ContactGroup<Geometry, Other>& from) {
+  static_assert(is_any_law<Law> != is_any_law<Other>);
+  auto& states = points_.states();
+  const std::size_t count = from.points_.size();
+  states.truncate(0);
+  states.reserve(count);
+  if constexpr (is_any_law<Law>) {
+    if (count > 0) states.append(from.points_.states().data(), count);
+  } else {
+    const auto* state = static_cast<const State*>(from.points_.states().data());
+    for (std::size_t k = 0; k < count; ++k) states.push_back(state[k]);
+  }
+  points_.take_places(from.points_);
+  from.points_.states().truncate(0);
+  contacts_ = std::move(from.contacts_);
+  from.contacts_.clear();
+}
+
+template <class Geometry, class Law>
 int ContactGroup<Geometry, Law>::commit(const double* u) {
   int weakened = 0;
-  for_each_point([&](const Contact& c, std::size_t k, const Point& p, const Vec<dim>& offset) {
+  for_each_point([&](const Contact& c, std::size_t k, const ReferencePoint<dim>& p,
+                     const Vec<dim>& offset) {
     const PointLoad<dim> load{p.weight, p.initial, c.motion(p, offset, u)};
-    State& state = points_.states()[k];
-    const PointForce<dim> before = law_of(c).force(load, state);
-    law_of(c).commit(load, state);
-    const PointForce<dim> after = law_of(c).force(load, state);
-    const double change =
-        std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
-    if (change > 1e-9 * (std::abs(before.normal) + before.tangential.norm())) ++weakened;
+    if constexpr (is_any_law<Law>)
+      weakened += law_of(c).model().commit_point(load, points_.states().at(k)) ? 1 : 0;
+    else
+      weakened += detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]) ? 1 : 0;
   });
   return weakened;
 }

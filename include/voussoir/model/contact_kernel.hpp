@@ -25,14 +25,14 @@ template <int Dim, class Law, class History, bool Shifted>
 class ContactKernel {
  public:
   using State = typename Law::template State<Dim>;
-  using Arrays = ContactArrays<Dim, State>;
   using Contact = ReferenceContact<Dim>;
   static constexpr bool has_pairs =
       std::is_same_v<History, Frozen> && Dim == 2 && HasPairForce<Law>;
   static constexpr int dof = Contact::dof;
 
-  explicit ContactKernel(Arrays& arrays)
-      : records_(arrays.records()), shifts_(arrays.shifts()), states_(arrays.states()) {}
+  /// @param shifts  null where none is shifted
+  ContactKernel(const PointRecord<Dim>* records, const PointShift<Dim>* shifts, State* states)
+      : records_(records), shifts_(shifts), states_(states) {}
 
   /// Adds the force of a contact at displacement `u` to `f`, both dof values per body.
   void add(const Contact& c, const Law& law, const double* u, double* f) const {

@@ -18,6 +18,7 @@
 #include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
+#include <voussoir/model/detail/any_moving_contacts.hpp>
 #include <voussoir/model/detail/body_rates.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
 #include <voussoir/model/detail/contact_springs.hpp>
@@ -25,6 +26,7 @@
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/detail/impact.hpp>
 #include <voussoir/model/detail/kept_shear.hpp>
+#include <voussoir/model/detail/law_model.hpp>
 #include <voussoir/model/detail/left_contact.hpp>
 #include <voussoir/model/detail/limited_energy.hpp>
 #include <voussoir/model/moving_bodies.hpp>
@@ -47,12 +49,13 @@ class ContactNetwork {
   using Body = MovingBody<Dim>;
   using Bodies = std::vector<Body>;
   using Joints = MovingContacts<Dim, JointLaw>;
-  using Walls = MovingContacts<Dim, SmoothWall>;
+  using WallLaw = detail::WallLaw<Dim, JointLaw>;
+  using Walls = MovingContacts<Dim, WallLaw>;
   using Interface = MovingContacts<Dim, InterfaceLaw>;
   using Tracker = ContactTracker<Dim, Detector>;
 
   template <class Law>
-  using Former = detail::FormerContacts<Dim, typename Law::template State<Dim>>;
+  using Former = typename detail::FormerOfLaw<Dim, Law>::type;
 
   /// @param laws  of the joints;  @param wall_stiffness  of the walls [Pa/m]
   /// @param interface_laws  of linings that there are already
@@ -61,7 +64,7 @@ class ContactNetwork {
   ContactNetwork(std::vector<JointLaw> laws, double wall_stiffness,
                  std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
                  ContactPoints rule, double viscous_damping)
-      : groups_(Joints(std::move(laws)), Walls({SmoothWall(wall_stiffness)}),
+      : groups_(Joints(std::move(laws)), Walls(detail::wall_laws<Dim, JointLaw>(wall_stiffness)),
                 Interface(std::move(interface_laws))),
         law_of_cut_(std::move(law_of_cut)),
         rule_(rule),
@@ -101,7 +104,10 @@ class ContactNetwork {
 
   /// The contacts of a model that is set in motion: those that are found first carry them on.
   /// @param interface  laws numbered as by `set_interface_law`
-  void carry_on(Former<JointLaw> joints, Former<SmoothWall> walls, Former<InterfaceLaw> interface) {
+  void carry_on(Former<JointLaw> joints, Former<WallLaw> walls, Former<InterfaceLaw> interface) {
+    adopt(std::get<0>(groups_), joints);
+    adopt(std::get<1>(groups_), walls);
+    adopt(std::get<2>(groups_), interface);
     former_ = {std::move(joints), std::move(walls), std::move(interface)};
     is_everything_new_ = false;
   }
@@ -185,15 +191,16 @@ class ContactNetwork {
   }
 
   /// Other laws for the joints from now on: as many, of the same kind.
-  void set_laws(const LawsBySet<JointLaw>& laws) { std::get<0>(groups_).set_laws(laws.all()); }
+  void set_laws(std::vector<JointLaw> laws) { std::get<0>(groups_).set_laws(std::move(laws)); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
     std::size_t before = 0;
     each_group([&](auto& group) {
-      const std::size_t end = std::min(last, before + group.size());
-      for (std::size_t k = std::max(first, before); k < end; ++k)
-        sums_.reaction(k) = group.react(k - before, bodies, lost);
+      const std::size_t begin = std::max(first, before),
+                        end = std::min(last, before + group.size());
+      if (begin < end)
+        group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost);
       before += group.size();
     });
   }
@@ -203,8 +210,12 @@ class ContactNetwork {
     auto next = which.begin();
     each_group([&](auto& group) {
       const std::size_t end = before + group.size();
-      for (; next != which.end() && *next < end; ++next)
-        sums_.reaction(*next) = group.react(*next - before, bodies, lost);
+      while (next != which.end() && *next < end) {
+        const std::size_t first = *next;
+        std::size_t last = first;
+        for (; next != which.end() && *next == last && last < end; ++next) ++last;
+        group.react(first - before, last - before, bodies, &sums_.reaction(first), lost);
+      }
       before = end;
     });
   }
@@ -270,24 +281,54 @@ class ContactNetwork {
     return static_cast<std::size_t>(i);
   }
 
+  // Groups of one type, as those are whose laws are known at run time, are visited in a loop: what
+  // is done to a group is then compiled once instead of three times.
+  static constexpr bool is_of_one_type =
+      std::is_same_v<Joints, Walls> && std::is_same_v<Walls, Interface>;
+
   template <class Visit>
   void each_group(Visit&& visit) {
-    std::apply([&](auto&... group) { (visit(group), ...); }, groups_);
+    each_of(groups_, visit);
   }
   template <class Visit>
   void each_group(Visit&& visit) const {
-    std::apply([&](const auto&... group) { (visit(group), ...); }, groups_);
+    each_of(groups_, visit);
+  }
+  template <class Groups, class Visit>
+  static void each_of(Groups& groups, Visit& visit) {
+    auto& [joints, walls, interface] = groups;
+    if constexpr (is_of_one_type) {
+      for (auto* group : {&joints, &walls, &interface}) visit(*group);
+    } else {
+      visit(joints);
+      visit(walls);
+      visit(interface);
+    }
   }
   /// Calls visit(group, former) with the contacts of a kind and those that they carry on.
   /// @param kind  0: joints, 1: walls, 2: interface
   template <class Visit>
   void group_of_kind(std::size_t kind, Visit&& visit) {
-    if (kind == 0)
-      visit(std::get<0>(groups_), std::get<0>(former_));
-    else if (kind == 1)
-      visit(std::get<1>(groups_), std::get<1>(former_));
-    else
-      visit(std::get<2>(groups_), std::get<2>(former_));
+    auto& [joints, walls, interface] = groups_;
+    auto& [of_joints, of_walls, of_interface] = former_;
+    if constexpr (is_of_one_type) {
+      auto* const group = kind == 0 ? &joints : kind == 1 ? &walls : &interface;
+      auto* const former = kind == 0 ? &of_joints : kind == 1 ? &of_walls : &of_interface;
+      visit(*group, *former);
+    } else if (kind == 0) {
+      visit(joints, of_joints);
+    } else if (kind == 1) {
+      visit(walls, of_walls);
+    } else {
+      visit(interface, of_interface);
+    }
+  }
+
+  /// What former contacts remember, where that lies beside their points.
+  template <class Group, class FormerGroup>
+  static void adopt(Group& group, FormerGroup& former) {
+    if constexpr (requires { group.adopt(std::move(former.states)); })
+      group.adopt(std::move(former.states));
   }
 
   using Pair = typename Tracker::Pair;
@@ -478,7 +519,7 @@ class ContactNetwork {
   }
 
   std::tuple<Joints, Walls, Interface> groups_;
-  std::tuple<Former<JointLaw>, Former<SmoothWall>, Former<InterfaceLaw>> former_;
+  std::tuple<Former<JointLaw>, Former<WallLaw>, Former<InterfaceLaw>> former_;
   bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
   bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;

@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -233,5 +234,10 @@ class LiningFeet : public SupportModel<LiningFeet<Dim>, Dim> {
   std::vector<Spring> springs_;
   double lost_ = 0;  ///< in a run: to settling and slip [J]
 };
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class LiningFeet<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class LiningFeet<3>;
+#endif
 
 }  // namespace voussoir

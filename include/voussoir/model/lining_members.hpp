@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -168,5 +169,12 @@ class LiningJoints : public FrameMembers<LiningJoints<Geometry>, Geometry> {
  public:
   using FrameMembers<LiningJoints<Geometry>, Geometry>::FrameMembers;
 };
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class LiningMembers<Planar>;
+VOUSSOIR_SPATIAL_TEMPLATE class LiningMembers<Spatial>;
+VOUSSOIR_PLANAR_TEMPLATE class LiningJoints<Planar>;
+VOUSSOIR_SPATIAL_TEMPLATE class LiningJoints<Spatial>;
+#endif
 
 }  // namespace voussoir

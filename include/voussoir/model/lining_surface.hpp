@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -134,5 +135,10 @@ template <class Lining, class Geometry>
                                          bool is_pinned) {
   return mass * (length * length + thickness * thickness) / 12 * (is_pinned ? 1e12 : 1.0);
 }
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class LiningSurface<Planar>;
+VOUSSOIR_SPATIAL_TEMPLATE class LiningSurface<Spatial>;
+#endif
 
 }  // namespace voussoir

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/line_clip.hpp>
@@ -75,5 +76,12 @@ template <class Geometry>
   }
   return joined;
 }
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE std::vector<BlockIntersection> block_intersections<Planar>(
+    const RockMass<Planar>&, const Planar::Line&);
+VOUSSOIR_SPATIAL_TEMPLATE std::vector<BlockIntersection> block_intersections<Spatial>(
+    const RockMass<Spatial>&, const Spatial::Line&);
+#endif
 
 }  // namespace voussoir

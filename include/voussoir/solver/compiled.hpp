@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/contact/barton_bandis_joint.hpp>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
@@ -15,14 +19,42 @@
 /// list, and the compiler leaves what stands in it to the library. Any other composition is
 /// compiled where it is used, as without the library: it saves time and changes no answer.
 
-/// The searches for equilibrium in one kind of system.
-#define VOUSSOIR_SEARCHES(WORD, ...)                                                           \
-  WORD class System<__VA_ARGS__>;                                                              \
-  WORD EquilibriumReport TwoLevel::find(System<__VA_ARGS__>&, const SearchContext&) const;     \
-  WORD EquilibriumReport Relaxation::find(System<__VA_ARGS__>&, const SearchContext&) const;   \
-  WORD void Relaxation::follow(System<__VA_ARGS__>&, const SearchContext&, EquilibriumReport&) \
-      const;                                                                                   \
-  WORD EquilibriumReport Explicit::find(System<__VA_ARGS__>&, const SearchContext&) const;
+/// All that works on a model without knowing its laws: making it, going on after a round, updating
+/// its contacts, the searches for equilibrium and with them motion.
+#define VOUSSOIR_MODEL(WORD, GEOMETRY)                                                            \
+  WORD class SystemState<GEOMETRY>;                                                               \
+  WORD class ContactGroup<GEOMETRY, AnyLaw<GEOMETRY::dim>>;                                       \
+  WORD class System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>;                      \
+  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Frozen>(       \
+      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
+  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Committing>(   \
+      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
+  WORD EquilibriumReport TwoLevel::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
+  WORD EquilibriumReport Relaxation::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;   \
+  WORD void Relaxation::follow(AnySystem<GEOMETRY>&, const SearchContext&, EquilibriumReport&)    \
+      const;                                                                                      \
+  WORD EquilibriumReport Explicit::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
+  WORD ContactUpdateReport update_contacts(AnySystem<GEOMETRY>&, double, const Progress&);        \
+  WORD MotionOf<AnySystem<GEOMETRY>>::type detail::run_of(const AnySystem<GEOMETRY>&,             \
+                                                          const DynamicsSettings&);               \
+  WORD void detail::take_from_run(MotionOf<AnySystem<GEOMETRY>>::type&, AnySystem<GEOMETRY>&,     \
+                                  const std::vector<int>&);                                       \
+  WORD void detail::make_model<CutContacts>(                                                      \
+      AnySystem<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,             \
+      const FarField<GEOMETRY::dim>&, ContactPoints, std::vector<int>,                            \
+      std::shared_ptr<const GroundAround<GEOMETRY::dim>>, std::vector<double>&, const Progress&); \
+  WORD detail::AfterRound detail::go_on_after_round<CutContacts>(                                 \
+      AnySystem<GEOMETRY>&, AnySystem<GEOMETRY>&,                                                 \
+      const std::shared_ptr<const RockMass<GEOMETRY>>&, std::vector<int>,                         \
+      const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&, ContactPoints,     \
+      double, WallTractions&, const std::vector<int>&, const Progress&);
+
+/// A kind of lining.
+#define VOUSSOIR_LINING(WORD, GEOMETRY, LINING)                           \
+  WORD std::vector<Vec<GEOMETRY::dim>> detail::assemble_lining<LINING>(   \
+      AnySystem<GEOMETRY>&, double, double, const LiningFrame<GEOMETRY>&, \
+      const std::vector<LiningSection>&, const AnyLaw<GEOMETRY::dim>&,    \
+      const std::optional<FootBearing>&);
 
 /// Rock: its blocks, the opening in it, its contacts.
 #define VOUSSOIR_ROCK(WORD, GEOMETRY)                                                           \
@@ -37,18 +69,33 @@ namespace voussoir {
 VOUSSOIR_ROCK(VOUSSOIR_PLANAR_TEMPLATE, Planar)
 VOUSSOIR_ROCK(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
 
-// The contacts of one system: between blocks, at the edge of the domain.
-VOUSSOIR_PLANAR_TEMPLATE class ContactGroup<Planar, CoulombJoint>;
-VOUSSOIR_PLANAR_TEMPLATE class ContactGroup<Planar, SmoothWall>;
-VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, CoulombJoint>;
-VOUSSOIR_SPATIAL_TEMPLATE class ContactGroup<Spatial, SmoothWall>;
+VOUSSOIR_MODEL(VOUSSOIR_PLANAR_TEMPLATE, Planar)
+VOUSSOIR_MODEL(VOUSSOIR_SPATIAL_TEMPLATE, Spatial)
+VOUSSOIR_LINING(VOUSSOIR_PLANAR_TEMPLATE, Planar, EulerBernoulliBeam)
+VOUSSOIR_LINING(VOUSSOIR_PLANAR_TEMPLATE, Planar, TimoshenkoBeam)
+VOUSSOIR_LINING(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, EulerBernoulliBeam)
+VOUSSOIR_LINING(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, TimoshenkoBeam)
 
-VOUSSOIR_SEARCHES(VOUSSOIR_PLANAR_TEMPLATE, Planar, CoulombJoint)
+// Bolts of the laws that are there.
+VOUSSOIR_PLANAR_TEMPLATE class BoltSet<2, AxialBolt>;
+VOUSSOIR_PLANAR_TEMPLATE class BoltSet<2, AxialShearBolt>;
+VOUSSOIR_SPATIAL_TEMPLATE class BoltSet<3, AxialBolt>;
+VOUSSOIR_SPATIAL_TEMPLATE class BoltSet<3, AxialShearBolt>;
+
+// The laws that are there.
+VOUSSOIR_PLANAR_TEMPLATE class detail::LawModelOf<2, CoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::LawModelOf<2, MohrCoulombJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::LawModelOf<2, BartonBandisJoint>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::LawModelOf<2, SmoothWall>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::LawModelOf<3, CoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::LawModelOf<3, MohrCoulombJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::LawModelOf<3, BartonBandisJoint>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::LawModelOf<3, SmoothWall>;
+
 VOUSSOIR_PLANAR_TEMPLATE class ComposedSolver<
     ModelsOfRoles<Planar, CutContacts, CoulombJoint, CoulombJoint, LorigAnchors, AxialBolt,
                   EulerBernoulliBeam, TwoLevel>>;
 
-VOUSSOIR_SEARCHES(VOUSSOIR_SPATIAL_TEMPLATE, Spatial, CoulombJoint)
 VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<
     ModelsOfRoles<Spatial, CutContacts, CoulombJoint, CoulombJoint, LorigAnchors, AxialBolt,
                   EulerBernoulliBeam, TwoLevel>>;
@@ -59,4 +106,5 @@ VOUSSOIR_SPATIAL_TEMPLATE class ComposedSolver<
 }  // namespace voussoir
 
 #undef VOUSSOIR_ROCK
-#undef VOUSSOIR_SEARCHES
+#undef VOUSSOIR_LINING
+#undef VOUSSOIR_MODEL

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -19,13 +20,13 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/contact_points.hpp>
-#include <voussoir/model/contact_update.hpp>
 #include <voussoir/model/detail/bolt_assembly.hpp>
-#include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
+#include <voussoir/model/detail/next_round.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -131,10 +132,12 @@ class ComposedSolver {
                                        const std::vector<LiningSection>& sections,
                                        const InterfaceLaw& interface_law,
                                        const std::optional<FootBearing>& feet = {}) {
-    detail::LiningAssembly<Lining, SystemType> assembly(system_, in_situ_.gravity,
-                                                        1e3 * mass_->domain.tolerance());
-    std::vector<Vec<dim>> hanging = assembly.run(frame, sections, interface_law, feet);
-    measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
+    detail::LawsAside<SystemType> aside(system_);
+    using Aside = std::decay_t<decltype(*aside)>;
+    std::vector<Vec<dim>> hanging = detail::assemble_lining<Lining>(
+        *aside, in_situ_.gravity, 1e3 * mass_->domain.tolerance(), frame, sections,
+        detail::law_for<Aside>(interface_law), feet);
+    measures_.resize(static_cast<std::size_t>(aside->body_count()), 0.0);
     started_ = true;
     return hanging;
   }
@@ -181,9 +184,10 @@ class ComposedSolver {
   /// Largest out-of-balance force of a body, over its weight, where the bodies are now [-].
   /// @cost  one evaluation of all forces
   [[nodiscard]] double out_of_balance_ratio() {
+    detail::LawsAside<SystemType> aside(system_);
     Eigen::VectorXd f;
-    system_.forces(system_.displacement, f);
-    return system_.unbalance_over_weight(f);
+    aside->forces(aside->displacement, f);
+    return aside->unbalance_over_weight(f);
   }
   /// The bolts installed so far; null if there are none.
   [[nodiscard]] const BoltsType* bolts() const {
@@ -260,8 +264,7 @@ ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
   in_situ_.check();
   far_field_.check();
   if (mass_->bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
-  if (far_field_.has(Boundary::elastic))
-    around_ = std::make_shared<const GroundAround<dim>>(mass_->domain, far_field_);
+  around_ = ground_around<dim>(mass_->domain, far_field_);
 }
 
 template <class Models>
@@ -311,40 +314,27 @@ void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
   const auto mass = std::make_shared<RockMass<Geometry>>(
       carve(RockMass<Geometry>(*mass_), opening, smallest_piece, progress));
   SystemType next(joint_laws_, joint_laws_.stiffest());
-  std::vector<double> measures;
-  detail::InitialModel<Detector, SystemType> model(*mass, in_situ_, far_field_, points_, next,
-                                                   progress);
-  model.add_bodies(measures);
-  model.add_contacts(joint_laws_);
-  model.add_edges();
-  next.shapes = detail::shapes_of<SystemType>(mass, far_field_);
-  detail::CarryOver<SystemType> carry(system_, mass->origins, next, mass->domain.tolerance(),
-                                      opening);
-  carry.run();
-  if (system_.has_updated_contacts())
-    update_contacts(next, 2 * update_limit_, progress);
-  else
-    model.set_initial_stress();
-  // From here on nothing throws.
-  walls_.carry_over([&](const Eigen::VectorXd& load) { return carry.carry_load(load); });
-  const BodyMarks touched = carry.touched();
-  std::vector<int> fallen;
-  for (const int b : fallen_)
-    for (int piece = carry.pieces(b).first; piece < carry.pieces(b).second; ++piece)
-      fallen.push_back(piece);
-  measures.resize(static_cast<std::size_t>(next.body_count()), 0.0);
-  system_ = std::move(next);
+  detail::AfterRound after;
+  {
+    detail::LawsAside<SystemType> aside(system_), next_aside(next);
+    after = detail::go_on_after_round<Detector>(
+        *aside, *next_aside, mass, joint_laws_.of_cuts(*mass), opening, in_situ_, far_field_,
+        points_, update_limit_, walls_, fallen_, progress);
+  }
   mass_ = mass;
-  measures_ = std::move(measures);
-  fallen_ = std::move(fallen);
-  hold_wall(&touched);
+  measures_ = std::move(after.measures);
+  fallen_ = std::move(after.fallen);
+  hold_wall(&after.touched);
 }
 
 template <class Models>
 void ComposedSolver<Models>::hold_wall(const BodyMarks* touched) {
   (void)aim_at(walls_.fractions());
   Eigen::VectorXd f;
-  system_.forces(system_.displacement, f);
+  {
+    detail::LawsAside<SystemType> aside(system_);
+    aside->forces(aside->displacement, f);
+  }
   for (int b = 0; touched != nullptr && b < system_.body_count(); ++b)
     if (!is_marked(*touched, b)) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
   walls_.add(opposite(f));
@@ -372,8 +362,8 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
         message({"bolt: its tip at ", text_of<dim>(bar.end),
                  " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
                  text_of<dim>(domain.high), " m"}));
-  const int crossed =
-      detail::install_bolt(system_, *mass_, bar, law, spacing, anchors, bolt_count_);
+  const int crossed = detail::install_bolt(static_cast<SystemState<Geometry>&>(system_), *mass_,
+                                           bar, law, spacing, anchors, bolt_count_);
   ++bolt_count_;
   started_ = true;
   return crossed;
@@ -419,9 +409,9 @@ auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) co
 
 template <class Models>
 void ComposedSolver<Models>::build(const Progress& progress) {
-  detail::InitialModel<Detector, SystemType> model(*mass_, in_situ_, far_field_, points_, system_,
-                                                   progress);
-  model.run(mass_, joint_laws_, around_, measures_);
+  detail::LawsAside<SystemType> aside(system_);
+  detail::make_model<Detector>(*aside, mass_, in_situ_, far_field_, points_,
+                               joint_laws_.of_cuts(*mass_), around_, measures_, progress);
 }
 
 }  // namespace voussoir

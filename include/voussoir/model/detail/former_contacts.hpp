@@ -106,4 +106,27 @@ class FormerContacts {
   std::vector<int> order_;                   ///< of contacts, by their bodies
 };
 
+/// The same with what laws known at run time remember of the points, in a column beside them: the
+/// points are numbered downwards from -2 (`MovingContacts<Dim, AnyLaw<Dim>>`).
+template <int Dim>
+struct FormerOfAnyLaw : FormerContacts<Dim, FormerPoint> {
+  FormerOfAnyLaw() = default;
+  template <class Points>
+  FormerOfAnyLaw(const std::vector<ReferenceContact<Dim>>& contacts, const Points& points,
+                 const std::vector<Pose<Dim>>& frames, const double* u)
+      : FormerContacts<Dim, FormerPoint>(contacts, points, frames, u,
+                                         [](int k) { return FormerPoint{-2 - k}; }),
+        states(points.states()) {}
+  StateColumn<AnyState> states;
+};
+
+template <int Dim, class Law>
+struct FormerOfLaw {
+  using type = FormerContacts<Dim, typename Law::template State<Dim>>;
+};
+template <int Dim>
+struct FormerOfLaw<Dim, AnyLaw<Dim>> {
+  using type = FormerOfAnyLaw<Dim>;
+};
+
 }  // namespace voussoir::detail

@@ -78,11 +78,11 @@ class InitialModel {
   /// @param mass      the same as above, to be kept alive for its shapes
   /// @param around    the elastic ground beyond; null: there is none
   /// @param measures  of bodies, in place of what is there [m^2 or m^3]
-  template <class LawsOfSets>
-  void run(std::shared_ptr<const RockMass<Geometry>> mass, const LawsOfSets& laws,
+  /// @param law_of_cut  of every cut of the rock the number of its joint law
+  void run(std::shared_ptr<const RockMass<Geometry>> mass, std::vector<int> law_of_cut,
            std::shared_ptr<const GroundAround<dim>> around, std::vector<double>& measures) {
     add_bodies(measures);
-    add_contacts(laws);
+    add_contacts(std::move(law_of_cut));
     add_edges();
     system_.shapes = shapes_of<System>(std::move(mass), far_field_);
     set_initial_stress();
@@ -113,9 +113,7 @@ class InitialModel {
 
   /// The contacts between bodies, one for every plane in which two touch, sorted by them: forces
   /// are then read and written in order.
-  template <class LawsOfSets>
-  void add_contacts(const LawsOfSets& laws) {
-    std::vector<int> law_of_cut = laws.of_cuts(mass_);
+  void add_contacts(std::vector<int> law_of_cut) {
     const auto found = find_contacts<Detector>(mass_, progress_);
     const auto law_of = [&](int cut) {
       return cut >= 0 ? law_of_cut[static_cast<std::size_t>(cut)] : 0;
@@ -221,5 +219,18 @@ class InitialModel {
   StopCheck stop_;                       ///< asks the one above
   std::vector<FacetPoint<dim>> points_;  ///< of the contact at hand
 };
+
+/// Makes the model of rock in its in-situ stress: see `InitialModel::run`. Compiled once for all
+/// laws, as the one below.
+template <class Detector, class System>
+void make_model(System& system, std::shared_ptr<const RockMass<typename System::GeometryType>> mass,
+                const InSitu& in_situ, const FarField<System::dim>& far_field, ContactPoints points,
+                std::vector<int> law_of_cut,
+                std::shared_ptr<const GroundAround<System::dim>> around,
+                std::vector<double>& measures, const Progress& progress) {
+  const auto& rock = *mass;
+  InitialModel<Detector, System>(rock, in_situ, far_field, points, system, progress)
+      .run(std::move(mass), std::move(law_of_cut), std::move(around), measures);
+}
 
 }  // namespace voussoir::detail

@@ -48,7 +48,7 @@ void keep_shear(const Group& group, const typename Group::Contact& old,
     const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
                             bodies[static_cast<std::size_t>(c.b)].pose);
     Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
-    for (const auto& p : of) sum += group.law_of(c).force(p.load(at), p.state).tangential;
+    for (const auto& p : of) sum += group.force(c, p.load(at), p.state).tangential;
     return sum;
   };
   Vec<Dim - 1> before = shear_of(old, old_points);

@@ -13,6 +13,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
+#include <voussoir/model/any_law.hpp>
 #include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/contact_renewal.hpp>
 #include <voussoir/model/contact_tracker.hpp>
@@ -23,11 +24,6 @@
 #include <voussoir/model/moving_contacts.hpp>
 
 namespace voussoir::detail {
-
-/// The point of the former contacts whose memory a point inherits.
-struct FormerPoint {
-  std::int32_t number = -1;  ///< -1: none
-};
 
 /// Contacts of one kind without their laws: what a law remembers follows its point by number.
 template <int Dim>

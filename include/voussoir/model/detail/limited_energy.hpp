@@ -40,7 +40,7 @@ void limit_energy(const Group& group, typename Group::Contact& contact,
     for (const auto& p : points) {
       auto load = p.load(at);
       load.motion.opening += way;
-      sum += group.law_of(contact).stored_energy(load, p.state);
+      sum += group.stored_energy(contact, load, p.state);
     }
     return std::sqrt(std::max(0.0, sum));
   };

@@ -173,4 +173,16 @@ class LiningAssembly {
   int first_node_ = 0;
 };
 
+/// See `LiningAssembly::run`. Compiled once for all laws.
+template <class Lining, class System>
+std::vector<Vec<System::dim>> assemble_lining(
+    System& system, double gravity, double near,
+    const LiningFrame<typename System::GeometryType>& frame,
+    const std::vector<LiningSection>& sections,
+    const typename System::InterfaceLawType& interface_law,
+    const std::optional<FootBearing>& feet) {
+  return LiningAssembly<Lining, System>(system, gravity, near)
+      .run(frame, sections, interface_law, feet);
+}
+
 }  // namespace voussoir::detail

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/model/any_law.hpp>
+#include <voussoir/model/moving_contacts.hpp>
+
+namespace voussoir {
+
+/// The same of laws that are known at run time. What these remember lies in a column beside the
+/// points; in a point that is stored is its number there, in one that is to be stored that of the
+/// point whose memory it inherits: among the contacts here, or among former ones that were taken
+/// over (`adopt`), which are numbered downwards from -2.
+template <int Dim>
+class MovingContacts<Dim, AnyLaw<Dim>> {
+ public:
+  using Law = AnyLaw<Dim>;
+  using State = detail::FormerPoint;
+  using Point = MovingContactPoint<Dim, State>;
+  using Contact = MovingContact<Dim>;
+
+  explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
+
+  [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
+  std::int32_t add_law(Law law) {
+    laws_.push_back(std::move(law));
+    prepare();
+    return static_cast<std::int32_t>(laws_.size()) - 1;
+  }
+  void set_laws(std::vector<Law> laws) {
+    require(laws.size() == laws_.size(), "number of contact laws", static_cast<double>(laws.size()),
+            "as many as before");
+    laws_ = std::move(laws);
+    prepare();
+  }
+  [[nodiscard]] const Law& law_of(const Contact& c) const {
+    return laws_[static_cast<std::size_t>(c.law)];
+  }
+  [[nodiscard]] std::vector<Contact>& contacts() { return contacts_; }
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  [[nodiscard]] std::vector<Point>& points() { return points_; }
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] std::size_t size() const { return contacts_.size(); }
+  [[nodiscard]] std::span<const Point> points_of(const Contact& c) const {
+    return {points_.data() + c.first, static_cast<std::size_t>(c.last - c.first)};
+  }
+
+  /// Memories that points may inherit from now on, by the numbers -2, -3, ...
+  void adopt(detail::StateColumn<AnyState> former) { former_ = std::move(former); }
+
+  bool put(std::int32_t& number, Contact contact, const std::vector<Point>& points);
+
+  template <class Each>
+  void keep(Each&& each) {
+    std::vector<Contact> contacts;
+    std::vector<Point> points;
+    detail::StateColumn<AnyState> states;
+    contacts.reserve(contacts_.size());
+    points.reserve(points_.size());
+    if (!laws_.empty()) states.set_model(laws_.front().model().states());
+    states.reserve(points_.size());
+    each([&](std::int32_t& number) {
+      Contact c = contacts_[static_cast<std::size_t>(number)];
+      const auto first = static_cast<std::int32_t>(points.size());
+      for (std::int32_t k = c.first; k < c.last; ++k) {
+        Point p = points_[static_cast<std::size_t>(k)];
+        p.state.number = static_cast<std::int32_t>(points.size());
+        points.push_back(p);
+        states.push_back(states_.at(static_cast<std::size_t>(k)));
+      }
+      c.first = first;
+      c.last = static_cast<std::int32_t>(points.size());
+      number = static_cast<std::int32_t>(contacts.size());
+      contacts.push_back(c);
+    });
+    contacts_.swap(contacts);
+    points_.swap(points);
+    states_.swap(states);
+  }
+
+  void react(std::size_t first, std::size_t last, const std::vector<MovingBody<Dim>>& bodies,
+             Reaction<Dim>* reactions, Dissipation& lost) {
+    if (!(first < last)) return;
+    laws_.front().model().react({laws_.data(), contacts_.data(), first, last, points_.data(),
+                                 states_.data(), bodies.data(), reactions, &lost});
+  }
+  [[nodiscard]] PointForce<Dim> force(const Contact& c, const PointLoad<Dim>& load,
+                                      State state) const {
+    return law_of(c).model().force(load, memory(state));
+  }
+  [[nodiscard]] double stored_energy(const Contact& c, const PointLoad<Dim>& load,
+                                     State state) const {
+    return law_of(c).model().stored_energy(load, memory(state));
+  }
+  [[nodiscard]] AnyState state_of(std::size_t point) const { return states_.value(point); }
+  [[nodiscard]] const void* memory_of(std::size_t point) const { return states_.at(point); }
+
+  template <class Bodies>
+  [[nodiscard]] double stored_energy(std::size_t k, const Bodies& bodies) const {
+    const Contact& c = contacts_[k];
+    const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
+                            bodies[static_cast<std::size_t>(c.b)].pose);
+    double sum = 0;
+    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
+      sum += stored_energy(c, points_[i].load(at), points_[i].state);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] const void* memory(State state) const {
+    if (state.number >= 0) return states_.at(static_cast<std::size_t>(state.number));
+    if (state.number < -1) return former_.at(static_cast<std::size_t>(-2 - state.number));
+    return laws_.front().model().states().fresh();
+  }
+  void prepare() {
+    if (laws_.empty()) return;
+    states_.set_model(laws_.front().model().states());
+    inherited_.set_model(laws_.front().model().states());
+  }
+
+  std::vector<Law> laws_;
+  std::vector<Contact> contacts_;
+  std::vector<Point> points_;
+  detail::StateColumn<AnyState> states_, former_;
+  detail::StateColumn<AnyState> inherited_;  ///< room for `put`
+};
+
+template <int Dim>
+bool MovingContacts<Dim, AnyLaw<Dim>>::put(std::int32_t& number, Contact contact,
+                                           const std::vector<Point>& points) {
+  const auto count = static_cast<std::int32_t>(points.size());
+  const bool is_new = number < 0;
+  if (is_new) {
+    number = static_cast<std::int32_t>(contacts_.size());
+    contacts_.emplace_back();
+  }
+  Contact& place = contacts_[static_cast<std::size_t>(number)];
+  const bool fits = !is_new && place.last - place.first == count;
+  contact.first = fits ? place.first : static_cast<std::int32_t>(points_.size());
+  contact.last = contact.first + count;
+  // First all memories, then their places: one point may inherit from where another goes.
+  inherited_.truncate(0);
+  for (const Point& p : points) inherited_.push_back(memory(p.state));
+  if (!fits) points_.resize(points_.size() + points.size());
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::int32_t at = contact.first + k;
+    Point& p = points_[static_cast<std::size_t>(at)];
+    p = points[static_cast<std::size_t>(k)];
+    p.state.number = at;
+    const void* state = inherited_.at(static_cast<std::size_t>(k));
+    if (fits)
+      states_.set(static_cast<std::size_t>(at), state);
+    else
+      states_.push_back(state);
+  }
+  place = contact;
+  return fits;
+}
+
+}  // namespace voussoir

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+#include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/model/any_law.hpp>
+#include <voussoir/model/detail/contact_reaction.hpp>
+#include <voussoir/model/detail/law_steps.hpp>
+#include <voussoir/model/moving_body.hpp>
+#include <voussoir/model/moving_contact.hpp>
+#include <voussoir/model/reference_contact.hpp>
+
+namespace voussoir::detail {
+
+/// A law of one type behind the functions of `LawModel`.
+template <int Dim, class Law>
+class LawModelOf final : public LawModel<Dim> {
+ public:
+  using State = typename Law::template State<Dim>;
+
+  explicit LawModelOf(const Law& law) : LawModel<Dim>(StateModelOf<State>::one()), law_(law) {}
+
+  [[nodiscard]] const Law& law() const { return law_; }
+
+  [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load,
+                                      const void* state) const override {
+    return law_.force(load, as_state(state));
+  }
+  double commit(const PointLoad<Dim>& load, void* state) const override {
+    return law_.commit(load, *static_cast<State*>(state));
+  }
+  [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const void* state) const override {
+    return law_.stored_energy(load, as_state(state));
+  }
+  bool commit_point(const PointLoad<Dim>& load, void* state) const override {
+    return detail::commit_point<Dim>(law_, load, *static_cast<State*>(state));
+  }
+  [[nodiscard]] Stress<Dim> tangent_at(const PointLoad<Dim>& load,
+                                       const void* state) const override {
+    return detail::tangent_at<Dim>(law_, load, as_state(state));
+  }
+  void add_forces(const ForceTask<Dim>& task) const override {
+    detail::add_forces<Dim, Law>(
+        task, [&](std::size_t law) -> const Law& { return of_type(task.laws[law]); });
+  }
+  void react(const ReactionTask<Dim>& task) const override {
+    const StatesInColumn<State> states{static_cast<State*>(task.states)};
+    Reaction<Dim>* reactions = task.reactions;
+    for (std::size_t k = task.first; k < task.last; ++k) {
+      const MovingContact<Dim>& c = task.contacts[k];
+      *reactions++ = reaction(of_type(task.laws[c.law]), c, task.points, states, task.bodies[c.a],
+                              task.bodies[c.b], *task.lost);
+    }
+  }
+
+  /// @pre it is of this type
+  [[nodiscard]] static const Law& of_type(const AnyLaw<Dim>& law) {
+    return static_cast<const LawModelOf&>(law.model()).law_;
+  }
+
+ private:
+  [[nodiscard]] static const State& as_state(const void* state) {
+    return *static_cast<const State*>(state);
+  }
+
+  Law law_;
+};
+
+/// The same law, known at run time.
+template <int Dim, class Law>
+[[nodiscard]] AnyLaw<Dim> any_law(const Law& law) {
+  if constexpr (is_any_law<Law>)
+    return law;
+  else
+    return {std::make_shared<const LawModelOf<Dim, Law>>(law), law.joint_normal_stiffness(),
+            law.joint_shear_stiffness()};
+}
+template <int Dim, class Law>
+[[nodiscard]] std::vector<AnyLaw<Dim>> any_laws(const std::vector<Law>& laws) {
+  std::vector<AnyLaw<Dim>> all;
+  all.reserve(laws.size());
+  for (const Law& law : laws) all.push_back(any_law<Dim>(law));
+  return all;
+}
+
+/// The law of the walls of a model whose joints follow `JointLaw`: that of a type goes with those
+/// of types.
+template <int Dim, class JointLaw>
+using WallLaw = std::conditional_t<is_any_law<JointLaw>, AnyLaw<Dim>, SmoothWall>;
+
+template <int Dim, class JointLaw>
+[[nodiscard]] std::vector<WallLaw<Dim, JointLaw>> wall_laws(double stiffness) {
+  if constexpr (is_any_law<JointLaw>)
+    return {any_law<Dim>(SmoothWall(stiffness))};
+  else
+    return {SmoothWall(stiffness)};
+}
+
+}  // namespace voussoir::detail
