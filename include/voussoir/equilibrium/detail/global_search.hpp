@@ -74,7 +74,7 @@ class GlobalSearch {
       if (at_a_fall != AtAFall::goes_on &&
           system_.largest_translation(u) > context_.acceptance.displacement_limit)
         return SearchEnd::open;
-      if (at_a_fall == AtAFall::gives_up_early && is_due(system_, context_.acceptance)) {
+      if (at_a_fall == AtAFall::gives_up_early && largest_move() > context_.seldom_moved) {
         moves_far_ = true;
         return SearchEnd::open;
       }
@@ -112,7 +112,7 @@ class GlobalSearch {
     return is_accepted() && system_.commit() == 0 && rests();
   }
 
-  /// Whether it gave up because a block had moved so far that contacts are to be updated.
+  /// Whether it gave up because a block had moved further than one seldom does.
   [[nodiscard]] bool moves_far() const { return moves_far_; }
 
   /// Part of the movement that the first step has not foreseen: of an elastic one, slip and
@@ -132,6 +132,12 @@ class GlobalSearch {
   }
 
  private:
+  /// Of a block since the search began [m].
+  [[nodiscard]] double largest_move() {
+    set_to_sum(trial_, system_.displacement, -1, start_);
+    return system_.largest_translation(trial_);
+  }
+
   /// Of bodies and contacts, between a local search and its correction.
   enum class Change { none, some, too_often, collapse };
 
