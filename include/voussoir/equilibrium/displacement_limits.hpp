@@ -105,6 +105,9 @@ template <class System>
   if (limits.displacement_limit == by_the_rock)
     limits.displacement_limit = std::max({block_share * edge, elastic_movements * far, 1e-9});
   if (limits.contact_update_limit == by_the_rock) limits.contact_update_limit = chosen.seldom_moved;
+  // Who gives a longer limit expects that blocks go further.
+  chosen.seldom_moved =
+      std::max(chosen.seldom_moved, update_block_share / block_share * limits.displacement_limit);
   return chosen;
 }
 
