@@ -58,18 +58,19 @@ struct RunSizes {
   /// The longest step in which no body moves further than a quarter of the reach, from its present
   /// speed and acceleration [s]; infinite where nothing moves.
   /// @param acting  what acts on each body, up to date
-  template <int Dim, class Acting>
+  /// @param each    each(visit) calls visit(number) for every body in question
+  template <int Dim, class Acting, class Each>
   [[nodiscard]] double longest_step(const std::vector<MovingBody<Dim>>& bodies,
-                                    const std::vector<Acting>& acting) const {
+                                    const std::vector<Acting>& acting, Each&& each) const {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (!bodies[b].movable()) continue;
+    each([&](std::size_t b) {
+      if (!bodies[b].movable()) return;
       const double speed = bodies[b].fastest_point(), gain = acting[b].fastest_gain(bodies[b]);
       const double way = 0.25 * reach;
       // speed t + gain t^2 / 2 = way; 0 / 0 where it is at rest and stays there
       const double time = 2 * way / (speed + std::sqrt(speed * speed + 2 * gain * way));
       if (time < least) least = time;
-    }
+    });
     return least;
   }
 };

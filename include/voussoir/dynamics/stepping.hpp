@@ -3,18 +3,31 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/thread_team.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/dynamics/kick.hpp>
+#include <voussoir/dynamics/moving_part.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 #include <voussoir/model/support.hpp>
 
 namespace voussoir::detail {
+
+/// Force and moment out of balance over the weight [-]; a moment counts as a force at the radius. 0
+/// for a body that cannot move or has no shape.
+template <int Dim>
+[[nodiscard]] double unbalance_of(const MovingBody<Dim>& body, const Load<Dim>& out_of_balance,
+                                  double gravity) {
+  if (!body.movable() || body.radius == 0) return 0;
+  return (out_of_balance.force.norm() + out_of_balance.moment.norm() / body.radius) /
+         (body.mass * gravity);
+}
 
 /// The bodies of a run and all that acts on them; nothing is owned.
 template <int Dim, class Network>
@@ -27,6 +40,7 @@ struct ForcesOnBodies {
   double held_fraction;                 ///< of it, that acts [-]
   double gravity;                       ///< [m/s^2], against the last axis
   double local_damping;                 ///< alpha [-]
+  const MovingPart& part;               ///< who moves
 
   /// What acts besides weight, contacts and supports, world axes.
   [[nodiscard]] Load<Dim> applied(std::size_t b) const {
@@ -44,17 +58,13 @@ struct ForcesOnBodies {
     supports.add_load_on(b, force, moment);
     return {force, moment};
   }
-  /// Force and moment out of balance over the weight, the worst block [-]; a moment counts as a
-  /// force at the radius.
+  [[nodiscard]] double unbalance_of(std::size_t b) const {
+    return detail::unbalance_of(bodies[b], total(b), gravity);
+  }
+  /// The same of the worst block [-].
   [[nodiscard]] double unbalance_over_weight() const {
     double worst = 0;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const MovingBody<Dim>& body = bodies[b];
-      if (!body.movable() || body.radius == 0) continue;
-      const Load<Dim> sum = total(b);
-      worst = std::max(
-          worst, (sum.force.norm() + sum.moment.norm() / body.radius) / (body.mass * gravity));
-    }
+    for (std::size_t b = 0; b < bodies.size(); ++b) worst = std::max(worst, unbalance_of(b));
     return worst;
   }
 };
@@ -76,13 +86,22 @@ class Stepping {
   [[nodiscard]] const std::vector<Kick<Dim>>& acting() const { return acting_; }
 
   /// Brings what acts on the bodies up to date, with nothing moving.
-  void freshen(const Forces& forces) {
+  /// @return  what contacts lose by that: of bodies that were moved by hand
+  Dissipation freshen(const Forces& forces) {
+    sums_.assign(team_->size(), {});
     team_->run([&](unsigned member) {
-      Dissipation none;  // nothing slips that has not already
-      respond(forces, member, none);
-      const auto share = team_->share(forces.bodies.size(), member);
-      for (std::size_t b = share.first; b < share.last; ++b) settle(forces, b);
+      respond(forces, member, sums_[member].lost);
+      forces.part.each_body(*team_, member, forces.bodies.size(),
+                            [&](std::size_t b) { settle(forces, b); });
     });
+    Dissipation lost;
+    for (const MemberSums& of_member : sums_) lost.friction += of_member.lost.friction;
+    return lost;
+  }
+
+  /// The same where contacts and supports do what they did.
+  void settle(const Forces& forces) {
+    forces.part.each_body(forces.bodies.size(), [&](std::size_t b) { settle(forces, b); });
   }
 
   /// How far bodies may move, by the speeds of the fastest summed up step by step, before contacts
@@ -102,8 +121,15 @@ class Stepping {
   /// A member's share of what contacts and supports do to the bodies where they are; all of it is
   /// done when it returns.
   void respond(const Forces& forces, unsigned member, Dissipation& lost) {
-    const auto contacts = team_->share(forces.network.size(), member);
-    forces.network.react(contacts.first, contacts.last, forces.bodies, lost);
+    const MovingPart& part = forces.part;
+    if (part.is_all) {
+      const auto contacts = team_->share(forces.network.size(), member);
+      forces.network.react(contacts.first, contacts.last, forces.bodies, lost);
+    } else {
+      const auto share = team_->share(part.contacts.size(), member);
+      forces.network.react(std::span(part.contacts).subspan(share.first, share.last - share.first),
+                           forces.bodies, lost);
+    }
     if (member == 0) forces.supports.act(forces.bodies);
     team_->meet();
   }
@@ -140,30 +166,31 @@ int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, co
   int made = 0;
   team_->run([&](unsigned member) {
     MemberSums& sums = sums_[member];
-    const auto share = team_->share(bodies.size(), member);
+    const auto each = [&](auto&& visit) {
+      forces.part.each_body(*team_, member, bodies.size(), [&](std::size_t b) {
+        if (bodies[b].movable()) visit(b);
+      });
+    };
     double way = 0;  // of the fastest body of each step: the same for all members
     for (int k = 0; k < count; ++k) {
       sums.fastest = 0;
-      for (std::size_t b = share.first; b < share.last; ++b)
-        if (bodies[b].movable()) start(forces, b, step, sums);
+      each([&](std::size_t b) { start(forces, b, step, sums); });
       team_->meet();
       double fastest = 0;
       for (const MemberSums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
       way += step * fastest;
       respond(forces, member, sums.lost);
       sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
-      for (std::size_t b = share.first; b < share.last; ++b)
-        if (bodies[b].movable()) {
-          settle(forces, b);
-          finish(forces, b, step, sums);
-        }
+      each([&](std::size_t b) {
+        settle(forces, b);
+        finish(forces, b, step, sums);
+      });
       if (member == 0) made = k + 1;
       if (way + step * fastest > ways.travel || way + 1.5 * step * fastest > ways.reach) break;
     }
+    each([&](std::size_t b) { bodies[b].straighten(); });
   });
   for (const MemberSums& sums : sums_) sums.add_to(audit);
-  for (MovingBody<Dim>& body : bodies)
-    if (body.movable()) body.straighten();
   return made;
 }
 

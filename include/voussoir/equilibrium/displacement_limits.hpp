@@ -94,17 +94,17 @@ template <class System, class Solve>
 /// that has slid less far still stands in the notch that it came from.
 /// @param far  elastic displacement at the walls [m]
 template <class System>
-[[nodiscard]] Acceptance limits_by_the_rock(const System& system, const SearchContext& context,
-                                            double far) {
+[[nodiscard]] SearchContext limits_by_the_rock(const System& system, const SearchContext& context,
+                                               double far) {
   constexpr double block_share = 0.2, elastic_movements = 4;
   constexpr double update_block_share = 0.04, update_elastic_movements = 2;
-  Acceptance chosen = context.acceptance;
+  SearchContext chosen = context;
   const double edge = mean_block_edge(system, context.measures);
-  if (chosen.displacement_limit == by_the_rock)
-    chosen.displacement_limit = std::max({block_share * edge, elastic_movements * far, 1e-9});
-  if (chosen.contact_update_limit == by_the_rock)
-    chosen.contact_update_limit =
-        std::max({update_block_share * edge, update_elastic_movements * far, 1e-9});
+  chosen.seldom_moved = std::max({update_block_share * edge, update_elastic_movements * far, 1e-9});
+  Acceptance& limits = chosen.acceptance;
+  if (limits.displacement_limit == by_the_rock)
+    limits.displacement_limit = std::max({block_share * edge, elastic_movements * far, 1e-9});
+  if (limits.contact_update_limit == by_the_rock) limits.contact_update_limit = chosen.seldom_moved;
   return chosen;
 }
 

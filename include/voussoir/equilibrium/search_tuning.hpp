@@ -114,6 +114,9 @@ struct PathTuning {
   /// before, in proportion to their lengths [-], > 0; doubled again below a quarter of it ...
   double turn = 0.3;
   int halvings = 5;  ///< ... so many times at most, 0 to 10
+  int open = 1;      ///< increments without an end before the stage is followed in motion, >= 0
+  /// It is a jump where half the increment leaves more than this part of the turn [-], > 0.
+  double jump = 0.8;
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -121,6 +124,8 @@ struct PathTuning {
     require(looseness >= 1, "looseness", looseness, ">= 1");
     require(burst_steps > 0, "burst_steps", burst_steps, "> 0");
     require(turn > 0, "turn", turn, "> 0");
+    require(open >= 0, "open", open, ">= 0");
+    require(jump > 0, "jump", jump, "> 0");
     require(halvings >= 0 && halvings <= 10, "halvings", halvings, "0 to 10");
   }
 };

@@ -113,16 +113,16 @@ class TwoLevel {
     };
     const EquilibriumReport before = report;
     detail::GlobalSearch<System> one_step(system, effort(), context, elastic, report);
-    const detail::SearchEnd end = one_step.run(detail::AtAFall::gives_up);
+    const detail::SearchEnd end = one_step.run(detail::AtAFall::gives_up_early);
     const bool is_open = end == detail::SearchEnd::open;
-    if (!is_divisible || (is_open ? falls()
+    if (!is_divisible || (is_open ? falls() || one_step.moves_far()
                                   : report.verdict != Verdict::stable ||
                                         one_step.unforeseen_share() <= params_.path.one_step_share))
       return end;
     const System found(system);
     const EquilibriumReport by_one_step = report;
     go_back(system, report, start, before);
-    if (follow_unloading(system, context, elastic, report) == detail::SearchEnd::decided)
+    if (follow_unloading(system, context, !is_open, elastic, report) == detail::SearchEnd::decided)
       return detail::SearchEnd::decided;
     if (is_open || falls()) return detail::SearchEnd::open;
     go_back(system, report, found, by_one_step);
@@ -143,10 +143,14 @@ class TwoLevel {
 
   /// The unloading in increments. On the way states are accepted loosely, and a search begins with
   /// the movement of the increment before. Where the movement turns, joints begin to slip, open or
-  /// stick: the increment is halved there, as an integrator halves its step. Where the shortest
-  /// finds no end though nothing falls, longer and longer ones step over that.
+  /// stick: the increment is halved there, as an integrator halves its step. A turn that gets no
+  /// less with the length is a jump, which no increment is short enough for; one within the error
+  /// that is accepted on the way is none.
+  /// @param may_step_over  where the shortest finds no end though nothing falls, longer and longer
+  ///                       ones step over that; else the search ends after a few without an end
   template <class System>
   [[nodiscard]] detail::SearchEnd follow_unloading(System& system, const SearchContext& context,
+                                                   bool may_step_over,
                                                    detail::ElasticCorrections<System>& elastic,
                                                    EquilibriumReport& report) const {
     const PathTuning& path = params_.path;
@@ -156,6 +160,8 @@ class TwoLevel {
     const int longest = 1 << path.halvings, all = longest * params_.increments;
     Eigen::VectorXd movement;  // in the increment before
     bool steps_over = false;   // what the shortest increment has not ended in
+    int open_left = path.open;
+    double turn_before = std::numeric_limits<double>::infinity();  // of twice the length, from here
     for (int done = 0, parts = longest, parts_before = longest; done < all;) {
       parts = std::min(parts, all - done);
       const bool is_last = done + parts == all;
@@ -176,16 +182,23 @@ class TwoLevel {
           search.run(detail::AtAFall::gives_up, foreseen) == detail::SearchEnd::open;
       if (is_open && !(system.largest_translation(system.displacement) <= limit))
         return detail::SearchEnd::open;  // something falls
-      const double turn = search.unforeseen_share();
+      const double turn =
+          search.unforeseen_share(is_last ? 0
+                                          : part.acceptance.error_estimate *
+                                                system.largest_translation(system.displacement));
       const bool may_be_shorter = parts > 1 && !steps_over;
-      if (is_open || (turn > path.turn && may_be_shorter)) {
-        if (is_last && !may_be_shorter) return detail::SearchEnd::open;
+      const bool jumps = turn > path.jump * turn_before;
+      if (is_open || (turn > path.turn && !jumps && may_be_shorter)) {
+        if (is_open && !may_step_over && --open_left < 0) return detail::SearchEnd::open;
+        if (!may_be_shorter && is_last) return detail::SearchEnd::open;
+        turn_before = is_open ? std::numeric_limits<double>::infinity() : turn;
         go_back(system, report, start, before);
         steps_over = !may_be_shorter;
         parts = steps_over ? 2 * parts : parts / 2;
         continue;
       }
       steps_over = false;
+      turn_before = std::numeric_limits<double>::infinity();
       if (report.verdict != Verdict::stable) break;
       done += parts;
       parts_before = parts;

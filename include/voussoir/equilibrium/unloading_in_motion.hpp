@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
+#include <voussoir/equilibrium/detail/elastic_balance.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 
 namespace voussoir {
@@ -37,9 +39,17 @@ struct MotionTuning {
   double rest_ratio = 1e-2;    ///< out-of-balance force ratio at rest [-], > 0
   double patience = 2;         ///< at rest nothing would come off within so long [s], > 0
   double longest = 30;         ///< after which no end is expected [s], > 0
-  int looks_in_ramp = 100;     ///< times that the load is changed, and what has come off looked for
+  int looks_in_ramp = 200;     ///< times that the load is changed, and what has come off looked for
   int check_every = 50;        ///< steps between two looks afterwards
-  unsigned threads = 1;        ///< that share the steps; the result does not depend on it
+  /// Bodies out of balance by more than the ratio at rest, or faster than this part of the speed at
+  /// which one would come off within `patience`, are stepped with so many rings of neighbours; all
+  /// others are brought to balance elastically as these move [-], >= 0. Negative rings: all bodies
+  /// are stepped.
+  double quiet_speed = 0.3;
+  int rings = 2;
+  double looseness = 10;  ///< times the ratio at rest at which one that rests is looked after
+  int batches = 20;       ///< of `check_every` steps, after which that is done anyway
+  unsigned threads = 1;   ///< that share the steps; the result does not depend on it
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -53,6 +63,9 @@ struct MotionTuning {
     require(longest > 0, "longest", longest, "> 0 s");
     require(looks_in_ramp > 0, "looks_in_ramp", looks_in_ramp, "> 0");
     require(check_every > 0, "check_every", check_every, "> 0");
+    require(looseness >= 1, "looseness", looseness, ">= 1");
+    require(batches > 0, "batches", batches, "> 0");
+    require(quiet_speed >= 0, "quiet_speed", quiet_speed, ">= 0");
   }
 };
 
@@ -85,9 +98,12 @@ class UnloadingInMotion {
                                     .safety = tuning.safety,
                                     .points = ContactPoints::gauss,
                                     .overlap_limit = 0.5,
+                                    .check_every = sound_every,
                                     .threads = tuning.threads})) {
     duration_ = tuning.ramp * std::sqrt(2 * limit_ / context.gravity);
     run_.add_inertia(tuning.inert_share);
+    if (tuning.rings >= 0) rest_of_rock_.emplace(system, context);
+    settled_at_ = tuning.rest_ratio;
   }
 
   /// Carries the stage out, and leaves the model where it ends.
@@ -113,22 +129,80 @@ class UnloadingInMotion {
     double done = 0;
     while (run_.time() < tuning_.longest) {
       if (done < 1) {
-        done = std::min(done + 1.0 / tuning_.looks_in_ramp, 1.0);
-        run_.set_held(from_ + (context_.wall_fraction - from_) * done);
-        run_.advance(duration_ / tuning_.looks_in_ramp);
+        // Where nothing moves the load may change by more at a time.
+        const double now =
+            std::min(done + (quiet_looks_ > 0 ? 4.0 : 1.0) / tuning_.looks_in_ramp, 1.0);
+        run_.set_held(from_ + (context_.wall_fraction - from_) * now);
+        choose_who_moves(report);
+        run_.advance(duration_ * (now - done));
+        quiet_looks_ = moving_.empty() ? quiet_looks_ + 1 : 0;
+        done = now;
       } else {
+        if (is_to_choose()) choose_who_moves(report);
         run_.advance_steps(tuning_.check_every);
       }
       ask_to_go_on(context_);
       take_out(report);
       take_out_linings(report);
       if (has_collapsed<dim>(report, context_)) return false;
-      if (done >= 1 && rests()) return true;
+      if (done >= 1 && rests(report)) return true;
     }
     report.reason =
         message({"rock was still moving ", tuning_.longest,
                  " s after the walls were unloaded: it neither comes off nor comes to rest"});
     return false;
+  }
+
+  [[nodiscard]] bool is_fast(int b, double share) const {
+    return run_.velocity(b).norm() * tuning_.patience > share * limit_;
+  }
+  [[nodiscard]] bool is_restless(int b) {
+    return is_fast(b, tuning_.quiet_speed) ||
+           run_.unbalance_of(b) > (run_.moves(b) ? tuning_.rest_ratio : settled_at_);
+  }
+  /// Whether those that move have brought others out of balance, or have come to rest themselves.
+  [[nodiscard]] bool is_to_choose() {
+    if (moving_.empty() || ++batches_ >= tuning_.batches) return true;
+    const auto is_restless = [this](int b) { return this->is_restless(b); };
+    return std::none_of(moving_.begin(), moving_.end(), is_restless) ||
+           std::any_of(fringe_.begin(), fringe_.end(), is_restless);
+  }
+
+  /// Brings the bodies that are quiet to balance, and lets the others move.
+  void choose_who_moves(EquilibriumReport& report) {
+    if (!rest_of_rock_) return;
+    balance(settled_at_, report);
+    batches_ = 0;
+    moving_.clear();
+    fringe_.clear();
+    BodyMarks marks(index(run_.body_count()), 0);
+    for (int b = 0; b < run_.body_count(); ++b)
+      if (run_.body(b).movable() && is_restless(b)) {
+        marks[index(b)] = 1;
+        moving_.push_back(b);
+      }
+    // Ring after ring of those that they touch; the last is watched.
+    std::size_t first = 0;
+    for (int ring = 0; ring <= tuning_.rings; ++ring) {
+      const std::size_t last = moving_.size();
+      std::vector<int>& next = ring < tuning_.rings ? moving_ : fringe_;
+      for (; first < last; ++first)
+        run_.each_neighbour(moving_[first], [&](int other) {
+          if (std::exchange(marks[index(other)], char{1}) == 0) next.push_back(other);
+        });
+    }
+    run_.move_only(moving_);
+    settled_at_ = (run_.time() < duration_ ? 1 : tuning_.looseness) * tuning_.rest_ratio;
+  }
+  void balance(double settled_at, EquilibriumReport& report) {
+    rest_of_rock_->balance(
+        run_, [this](int b) { return is_fast(b, tuning_.quiet_speed); }, settled_at, report);
+  }
+
+  void leave_out(const std::vector<int>& off) {
+    if (off.empty()) return;
+    run_.remove(off);
+    batches_ = tuning_.batches;
   }
 
   /// Takes out what has come off.
@@ -143,7 +217,7 @@ class UnloadingInMotion {
       report.fallen.push_back(b);
       if (context_.measures != nullptr) report.fallen_measure += (*context_.measures)[index(b)];
     }
-    run_.remove(off);
+    leave_out(off);
   }
 
   /// Takes out linings that have come off: one that slides off its wall carries nothing, and holds
@@ -167,14 +241,20 @@ class UnloadingInMotion {
     }
     report.lost_nodes.insert(report.lost_nodes.end(), off.begin(), off.end());
     gone_.insert(gone_.end(), off.begin(), off.end());
-    run_.remove(off);
+    leave_out(off);
   }
 
-  [[nodiscard]] bool rests() {
-    if (run_.unbalance_over_weight() >= tuning_.rest_ratio) return false;
+  [[nodiscard]] bool rests(EquilibriumReport& report) {
+    const auto rests = [this](int b) {
+      return !is_fast(b, 1) && run_.unbalance_of(b) < tuning_.rest_ratio;
+    };
+    if (rest_of_rock_) {
+      if (!std::all_of(moving_.begin(), moving_.end(), rests)) return false;
+      settled_at_ = tuning_.rest_ratio;
+      balance(settled_at_, report);
+    }
     for (int b = 0; b < run_.body_count(); ++b)
-      if (run_.body(b).movable() && run_.velocity(b).norm() * tuning_.patience > limit_)
-        return false;
+      if (run_.body(b).movable() && !rests(b)) return false;
     return true;
   }
 
@@ -185,7 +265,13 @@ class UnloadingInMotion {
   double from_;          ///< wall fraction at the start
   double duration_ = 0;  ///< of the ramp [s]
   Run run_;
+  std::optional<ElasticBalance<System>> rest_of_rock_;
   std::vector<int> gone_;
+  std::vector<int> moving_, fringe_;  ///< and those that they touch
+  double settled_at_ = 0;             ///< ratio up to which one that does not move is in balance
+  int quiet_looks_ = 0;               ///< in the ramp: one after the other with nothing that moves
+  int batches_ = 0;                   ///< since who moves was chosen
+  static constexpr int sound_every = 2000;  ///< steps between run diagnostics, which look at all
 };
 
 }  // namespace detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/message.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/model/contact_update.hpp>
 
@@ -24,13 +26,22 @@ template <class System>
 /// @param report   is told what the update has done
 /// @param at_rest  the search is about to end here
 /// @return  true if it has
+/// @throws InvalidInput  after so many of a stage that a limit this short never comes to an end
 /// @throws Stopped  the system is as it was
 template <class System>
 bool update_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
                      bool at_rest = false) {
+  constexpr int most = 500;  // a stage in which rock fails has some tens
   const Acceptance& acceptance = context.acceptance;
   const bool near_by = at_rest && system.has_updated_contacts();
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
+  if (report.contact_updates.count >= most)
+    throw InvalidInput(message({"contact_update_limit of ", acceptance.contact_update_limit,
+                                " m: contacts have been updated ", most,
+                                " times in one stage, and there is no end to it; it wants a "
+                                "twentieth of the displacement limit, ",
+                                0.05 * acceptance.displacement_limit,
+                                " m, or more; left out, it is chosen by the rock"}));
   report.contact_updates.add(
       update_contacts(system, 2 * acceptance.contact_update_limit, context.progress));
   return true;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -32,6 +33,9 @@
 #include <voussoir/model/moving_contacts.hpp>
 
 namespace voussoir {
+
+/// What a contact update has changed: nothing; contacts in their places; or these, too.
+enum class ContactChange { none, in_place, renumbered };
 
 /// All contacts of bodies that move, in three groups: joints between blocks, smooth walls around
 /// them, and the interface between rock and lining.
@@ -129,13 +133,14 @@ class ContactNetwork {
   }
 
   /// Updates contacts where bodies have moved.
+  /// @param moved   see `ContactTracker::update`
   /// @param roles   of every body
   /// @param cut_of  cut_of(shape, outward): label of the face of a shape that looks there
   /// @param gained  energy that springs gain by their new form is added to it [J]
-  /// @return  true if anything has changed
   template <class CutOf>
-  bool find(Tracker& tracker, const Bodies& bodies, const std::vector<BodyRole>& roles,
-            CutOf&& cut_of, double& gained) {
+  ContactChange find(Tracker& tracker, const Bodies& bodies,
+                     const std::vector<std::uint32_t>* moved, const std::vector<BodyRole>& roles,
+                     CutOf&& cut_of, double& gained) {
     // Bodies may have come since.
     rates_.resize(bodies.size());
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
@@ -149,7 +154,7 @@ class ContactNetwork {
       pair.contact = -1;
     };
     tracker.update(
-        bodies,
+        bodies, moved,
         [&](Pair& pair, const Contact<Dim>& found) {
           if (tracker.is_shared(pair)) {
             leave(pair);
@@ -180,7 +185,9 @@ class ContactNetwork {
         tidy(tracker, [&](const Pair& pair) { return update.kind_of(pair); });
       list(bodies.size());
     }
-    return update.changed;
+    return update.relisted  ? ContactChange::renumbered
+           : update.changed ? ContactChange::in_place
+                            : ContactChange::none;
   }
 
   /// Other laws for the joints from now on: as many, of the same kind.
@@ -196,6 +203,46 @@ class ContactNetwork {
         group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost);
       before += group.size();
     });
+  }
+  /// The same of these contacts, in ascending order.
+  void react(std::span<const std::uint32_t> which, const Bodies& bodies, Dissipation& lost) {
+    std::size_t before = 0;
+    auto next = which.begin();
+    each_group([&](auto& group) {
+      const std::size_t end = before + group.size();
+      while (next != which.end() && *next < end) {
+        const std::size_t first = *next;
+        std::size_t last = first;
+        for (; next != which.end() && *next == last && last < end; ++next) ++last;
+        group.react(first - before, last - before, bodies, &sums_.reaction(first), lost);
+      }
+      before = end;
+    });
+  }
+  /// All contacts of some bodies, each once, in ascending order.
+  [[nodiscard]] std::vector<std::uint32_t> contacts_of(
+      const std::vector<std::uint32_t>& bodies) const {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t b : bodies)
+      for (const auto& end : sums_.ends_of(b)) all.push_back(end.contact);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+  /// Calls visit(other) for every body that a contact joins to this one.
+  template <class Visit>
+  void each_neighbour(std::size_t b, Visit&& visit) const {
+    for (const auto& end : sums_.ends_of(b)) {
+      std::size_t before = 0;
+      each_group([&](const auto& group) {
+        const std::size_t k = end.contact - before;  // wraps where it is of a group before
+        if (k < group.size()) {
+          const auto& c = group.contacts()[k];
+          visit(end.end == 0 ? c.b : c.a);
+        }
+        before += group.size();
+      });
+    }
   }
   /// Force and moment of all contacts on a body, as last computed; world axes.
   [[nodiscard]] std::pair<Vec<Dim>, Spin<Dim>> gather(std::size_t b) const {

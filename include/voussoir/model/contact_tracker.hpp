@@ -78,9 +78,13 @@ class ContactTracker {
   /// Follows the bodies to where they are now; points of contacts are counted from the grid point
   /// of shape a. Calls `touches(pair, contact)` for every pair asked
   /// that is within reach, `parts(pair)` for every pair with a contact that no longer is.
+  /// @param moved  no other body has moved since the last update; null: any may have
+  /// @cost  of the bodies that may have moved, and of all pairs where the neighbour list is renewed
   template <class Bodies, class Touches, class Parts>
-  void update(const Bodies& bodies, Touches&& touches, Parts&& parts) {
-    follow(bodies);
+  void update(const Bodies& bodies, const std::vector<std::uint32_t>* moved, Touches&& touches,
+              Parts&& parts) {
+    if (seen_.size() < bodies.size()) moved = nullptr;
+    follow(bodies, moved);
     const auto place = [&](std::size_t shape) {
       const std::size_t b = index(body_of_[shape]);
       if (placed_[shape] == path_[b]) return;
@@ -108,8 +112,13 @@ class ContactTracker {
       else if (pair.contact >= 0)
         parts(pair);
     };
-    for (Pair& pair : pairs_)
+    const auto ask_if_due = [&](Pair& pair) {
       if (!is_shared(pair) && is_due(bodies, pair)) ask(pair);
+    };
+    if (moved == nullptr)
+      for (Pair& pair : pairs_) ask_if_due(pair);
+    else
+      for (const std::uint32_t k : pairs_of(*moved)) ask_if_due(pairs_[k]);
     for (std::size_t k = 0; k < shared_.size();) {
       std::size_t end = k;
       bool due = false;
@@ -141,24 +150,52 @@ class ContactTracker {
     return std::minmax(body_of_[pairs_[pair].a], body_of_[pairs_[pair].b]);
   }
 
+  /// All pairs of some bodies, each once, in their order.
+  [[nodiscard]] std::vector<std::uint32_t> pairs_of(const std::vector<std::uint32_t>& bodies) {
+    if (first_pair_.size() != path_.size() + 1) list_pairs();
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t b : bodies)
+      found.insert(found.end(), pairs_of_body_.begin() + first_pair_[b],
+                   pairs_of_body_.begin() + first_pair_[b + 1]);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+  void list_pairs() {
+    first_pair_.assign(path_.size() + 1, 0);
+    for (const Pair& pair : pairs_)
+      for (const std::uint32_t shape : {pair.a, pair.b}) ++first_pair_[index(body_of_[shape]) + 1];
+    for (std::size_t b = 0; b < path_.size(); ++b) first_pair_[b + 1] += first_pair_[b];
+    std::vector<std::ptrdiff_t> next(first_pair_.begin(), first_pair_.end() - 1);
+    pairs_of_body_.resize(2 * pairs_.size());
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      for (const std::uint32_t shape : {pairs_[k].a, pairs_[k].b})
+        pairs_of_body_[static_cast<std::size_t>(next[index(body_of_[shape])]++)] =
+            static_cast<std::uint32_t>(k);
+  }
+
   /// Adds what bodies have moved to their paths.
   template <class Bodies>
-  void follow(const Bodies& bodies) {
+  void follow(const Bodies& bodies, const std::vector<std::uint32_t>* moved) {
     if (seen_.size() < bodies.size()) since_looked_ = std::numeric_limits<double>::infinity();
     for (std::size_t b = seen_.size(); b < bodies.size(); ++b) seen_.push_back(bodies[b].pose);
     path_.resize(bodies.size(), 0);
     placed_.resize(shapes_.size(), -1);
     double farthest = 0;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto follow_one = [&](std::size_t b) {
       const auto& body = bodies[b];
       const double shift = (body.pose.position - seen_[b].position).norm();
       const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
       const double path = shift + turn * body.radius;
-      if (path == 0) continue;
+      if (path == 0) return;
       path_[b] += path;
       farthest = std::max(farthest, path);
       seen_[b] = body.pose;
-    }
+    };
+    if (moved == nullptr)
+      for (std::size_t b = 0; b < bodies.size(); ++b) follow_one(b);
+    else
+      for (const std::uint32_t b : *moved) follow_one(b);
     since_looked_ += farthest;
   }
 
@@ -187,6 +224,7 @@ class ContactTracker {
     }
     while (old != pairs_.end()) leave_behind();
     pairs_.swap(kept);
+    first_pair_.clear();
     shared_.clear();
     for (std::size_t k = 0; k < pairs_.size(); ++k)
       if (is_shared(pairs_[k])) shared_.push_back(k);
@@ -205,9 +243,11 @@ class ContactTracker {
   std::vector<Rotation<Dim>> home_;  ///< from the shape's own frame to that of its body
   NeighbourList<Dim> neighbours_;
   std::vector<Pair> pairs_;
-  std::vector<double> path_;     ///< of each body, summed [m]
-  std::vector<Pose<Dim>> seen_;  ///< poses at the last update
-  std::vector<double> placed_;   ///< for every shape, the path of its body when it was placed [m]
+  std::vector<std::ptrdiff_t> first_pair_;    ///< of every body in the next; empty: not listed
+  std::vector<std::uint32_t> pairs_of_body_;  ///< body by body
+  std::vector<double> path_;                  ///< of each body, summed [m]
+  std::vector<Pose<Dim>> seen_;               ///< poses at the last update
+  std::vector<double> placed_;  ///< for every shape, the path of its body when it was placed [m]
 };
 
 #ifdef VOUSSOIR_COMPILED

@@ -71,9 +71,13 @@ class GlobalSearch {
       if (!voussoir::is_finite(u))
         throw NumericalFault(
             message({"two-level search: displacements are not finite in search ", burst}));
-      if (at_a_fall == AtAFall::gives_up &&
+      if (at_a_fall != AtAFall::goes_on &&
           system_.largest_translation(u) > context_.acceptance.displacement_limit)
         return SearchEnd::open;
+      if (at_a_fall == AtAFall::gives_up_early && largest_move() > context_.seldom_moved) {
+        moves_far_ = true;
+        return SearchEnd::open;
+      }
       const Change change = take_out_and_update();
       if (change == Change::too_often) return SearchEnd::open;
       if (change == Change::collapse) return SearchEnd::decided;
@@ -108,21 +112,32 @@ class GlobalSearch {
     return is_accepted() && system_.commit() == 0 && rests();
   }
 
+  /// Whether it gave up because a block had moved further than one seldom does.
+  [[nodiscard]] bool moves_far() const { return moves_far_; }
+
   /// Part of the movement that the first step has not foreseen: of an elastic one, slip and
   /// opening; of a movement that was predicted, its turn. Norms of all translations [-].
-  [[nodiscard]] double unforeseen_share() const {
+  /// @param error  of a body's translation: what is unforeseen by less is not known to be [m]
+  [[nodiscard]] double unforeseen_share(double error = 0) const {
     constexpr int dof = System::dof;
     double unforeseen = 0, all = 0;
     for (int b = 0; b < system_.body_count(); ++b) {
       const Vec<System::dim> moved =
           part<System::dim>(system_.displacement, dof * b) - part<System::dim>(start_, dof * b);
-      unforeseen += (moved - part<System::dim>(first_, dof * b)).squaredNorm();
+      const double off = (moved - part<System::dim>(first_, dof * b)).norm();
+      if (off > error) unforeseen += (off - error) * (off - error);
       all += moved.squaredNorm();
     }
     return all > 0 ? std::sqrt(unforeseen / all) : 0.0;
   }
 
  private:
+  /// Of a block since the search began [m].
+  [[nodiscard]] double largest_move() {
+    set_to_sum(trial_, system_.displacement, -1, start_);
+    return system_.largest_translation(trial_);
+  }
+
   /// Of bodies and contacts, between a local search and its correction.
   enum class Change { none, some, too_often, collapse };
 
@@ -231,6 +246,7 @@ class GlobalSearch {
   double inexact_ = 0;             ///< error of the last correction [m]
   double estimate_ = 1;            ///< of the error of the displacements [-]
   int may_find_ = 0;               ///< contact updates that are left
+  bool moves_far_ = false;
 };
 
 }  // namespace voussoir::detail

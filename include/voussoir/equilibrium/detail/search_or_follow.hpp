@@ -15,8 +15,10 @@ namespace voussoir::detail {
 /// `decided` with a verdict, or with a reason to stop; `open`: something falls, or no end is found.
 enum class SearchEnd { decided, open };
 
-/// Whether a search ends `open` as soon as a block comes off, or takes it out and goes on.
-enum class AtAFall { gives_up, goes_on };
+/// Whether a search ends `open` as soon as a block has moved further than one seldom does where
+/// rock stands (`SearchContext::seldom_moved`); as soon as one comes off; or takes it out and goes
+/// on.
+enum class AtAFall { gives_up_early, gives_up, goes_on };
 
 /// One stage by a solution procedure of its own and, where rock fails, in motion: the same for all
 /// procedures, so that all have the same answer.
@@ -104,8 +106,7 @@ void carry_out_stage(System& system, const SearchContext& given, Solve&& solve,
   drop(system, {}, given, report);
   if (has_collapsed<System::dim>(report, given)) return;
   const ElasticOutlook outlook = look_ahead(system, given, solve, detachment);
-  SearchContext context = given;
-  context.acceptance = limits_by_the_rock(system, given, outlook.far);
+  const SearchContext context = limits_by_the_rock(system, given, outlook.far);
   report.displacement_limit = context.acceptance.displacement_limit;
   report.contact_update_limit = context.acceptance.contact_update_limit;
   if (moves_too_far(system, context, outlook.far, report, detachment)) return;

@@ -176,7 +176,7 @@ void ContactUpdate<Dim, Detector>::run(Contacts& joints, Contacts& boundary, Con
   }
   ContactShares<Dim, Tracker> shares_of_joints(tracker_), shares_of_boundary(tracker_);
   tracker_.update(
-      bodies_,
+      bodies_, nullptr,
       [&](Pair& pair, const voussoir::Contact<Dim>& found) {
         stop();
         const bool of_blocks = is_block_[index(tracker_.body_of(pair.a))] &&
