@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What including the headers costs: time of the compiler's own process (user seconds, best of three, or of REPEATS)
-# and its peak memory. The floor is what the headers stand on; `-fsyntax-only` is what every file
+# its peak memory, and the code it makes (`size`, text). The floor is what the headers stand on; `-fsyntax-only` is what every file
 # pays, `-O2 -c` a whole small program. For another checkout: bench/compile_table.sh FOLDER
 set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
@@ -17,20 +17,23 @@ row() {  # row NAME ARGUMENTS...
   local name=$1 best="" line
   shift
   for ((k = 0; k < ${REPEATS:-3}; ++k)); do
+    rm -f "$folder/file.o"
     if ! line=$(/usr/bin/time -f '%U %M' "$compiler" "${flags[@]}" "$@" 2>&1 | tail -n 1); then
-      printf '| %s | does not compile | |\n' "$name"
+      printf '| %s | does not compile | | |\n' "$name"
       return
     fi
     best=$(printf '%s\n%s\n' "$best" "$line" | grep . | sort -n | head -n 1)
   done
-  printf '| %s | %.1f | %d |\n' "$name" "${best% *}" $((${best#* } / 1024))
+  local code=""
+  [[ -f $folder/file.o ]] && code=$(size "$folder/file.o" | awk 'NR == 2 { print int($1 / 1000) }')
+  printf '| %s | %.1f | %d | %s |\n' "$name" "${best% *}" $((${best#* } / 1024)) "$code"
 }
 including() {  # including HEADER...: a file that includes them
   printf '#include <%s>\n' "$@" >"$folder/file.cpp"
   echo "$folder/file.cpp"
 }
 
-printf '| %s, one file | s | MB |\n| --- | --- | --- |\n' "$compiler"
+printf '| %s, one file | s | MB | kB of code |\n| --- | --- | --- | --- |\n' "$compiler"
 row 'floor: Eigen/Core' -fsyntax-only "$(including Eigen/Core)"
 row 'voussoir.hpp' -fsyntax-only "$(including voussoir/voussoir.hpp)"
 for header in tunnel/measurements solver/solver dynamics/dynamics; do
@@ -42,4 +45,8 @@ row 'examples/minimal.cpp, -O2' -O2 -c "$checkout/examples/minimal.cpp" -o "$fol
 if [[ -f $checkout/include/voussoir/solver/compiled.hpp ]]; then
   row 'the same with voussoir::compiled' -DVOUSSOIR_COMPILED=1 -O2 -c \
     "$checkout/examples/minimal.cpp" -o "$folder/file.o"
+  for unit in examples/custom_joint_law tests/rules/own_law; do
+    row "$unit.cpp, -O2, with voussoir::compiled" -DVOUSSOIR_COMPILED=1 -O2 -c \
+      "$project/$unit.cpp" -o "$folder/file.o"
+  done
 fi
