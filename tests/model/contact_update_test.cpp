@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/spatial.hpp>
@@ -256,6 +257,18 @@ TEST_SUITE("model/contact_update") {
           Acceptance{.displacement_limit = 0}, Acceptance{.contact_update_limit = 0},
           Acceptance{.collapse_measure = -1}})
       CHECK_THROWS_AS((void)tunnel.equilibrium(0, TwoLevel{}, bad), InvalidInput);
+  }
+
+  TEST_CASE("a limit so short that there is no end to updates is refused, and named") {
+    Solver<> tunnel = bolted_tunnel();
+    std::string said;
+    try {
+      (void)tunnel.equilibrium(0, TwoLevel{}, {.contact_update_limit = 1e-8});
+    } catch (const InvalidInput& error) {
+      said = error.what();
+    }
+    CHECK(said.find("contact_update_limit of 1e-08 m") != std::string::npos);
+    CHECK(said.find("a twentieth of the displacement limit") != std::string::npos);
   }
 
   TEST_CASE("to update them often during the search changes nothing") {

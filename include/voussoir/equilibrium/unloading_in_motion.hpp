@@ -75,8 +75,7 @@ namespace detail {
 template <class System>
 [[nodiscard]] bool can_be_set_in_motion(const System& system, const SearchContext& context) {
   for (int b = 0; b < system.body_count(); ++b)
-    if (system.body(b).movable && system.body(b).is_block && !(system.body(b).weight > 0))
-      return false;
+    if (system.body(b).is_block && !(system.body(b).weight > 0)) return false;
   return system.shapes != nullptr && context.gravity > 0 &&
          std::all_of(system.linings.begin(), system.linings.end(),
                      [](const auto& lining) { return lining.thickness > 0; });
