@@ -63,10 +63,10 @@ Solver<> random_tunnel(Random& random, std::uint64_t seed) {
 }  // namespace
 
 TEST_SUITE("equilibrium/inexact_solves") {
-  TEST_CASE("50 random tunnels: what iteration and a factor give differ by less than they say") {
+  void iterate_and_factor(std::uint64_t seeds) {
     Random random(51);
-    int compared = 0, iterated = 0;
-    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    std::uint64_t compared = 0, iterated = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       CAPTURE(seed);
       Solver<> a = random_tunnel(random, seed), b = a;
       const EquilibriumReport by_iteration = a.equilibrium(0, iterative),
@@ -82,9 +82,13 @@ TEST_SUITE("equilibrium/inexact_solves") {
           std::max(by_iteration.largest_displacement, by_factor.largest_displacement);
       CHECK(difference(a, b) <= (by_iteration.error_estimate + by_factor.error_estimate) * largest);
     }
-    CHECK(compared >= 40);
+    CHECK(10 * compared >= 8 * seeds);
     CHECK(iterated == compared);
   }
+  TEST_CASE("random tunnels: what iteration and a factor give differ by less than they say") {
+    iterate_and_factor(10);
+  }
+  TEST_CASE("50 random tunnels: iteration and a factor [long]") { iterate_and_factor(50); }
 
   TEST_CASE("about to move too far: iteration and a factor say the same, near the limit too") {
     Random random(52);

@@ -59,9 +59,13 @@ double apart(const Solver<>& a, const Solver<>& b) {
 }  // namespace
 
 TEST_SUITE("equilibrium/unloading_path") {
-  TEST_CASE("one call is within 0.2 % of 32 stages where one step is not") {
-    int compared = 0, one_step_apart = 0;
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  /// Tunnels that stand, and those that one step alone puts elsewhere.
+  struct Compared {
+    int tunnels = 0, one_step_apart = 0;
+  };
+  Compared compare(std::uint64_t seeds) {
+    Compared compared;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       CAPTURE(seed);
       Solver<> one_call = supported(seed), one_step = one_call, stages = one_call;
       if (one_call.equilibrium(0).verdict != Verdict::stable) continue;
@@ -69,13 +73,22 @@ TEST_SUITE("equilibrium/unloading_path") {
       for (int k = 1; k <= 32; ++k)
         REQUIRE(stages.equilibrium(relaxed - relaxed * k / 32, in_one_step).verdict ==
                 Verdict::stable);
-      ++compared;
+      ++compared.tunnels;
       // A fifth of the 1 % by which procedures may differ.
       CHECK(apart(one_call, stages) <= 2e-3);
-      one_step_apart += apart(one_step, stages) > 2e-3;
+      compared.one_step_apart += apart(one_step, stages) > 2e-3;
     }
-    CHECK(compared >= 8);
-    CHECK(one_step_apart >= 3);
+    return compared;
+  }
+  TEST_CASE("one call is within 0.2 % of 32 stages where one step is not") {
+    const Compared compared = compare(4);
+    CHECK(compared.tunnels == 4);
+    CHECK(compared.one_step_apart >= 1);
+  }
+  TEST_CASE("one call is within 0.2 % of 32 stages, ten tunnels [long]") {
+    const Compared compared = compare(10);
+    CHECK(compared.tunnels >= 8);
+    CHECK(compared.one_step_apart >= 3);
   }
 }
 

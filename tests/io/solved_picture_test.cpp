@@ -67,8 +67,8 @@ TEST_SUITE("io/solved_picture") {
   }
 
   TEST_CASE("an arch shows its feet and what they bear; one that came off its wall is not drawn") {
-    const SimplePolygon opening = circular_opening(5, 36);
-    const Solver<> rock(voussoir_test::jointed_rock(domain_around(opening, 20, 7, 7), 1), joints,
+    const SimplePolygon opening = circular_opening(5, 24);
+    const Solver<> rock(voussoir_test::jointed_rock(domain_around(opening, 15, 7, 6), 3), joints,
                         {.density = 2700});
     const auto picture_with = [&](const std::optional<FootBearing>& feet, bool comes_off) {
       Solver<> tunnel = rock;
@@ -97,13 +97,13 @@ TEST_SUITE("io/solved_picture") {
   }
 
   TEST_CASE("3-D: the same call, a banner that covers no rock, and a file for ParaView") {
-    const PrismaticOpening opening(circular_opening(4, 12));
-    const Domain<3> ground{{-6, 0, -6}, {6, 4, 7}};
+    const PrismaticOpening opening(circular_opening(3, 12));
+    const Domain<3> ground{{-4, 0, -4}, {4, 3, 5}};
     Solver<Spatial> tunnel(voussoir_test::jointed_mass(ground, 2, 1.5), joints, {.density = 2700});
     Solver<Spatial> other = tunnel;
     Construction<Solver<Spatial>> plan;
     plan.add_stage("all").excavate(opening).install_bolts(
-        {bolt_bars({.length = 2, .angular_spacing = 45 * degree}, opening, 2, 0, 4), bolt});
+        {bolt_bars({.length = 2, .angular_spacing = 45 * degree}, opening, 2, 0, 3), bolt});
     const auto built = construct(tunnel, plan);
     REQUIRE(built.verdict() == Verdict::stable);
     const std::string picture = draw_tunnel(tunnel, built, {.title = "Cavern"});

@@ -468,7 +468,7 @@ TEST_SUITE("program/run") {
               .find("step limit of 1") != std::string::npos);
   }
 
-  TEST_CASE("rock that detached from a tunnel that stands is in every word about it") {
+  TEST_CASE("rock that detached from a tunnel that stands is in every word about it [long]") {
     InputText bare;
     bare.bolts = bare.lining = "";
     const Results r = results_of(bare.text());
@@ -559,7 +559,8 @@ TEST_SUITE("program/run") {
     CHECK(stands.outcome.out.find("asked for") == std::string::npos);
   }
 
-  TEST_CASE("values at the ends of their ranges give a verdict, or are named where there is none") {
+  TEST_CASE(
+      "values at the ends of their ranges give a verdict, or are named where there is none [long]") {
     for (const char* set : {"model.gravity=1 m/s^2",
                             "run.tolerance=1e-6",
                             "run.tolerance=0.1",

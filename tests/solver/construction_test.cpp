@@ -17,7 +17,6 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/elastic_tunnel.hpp"
-#include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
 
 namespace construction_test {
@@ -28,14 +27,12 @@ using voussoir_test::deep;
 using voussoir_test::degree;
 using voussoir_test::difference;
 using voussoir_test::elastic;
-using voussoir_test::jointed_mass;
 using voussoir_test::jointed_rock;
 using voussoir_test::tight;
 
 namespace {
 
-template <class Geometry>
-using Elastic = Solver<Geometry, MohrCoulombJoint>;
+using Elastic = Solver<Planar, MohrCoulombJoint>;
 const CoulombJoint frictional({5e9, 5e8, 35 * degree});
 const InSitu shallow{.density = 2700, .k0 = 0.8, .surcharge = 5e5};
 
@@ -66,7 +63,7 @@ TEST_SUITE("solver/construction") {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       CAPTURE(seed);
       const auto rock = jointed_rock(ground, seed);
-      Elastic<Planar> at_once(rock, elastic, deep), in_rounds(rock, elastic, deep);
+      Elastic at_once(rock, elastic, deep), in_rounds(rock, elastic, deep);
       at_once.excavate(whole, 0);
       settle(at_once);
       in_rounds.excavate(heading, 0);
@@ -81,8 +78,7 @@ TEST_SUITE("solver/construction") {
   TEST_CASE("elastic rock: two tunnels in either order, each relaxed by its own steps") {
     const SimplePolygon left = box(-6, -1.5, -3, 1.5), right = box(2, -2, 5, 1.5);
     const auto rock = jointed_rock(ground, 3);
-    Elastic<Planar> first(rock, elastic, deep), second(rock, elastic, deep),
-        together(rock, elastic, deep);
+    Elastic first(rock, elastic, deep), second(rock, elastic, deep), together(rock, elastic, deep);
     first.excavate(left, 0);
     settle(first, 0.4);
     first.excavate(right, 0);
@@ -106,10 +102,10 @@ TEST_SUITE("solver/construction") {
   TEST_CASE("a part of its own for every wall") {
     const auto rock = jointed_rock(ground, 5);
     const SimplePolygon left = box(-6, -1.5, -3, 1.5), right = box(2, -2, 5, 1.5);
-    Elastic<Planar> tunnel(rock, elastic, deep), other(rock, elastic, deep);
+    Elastic tunnel(rock, elastic, deep), other(rock, elastic, deep);
     tunnel.excavate(left, 0);
     tunnel.excavate(right, 0);
-    const auto reached = [&](Elastic<Planar>& it, const std::vector<double>& fractions) {
+    const auto reached = [&](Elastic& it, const std::vector<double>& fractions) {
       REQUIRE(it.equilibrium(fractions, {}, tight).verdict == Verdict::stable);
       CHECK(it.wall_fractions() == fractions);
     };
@@ -323,24 +319,6 @@ TEST_SUITE("solver/construction") {
       CHECK(it->mass().openings.size() == 1);
       CHECK(it->wall_fractions() == std::vector<double>{0.5});
       CHECK(it->equilibrium(0.4).verdict == Verdict::stable);
-    }
-  }
-
-  TEST_CASE("3-D: rounds along the axis end as one drift") {
-    const Domain<3> space{{-6, 0, -6}, {6, 8, 6}};
-    const auto section = circular_opening(4, 12);
-    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-      CAPTURE(seed);
-      const auto rock = jointed_mass(space, seed, 2.2, {.min_inscribed_radius = 0.25});
-      Elastic<Spatial> at_once(rock, elastic, deep), in_rounds(rock, elastic, deep);
-      at_once.excavate(PrismaticOpening(section, -1, 6), 0);
-      settle(at_once);
-      for (int round = 0; round < 3; ++round) {
-        in_rounds.excavate(PrismaticOpening(section, round == 0 ? -1 : 2 * round, 2 * round + 2),
-                           0);
-        settle(in_rounds);
-      }
-      CHECK(difference(at_once, in_rounds) < 1e-6);
     }
   }
 }

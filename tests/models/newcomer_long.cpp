@@ -18,11 +18,11 @@ inline FrictionBolt law() {
 
 }  // namespace every_model
 
-namespace newcomer_test {
+namespace newcomer_long {
 
 using namespace every_model;
 
-TEST_SUITE("models/newcomer") {
+TEST_SUITE("models/newcomer_long") {
   TEST_CASE("PattonJoint and FrictionBolt") {
     const Row row = in_all_settings<PattonJoint, FrictionBolt>();
     check_yielded(row);  // slid at their grip
@@ -31,4 +31,4 @@ TEST_SUITE("models/newcomer") {
   }
 }
 
-}  // namespace newcomer_test
+}  // namespace newcomer_long

@@ -2,11 +2,11 @@
 // Every contact detector and solution procedure, the default law, and what is no part of a tunnel.
 #include "models/every_model.hpp"
 
-namespace methods_test {
+namespace methods_long {
 
 using namespace every_model;
 
-TEST_SUITE("models/methods") {
+TEST_SUITE("models/methods_long") {
   constexpr const char* no_method = "a run has time steps, no solution procedure";
 
   TEST_CASE("CoulombJoint") { in_all_settings<CoulombJoint>().print(); }
@@ -29,4 +29,4 @@ TEST_SUITE("models/methods") {
   }
 }
 
-}  // namespace methods_test
+}  // namespace methods_long

@@ -20,7 +20,7 @@
 
 #include "support/jointed_rock.hpp"
 
-namespace joint_laws_test {
+namespace joint_laws_long {
 
 using namespace voussoir;
 using voussoir_test::degree;
@@ -61,7 +61,7 @@ Lined lined() {
 
 }  // namespace
 
-TEST_SUITE("solver/joint_laws") {
+TEST_SUITE("solver/joint_laws_long") {
   TEST_CASE("a creeping tunnel closes with time, and comes to rest where creep is delayed only") {
     using Tunnel = Solver<BurgersJoint>;
     constexpr double day = 86400, infinite = std::numeric_limits<double>::infinity();
@@ -145,4 +145,4 @@ TEST_SUITE("solver/joint_laws") {
   }
 }
 
-}  // namespace joint_laws_test
+}  // namespace joint_laws_long

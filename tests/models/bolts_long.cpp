@@ -2,11 +2,11 @@
 // Every bolt law and every way of anchoring.
 #include "models/every_model.hpp"
 
-namespace bolts_test {
+namespace bolts_long {
 
 using namespace every_model;
 
-TEST_SUITE("models/bolts") {
+TEST_SUITE("models/bolts_long") {
   TEST_CASE("AxialBolt") {
     const Row row = in_all_settings<AxialBolt>();
     check_yielded(row);
@@ -18,4 +18,4 @@ TEST_SUITE("models/bolts") {
   TEST_CASE("JointFaceAnchors") { in_all_settings<JointFaceAnchors>().print(); }
 }
 
-}  // namespace bolts_test
+}  // namespace bolts_long

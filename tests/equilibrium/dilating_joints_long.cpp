@@ -15,7 +15,7 @@
 
 #include "support/jointed_rock.hpp"
 
-namespace dilating_joints_test {
+namespace dilating_joints_long {
 
 using namespace voussoir;
 using namespace voussoir_test;
@@ -44,7 +44,7 @@ Solver<MohrCoulombJoint, Method> tunnel(std::uint64_t seed, double dilation) {
 
 }  // namespace
 
-TEST_SUITE("equilibrium/dilating_joints") {
+TEST_SUITE("equilibrium/dilating_joints_long") {
   TEST_CASE("2-D: no more than three times the effort of Coulomb, and what explicit steps find") {
     int compared = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
@@ -91,4 +91,4 @@ TEST_SUITE("equilibrium/dilating_joints") {
   }
 }
 
-}  // namespace dilating_joints_test
+}  // namespace dilating_joints_long

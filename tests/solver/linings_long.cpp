@@ -16,7 +16,7 @@
 
 #include "support/jointed_rock.hpp"
 
-namespace linings_test {
+namespace linings_long {
 
 using namespace voussoir;
 using voussoir_test::degree;
@@ -71,7 +71,7 @@ std::vector<LiningForce> thrusts(const Law& law) {
 
 }  // namespace
 
-TEST_SUITE("solver/linings") {
+TEST_SUITE("solver/linings_long") {
   TEST_CASE("an interface that is Mohr-Coulomb without cohesion carries what a Coulomb one does") {
     const auto coulomb = thrusts(CoulombJoint({1e9, 1e9, 20 * degree}));
     const auto mohr = thrusts(MohrCoulombJoint({.joint_normal_stiffness = 1e9,
@@ -147,4 +147,4 @@ TEST_SUITE("solver/linings") {
   }
 }
 
-}  // namespace linings_test
+}  // namespace linings_long

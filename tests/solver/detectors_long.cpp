@@ -17,7 +17,7 @@
 #include "support/jointed_rock.hpp"
 #include "support/small_tunnel.hpp"
 
-namespace detectors_test {
+namespace detectors_long {
 
 using namespace voussoir;
 using voussoir_test::degree;
@@ -79,7 +79,7 @@ template <class Geometry>
 
 }  // namespace
 
-TEST_SUITE("solver/detectors") {
+TEST_SUITE("solver/detectors_long") {
   TEST_CASE_TEMPLATE("AnalyticCentre carries a whole run, and goes where FaceContacts goes",
                      Geometry, Planar, Spatial) {
     int by_faces = 0, by_centres = 0;
@@ -108,4 +108,4 @@ TEST_SUITE("solver/detectors") {
   }
 }
 
-}  // namespace detectors_test
+}  // namespace detectors_long

@@ -14,7 +14,7 @@
 #include "io/xml_check.hpp"
 #include "support/jointed_rock.hpp"
 
-namespace write_your_own_test {
+namespace write_your_own_long {
 
 using voussoir_test::degree;
 
@@ -32,7 +32,7 @@ Tunnel excavated(const Law& law) {
 
 }  // namespace
 
-TEST_SUITE("solver/write_your_own") {
+TEST_SUITE("solver/write_your_own_long") {
   TEST_CASE("the joint law of the page carries a tunnel; without teeth it is CoulombJoint") {
     const CoulombJoint plain({5e9, 5e8, 35 * degree});
     auto rough = excavated<RoughTunnel>(PattonJoint({5e9, 5e8, 35 * degree, 10 * degree, 1e5}));
@@ -93,4 +93,4 @@ TEST_SUITE("solver/write_your_own") {
   }
 }
 
-}  // namespace write_your_own_test
+}  // namespace write_your_own_long

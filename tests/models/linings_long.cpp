@@ -2,11 +2,11 @@
 // Every lining, and every law of its interface with the rock.
 #include "models/every_model.hpp"
 
-namespace linings_test {
+namespace linings_long {
 
 using namespace every_model;
 
-TEST_SUITE("models/linings") {
+TEST_SUITE("models/linings_long") {
   TEST_CASE("EulerBernoulliBeam") { in_all_settings<EulerBernoulliBeam>().print(); }
   TEST_CASE("TimoshenkoBeam") { in_all_settings<TimoshenkoBeam>().print(); }
   TEST_CASE("PinnedBar") { in_all_settings<PinnedBar>().print(); }
@@ -18,4 +18,4 @@ TEST_SUITE("models/linings") {
   }
 }
 
-}  // namespace linings_test
+}  // namespace linings_long
