@@ -25,6 +25,8 @@
 
 namespace voussoir::program {
 
+const bool has_paper = true;
+
 namespace {
 
 /// The tunnels and collapses of the analyses, whatever the number of realisations. @throws

@@ -176,7 +176,9 @@ int run_program(int argc, char** argv) {
   app.footer(
       "Exit status: 0 finished, and the tunnel of run is stable; 1 results cannot be written or\n"
       "memory is exhausted, 2 error in the input or the command line, 3 undecided (of diagram, sweep\n"
-      "and realisations: one of their tunnels), 4 numerical fault, 5 a check of verify fails, 6 the\n"
+      "and realisations: one of their tunnels), 4 numerical fault, " +
+      std::string(has_paper ? "5 a check of verify fails, " : "") +
+      "6 the\n"
       "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 130\n"
       "interrupted (results are not written; finished cases are kept).");
   Ranks ranks(argc, argv);
@@ -301,12 +303,18 @@ int run_program(int argc, char** argv) {
   add_quiet(verify);
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  std::vector<std::string> listed = verbs;
+  if (!has_paper)  // not in the help, but who asks for them is told how to get them
+    for (CLI::App* verb : {paper, verify}) {
+      verb->group("");
+      std::erase(listed, verb->get_name());
+    }
   if (const char* word = unknown_verb(verbs, argc, argv)) {
     const std::string guess = closest(word, verbs);
     std::cerr << "error: `" << printable(word) << "` is not a verb of voussoir"
               << (guess.empty() ? "" : ", did you mean `" + guess + "`?") << "\n   = accepted: ";
-    for (const std::string& verb : verbs)
-      std::cerr << verb << (verb == verbs.back() ? "; see voussoir --help\n" : ", ");
+    for (const std::string& verb : listed)
+      std::cerr << verb << (verb == listed.back() ? "; see voussoir --help\n" : ", ");
     return bad_input;
   }
   try {

@@ -116,8 +116,10 @@ struct PlanOptions {
 /// Joins what several folders hold of one plan; options.folder empty: into the first.
 [[nodiscard]] int merge_verb(const Options& options, const std::vector<std::string>& folders);
 
-/// Every analysis of the paper; `pages` empty: no documentation. In a build without them (CMake
-/// option VOUSSOIR_BUILD_PAPER) both say how to get them.
+/// Whether `paper` and `verify` are in this build (CMake option VOUSSOIR_BUILD_PAPER). Where they
+/// are not, `--help` does not list them, and both say how to get them.
+extern const bool has_paper;
+/// Every analysis of the paper; `pages` empty: no documentation.
 [[nodiscard]] int paper_verb(const Options& options, int samples, const std::string& pages);
 /// Closed forms and solvers against values from elsewhere.
 [[nodiscard]] int verify_verb(const Options& options);

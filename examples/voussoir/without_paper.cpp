@@ -4,6 +4,8 @@
 
 namespace voussoir::program {
 
+const bool has_paper = false;
+
 namespace {
 int say_how_to_get(const std::string& verb) {
   std::cerr << "error: this program was built without `" << verb

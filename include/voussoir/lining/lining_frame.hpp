@@ -7,6 +7,10 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#ifdef VOUSSOIR_COMPILED
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#endif
 
 namespace voussoir {
 

@@ -9,6 +9,10 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/model/support.hpp>
+#ifdef VOUSSOIR_COMPILED
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#endif
 
 namespace voussoir {
 

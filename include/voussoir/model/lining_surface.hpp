@@ -12,6 +12,10 @@
 #include <voussoir/geometry/spatial_facet.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/lining/lining_frame.hpp>
+#ifdef VOUSSOIR_COMPILED
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#endif
 
 namespace voussoir {
 
