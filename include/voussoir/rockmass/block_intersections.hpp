@@ -8,6 +8,10 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/line_clip.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#ifdef VOUSSOIR_COMPILED
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#endif
 
 namespace voussoir {
 
