@@ -138,9 +138,10 @@ class ContactNetwork {
   /// @param cut_of  cut_of(shape, outward): label of the face of a shape that looks there
   /// @param gained  energy that springs gain by their new form is added to it [J]
   template <class CutOf>
-  ContactChange find(Tracker& tracker, const Bodies& bodies,
-                     const std::vector<std::uint32_t>* moved, const std::vector<BodyRole>& roles,
-                     CutOf&& cut_of, double& gained) {
+  [[nodiscard]] ContactChange find(Tracker& tracker, const Bodies& bodies,
+                                   const std::vector<std::uint32_t>* moved,
+                                   const std::vector<BodyRole>& roles, CutOf&& cut_of,
+                                   double& gained) {
     // Bodies may have come since.
     rates_.resize(bodies.size());
     Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
