@@ -27,7 +27,8 @@ namespace voussoir {
 /// out: what it held up may follow. The stage is over when the blocks that are left are in balance
 /// and so slow that none would come off within `patience`; or when more has come off than a
 /// collapse needs. Local damping takes the energy out; contacts follow the blocks wherever they go.
-/// The smaller half of the blocks is made as inert as the larger, which halves the number of steps.
+/// The smaller half of the blocks is made as inert as the larger, which halves the number of steps;
+/// and of thousands of blocks only the few that move are stepped.
 ///
 /// Held against all blocks in motion, and the same with half the step and half the rate:
 /// tests/equilibrium/rock_failure_test.cpp, bench/failure_table.cpp.
@@ -41,14 +42,13 @@ struct MotionTuning {
   double longest = 30;         ///< after which no end is expected [s], > 0
   int looks_in_ramp = 200;     ///< times that the load is changed, and what has come off looked for
   int check_every = 50;        ///< steps between two looks afterwards
-  /// Bodies out of balance by more than the ratio at rest, or faster than this part of the speed at
-  /// which one would come off within `patience`, are stepped with so many rings of neighbours; all
-  /// others are brought to balance elastically as these move [-], >= 0. Negative rings: all bodies
-  /// are stepped.
-  double quiet_speed = 0.3;
-  int rings = 2;
-  double looseness = 10;  ///< times the ratio at rest at which one that rests is looked after
-  int batches = 20;       ///< of `check_every` steps, after which that is done anyway
+  // Who is stepped: bodies that are fast or out of balance, and rings around them. All others are
+  // brought to balance elastically (`detail::ElasticBalance`).
+  double quiet_speed =
+      0.3;                ///< of the speed that comes off within `patience`: faster is fast, >= 0
+  int rings = 2;          ///< of bodies that those touch; < 0: all bodies are stepped
+  double looseness = 10;  ///< times `rest_ratio`, at which one that is not stepped is seen to, >= 1
+  int batches = 20;       ///< of `check_every` steps, after which all are seen to in any case
   unsigned threads = 1;   ///< that share the steps; the result does not depend on it
 
   /// @throws InvalidInput  a value out of range
@@ -166,8 +166,14 @@ class UnloadingInMotion {
   [[nodiscard]] bool is_to_choose() {
     if (moving_.empty() || ++batches_ >= tuning_.batches) return true;
     const auto is_restless = [this](int b) { return this->is_restless(b); };
-    return std::none_of(moving_.begin(), moving_.end(), is_restless) ||
-           std::any_of(fringe_.begin(), fringe_.end(), is_restless);
+    if (std::none_of(moving_.begin(), moving_.end(), is_restless) ||
+        std::any_of(fringe_.begin(), fringe_.end(), is_restless))
+      return true;
+    // A bolt or a lining reaches further than contacts do.
+    for (const auto& support : run_.supports())
+      for (const int b : support->bodies())
+        if (!run_.moves(b) && is_restless(b)) return true;
+    return false;
   }
 
   /// Brings the bodies that are quiet to balance, and lets the others move.

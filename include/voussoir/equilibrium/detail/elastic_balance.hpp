@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <optional>
-#include <vector>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
