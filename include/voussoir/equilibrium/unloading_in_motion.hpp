@@ -189,6 +189,19 @@ class UnloadingInMotion {
         marks[index(b)] = 1;
         moving_.push_back(b);
       }
+    // A lining goes as a whole: held by those of its nodes that are not stepped it would never
+    // slide.
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      for (const auto& support : run_.supports())
+        for (const auto& [a, b] : support->links()) {
+          if (marks[index(a)] == marks[index(b)]) continue;
+          const int other = marks[index(a)] != 0 ? b : a;
+          marks[index(other)] = 1;
+          moving_.push_back(other);
+          goes_on = true;
+        }
+    }
     // Ring after ring of those that they touch; the last is watched.
     std::size_t first = 0;
     for (int ring = 0; ring <= tuning_.rings; ++ring) {
