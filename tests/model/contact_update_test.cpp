@@ -260,14 +260,18 @@ TEST_SUITE("model/contact_update") {
   }
 
   TEST_CASE("a limit so short that there is no end to updates is refused, and named") {
-    Solver<> tunnel = bolted_tunnel();
+    const auto opening = circular_opening(5, 36);
+    // Unsupported, and two square metres come off: the search after that goes on and on.
+    Solver<> tunnel(jointed_rock(domain_around(opening, 30, 10, 8), 1),
+                    CoulombJoint({5e9, 5e8, 30 * degree}), {.density = 2700});
+    tunnel.excavate(opening);
     std::string said;
     try {
-      (void)tunnel.equilibrium(0, TwoLevel{}, {.contact_update_limit = 1e-8});
+      (void)tunnel.equilibrium(0, TwoLevel{}, {.contact_update_limit = 1e-5});
     } catch (const InvalidInput& error) {
       said = error.what();
     }
-    CHECK(said.find("contact_update_limit of 1e-08 m") != std::string::npos);
+    CHECK(said.find("contact_update_limit of 1e-5 m") != std::string::npos);
     CHECK(said.find("a twentieth of the displacement limit") != std::string::npos);
   }
 
