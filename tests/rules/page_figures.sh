@@ -65,7 +65,7 @@ differs() {
     }' <(plain <"$2") <(plain <"$1")
 }
 for page in README.md docs/tutorial.md; do
-  blocks=$(mktemp -d "$scratch/blocks.XXX")
+  blocks=$(mktemp -d "$scratch/blocks.XXXXXX")
   split "$root/$page" "$blocks"
   : >printed
   for block in "$blocks"/*; do
