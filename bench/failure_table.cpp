@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 #include <vector>
+#include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
@@ -184,6 +185,7 @@ void print_counts(const std::vector<std::vector<Answer>>& all) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int first = argc > 1 ? number_of(argv[1]) : 0;
   const int count = argc > 2 ? number_of(argv[2]) : 200;
   const int threads = argc > 3 ? number_of(argv[3]) : 1;

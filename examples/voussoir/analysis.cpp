@@ -115,9 +115,9 @@ LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, doubl
 Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
                                      const SimplePolygon& opening,
                                      const std::optional<BoltSpacing>& spacing, double thickness,
-                                     const LinearSettings& linear) {
+                                     const LinearSettings& linear, RangeSought range) {
   Construction<Tunnel> construction;
-  construction.method = method_of(input, linear);
+  construction.method = method_of(input, linear, range);
   construction.acceptance = acceptance_of(input, opening);
   for (const StageInput& stage : input.stages) {
     auto& made = construction.add_stage(stage.name, stage.wall_traction);
@@ -375,41 +375,6 @@ auto naming_unusual_values(const Input& input, Compute&& compute) {
   }
 }
 
-/// The run once more in three other ways, where rock has come off.
-RockfallRange rockfall_range(const Tunnel& excavated, const RunResult& run,
-                             const Construction<Tunnel>& as_asked, const Input& input,
-                             LinearSettings linear, const Report& report) {
-  RockfallRange range{run.fallen_measure(), run.fallen_measure()};
-  range.scale = run.verdict() == Verdict::collapse ? std::numeric_limits<double>::infinity()
-                                                   : block_sizes(run.tunnel.mass()).mean;
-  const double limit = run.last().displacement_limit;
-  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  linear.threads = std::clamp(processors / 3, 1U, linear.threads);  // three at a time
-  std::mutex guard;
-  std::atomic<bool> go_on{true};
-  parallel_for(3, processors, [&](std::size_t k) {
-    Construction<Tunnel> other = as_asked;
-    MotionTuning motion;
-    if (k == 2)
-      motion.ramp *= 2;
-    else
-      other.acceptance.displacement_limit = k == 0 ? 0.5 * limit : 2 * limit;
-    other.method = method_of(input, linear, motion);
-    Tunnel tunnel = excavated;
-    const auto built = construct(tunnel, other, [&](const std::string& stage, double fraction) {
-      const std::scoped_lock lock(guard);
-      if (!report(stage + ", once more to see how much hangs on it", fraction)) go_on = false;
-      return go_on.load();
-    });
-    const std::scoped_lock lock(guard);
-    range.low = std::min(range.low, built.fallen_measure());
-    range.high = std::max(range.high, built.fallen_measure());
-    range.has_other_verdict = range.has_other_verdict || built.verdict() != run.verdict();
-  });
-  if (!go_on) throw Stopped();
-  return range;
-}
-
 RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
@@ -424,13 +389,12 @@ RunResult computed_run(const Input& input, const Report& report) {
   const SupportChoice supports = supports_of(input);
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  const Construction<Tunnel> construction =
-      construction_of(input, run.tunnel, run.opening, supports.spacing, supports.thickness, linear);
-  const Tunnel before = run.tunnel;
-  run.built = construct(run.tunnel, construction, report);
+  run.built = construct(
+      run.tunnel,
+      construction_of(input, run.tunnel, run.opening, supports.spacing, supports.thickness, linear,
+                      RangeSought::all),
+      report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
-  if (run.fallen_measure() > 0)
-    run.rockfall = rockfall_range(before, run, construction, input, linear, report);
   run.equilibrium_seconds = seconds_since(search);
   run.warnings = warnings_of(input, run);
   return run;
@@ -457,15 +421,17 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
   try {
     Tunnel tunnel = rock.tunnel;
     const auto built = naming_unusual_values(input, [&] {
-      return construct(tunnel,
-                       construction_of(input, tunnel, rock.opening, supports.spacing,
-                                       supports.thickness, {.memory_limit = memory_of_a_case}),
-                       report);
+      return construct(
+          tunnel,
+          construction_of(input, tunnel, rock.opening, supports.spacing, supports.thickness,
+                          {.memory_limit = memory_of_a_case}, RangeSought::until_marginal),
+          report);
     });
     if (built.last().stopped) throw Stopped();
     result.verdict = built.verdict();
     result.lost_lining = built.has_lost_lining();
     result.fallen = built.fallen_measure();
+    if (const auto range = built.rockfall_range()) result.marginal = range->is_marginal();
     result.reason = built.last().reason;
     result.convergence = built.stages.back().convergence;
     result.demand = support_demand(tunnel);

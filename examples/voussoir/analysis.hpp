@@ -26,21 +26,6 @@ struct JointSource {
   std::size_t refused = 0;  ///< for parts too small or too long, or where a joint was already
 };
 
-/// How much rock comes off with half and twice the displacement limit, and with the walls unloaded
-/// at half the rate, besides what the run itself has: where these differ the rock is marginal by
-/// nature, and no single figure is its answer.
-struct RockfallRange {
-  double low = 0, high = 0;        ///< detached [m^2], over the four runs
-  bool has_other_verdict = false;  ///< one of them stands and another does not, or is undecided
-  /// A difference below it says nothing [m^2]: a mean block. Of a collapse none does, which ends at
-  /// whatever moment its limit is passed.
-  double scale = 0;
-
-  [[nodiscard]] bool is_marginal() const {
-    return has_other_verdict || high - low > std::max(0.1 * high, scale);
-  }
-};
-
 /// A finished run.
 struct RunResult {
   Tunnel tunnel;
@@ -52,12 +37,13 @@ struct RunResult {
   std::vector<std::string> rock_warnings = {};  ///< of `warnings`, those that the picture shows too
   std::vector<std::string> warnings = {};
   double generation_seconds = 0, equilibrium_seconds = 0;
-  std::optional<RockfallRange> rockfall = {};  ///< where rock has come off
 
   [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
   /// In words: `to_string(verdict(), fallen_measure(), built.has_lost_lining())`.
   [[nodiscard]] Verdict verdict() const { return built.verdict(); }
   [[nodiscard]] double fallen_measure() const { return built.fallen_measure(); }
+  /// How much of that hangs on limits and rates; where rock has come off in motion, or nearly.
+  [[nodiscard]] std::optional<RockfallRange> rockfall() const { return built.rockfall_range(); }
   /// At the end [m].
   [[nodiscard]] const Convergence& convergence() const { return built.stages.back().convergence; }
 };
@@ -117,6 +103,7 @@ struct TunnelResult {
   bool failed = false;       ///< it could not be computed: the reason says why
   bool lost_lining = false;  ///< a lining came off its wall
   double fallen = 0;         ///< rock that detached, over all stages [m^2]
+  bool marginal = false;     ///< that hangs on limits and rates, see `RockfallRange`
   std::string reason;        ///< of the verdict, one sentence
   Convergence convergence = {not_computed, not_computed, not_computed, not_computed};  ///< [m]
   SupportDemand demand = {};

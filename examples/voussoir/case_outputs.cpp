@@ -74,10 +74,11 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
   std::vector<std::string> header;
   for (const KeyColumn& column : columns) header.push_back(column.name);
   for (const char* const name :
-       {"seed", "verdict", "detached_area_m2", "crown_convergence_mm", "right_springing_mm",
-        "left_springing_mm", "invert_mm", "largest_bolt_force_kN", "mean_bolt_force_kN",
-        "largest_thrust_kN_per_m", "mean_thrust_kN_per_m", "largest_moment_kNm_per_m",
-        "error_estimate", "out_of_balance_force_ratio", "blocks", "reason"})
+       {"seed", "verdict", "marginal", "detached_area_m2", "crown_convergence_mm",
+        "right_springing_mm", "left_springing_mm", "invert_mm", "largest_bolt_force_kN",
+        "mean_bolt_force_kN", "largest_thrust_kN_per_m", "mean_thrust_kN_per_m",
+        "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio", "blocks",
+        "reason"})
     header.emplace_back(name);
   CsvTable table(header);
   const auto seeds = static_cast<std::size_t>(plan.parts().realisations);
@@ -85,13 +86,13 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
     const TunnelResult& r = results[k];
     std::vector<std::string> cells = key_cells(columns, k / seeds);
     for (const std::string& cell :
-         {std::to_string(plan.at(k).seed), r.word(), number(r.fallen),
-          number(1e3 * r.convergence.crown), number(1e3 * r.convergence.right_springing),
-          number(1e3 * r.convergence.left_springing), number(1e3 * r.convergence.invert),
-          number(1e-3 * r.demand.largest_bolt_force), number(1e-3 * r.demand.mean_bolt_force),
-          number(1e-3 * r.demand.largest_thrust), number(1e-3 * r.demand.mean_thrust),
-          number(1e-3 * r.demand.largest_moment), number(r.error_estimate),
-          number(r.out_of_balance), std::to_string(r.blocks), r.reason})
+         {std::to_string(plan.at(k).seed), r.word(), std::string(r.marginal ? "1" : "0"),
+          number(r.fallen), number(1e3 * r.convergence.crown),
+          number(1e3 * r.convergence.right_springing), number(1e3 * r.convergence.left_springing),
+          number(1e3 * r.convergence.invert), number(1e-3 * r.demand.largest_bolt_force),
+          number(1e-3 * r.demand.mean_bolt_force), number(1e-3 * r.demand.largest_thrust),
+          number(1e-3 * r.demand.mean_thrust), number(1e-3 * r.demand.largest_moment),
+          number(r.error_estimate), number(r.out_of_balance), std::to_string(r.blocks), r.reason})
       cells.push_back(cell);
     table.add_cells(cells);
   }
@@ -105,7 +106,8 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
   for (const KeyColumn& column : columns) header.push_back(column.name);
   for (const char* const name :
        {"realisations", "stable", "stable_after_rockfall", "stable_without_lining", "collapse",
-        "undecided", "failed", "rockfall_share", "rockfall_share_low_95", "rockfall_share_high_95"})
+        "undecided", "failed", "marginal", "rockfall_share", "rockfall_share_low_95",
+        "rockfall_share_high_95"})
     header.emplace_back(name);
   for (const std::string quantity :
        {"crown_convergence_mm", "largest_bolt_force_kN", "mean_bolt_force_kN",
@@ -119,8 +121,8 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
   for (std::size_t k = 0; k * seeds < results.size(); ++k) {
     const Realised r(std::span<const TunnelResult>(results).subspan(k * seeds, seeds));
     std::vector<std::string> cells = key_cells(columns, k);
-    for (const int count :
-         {r.count, r.whole, r.shedding, r.without_lining, r.collapsed, r.undecided, r.failed})
+    for (const int count : {r.count, r.whole, r.shedding, r.without_lining, r.collapsed,
+                            r.undecided, r.failed, r.marginal})
       cells.push_back(std::to_string(count));
     const Share share = r.rockfall();
     const Interval shares = share.trials > 0 ? share.interval() : Interval{none, none};
@@ -224,6 +226,7 @@ std::string realisations_json(const CasePlan& plan, const Realised& r) {
                        {"collapse", r.collapsed},
                        {"undecided", r.undecided},
                        {"failed", r.failed}}},
+                     {"marginal", r.marginal},
                      {"rockfall_or_collapse", share_json(r.rockfall())},
                      {"collapse", share_json(r.collapse())},
                      {"quantities", quantities}};

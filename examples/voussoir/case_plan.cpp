@@ -304,13 +304,11 @@ std::vector<std::size_t> CasePlan::work_order() const {
     }
     return rock;
   };
-  // Spacings of a diagram grow, and "none" comes last; thicknesses grow.
+  // Thicknesses of a diagram grow; spacings too, and "none" comes last.
   const auto support_of = [&](std::size_t index) {
     const auto place = at(index).place;
-    return place ? (input_.diagram->spacing.size() - 1 - (*place)[0]) *
-                           input_.diagram->thickness.size() +
-                       (*place)[1]
-                 : index;
+    const std::size_t spacings = place ? input_.diagram->spacing.size() : 0;
+    return place ? (*place)[1] * spacings + spacings - 1 - (*place)[0] : index;
   };
   std::vector<std::array<std::size_t, 3>> order;
   order.reserve(size());

@@ -45,6 +45,7 @@ double Quantity::quantile(double part) const {
 Realised::Realised(std::span<const TunnelResult> results) {
   for (const TunnelResult& r : results) {
     ++count;
+    marginal += r.marginal;
     failed += r.failed;
     const bool stands = !r.failed && r.verdict == Verdict::stable;
     undecided += !r.failed && r.verdict == Verdict::undecided;
@@ -71,6 +72,7 @@ std::string Realised::verdicts() const {
   say(collapsed, "collapse");
   say(undecided, "undecided");
   say(failed, "failed");
+  if (marginal > 0) text += "; " + std::to_string(marginal) + " of these marginal";
   return text;
 }
 

@@ -45,6 +45,7 @@ struct Quantity {
 struct Realised {
   int count = 0;
   int whole = 0, shedding = 0, without_lining = 0, collapsed = 0, undecided = 0, failed = 0;
+  int marginal = 0;  ///< of any of these (`TunnelResult::marginal`)
   Quantity crown, largest_bolt_force, mean_bolt_force, largest_thrust, largest_moment;  ///< SI
 
   explicit Realised(std::span<const TunnelResult> results);
@@ -52,7 +53,7 @@ struct Realised {
   [[nodiscard]] Share rockfall() const { return {shedding + collapsed, decided()}; }
   [[nodiscard]] Share collapse() const { return {collapsed, decided()}; }
   [[nodiscard]] int decided() const { return count - undecided - failed; }
-  /// "47 stable, 2 stable after rockfall, 1 collapse"
+  /// "47 stable, 2 stable after rockfall, 1 collapse; 2 of these marginal"
   [[nodiscard]] std::string verdicts() const;
 };
 

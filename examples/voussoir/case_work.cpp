@@ -152,6 +152,7 @@ std::string result_json(const TunnelResult& r) {
                      {"failed", r.failed},
                      {"lost_lining", r.lost_lining},
                      {"fallen_m2", r.fallen},
+                     {"marginal", r.marginal},
                      {"crown_m", r.convergence.crown},
                      {"right_springing_m", r.convergence.right_springing},
                      {"left_springing_m", r.convergence.left_springing},
@@ -186,6 +187,7 @@ TunnelResult result_from_json(const std::string& text) {
     r.failed = json.at("failed");
     r.lost_lining = json.at("lost_lining");
     r.fallen = number_at(json, "fallen_m2");
+    r.marginal = json.at("marginal");
     r.convergence = {number_at(json, "crown_m"), number_at(json, "right_springing_m"),
                      number_at(json, "left_springing_m"), number_at(json, "invert_m"),
                      number_at(json, "rise_m")};

@@ -61,7 +61,7 @@ const char* spacing_column(const DiagramInput& axes) {
 
 std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) {
   const DiagramInput& axes = *plan.input().diagram;
-  CsvTable table({spacing_column(axes), "lining_thickness_cm", "verdict", "failed",
+  CsvTable table({spacing_column(axes), "lining_thickness_cm", "verdict", "failed", "marginal",
                   "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
                   "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
                   "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio"},
@@ -70,7 +70,7 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
   for (const Place& place : places) {
     const TunnelResult& r = place.tunnels.front();
     table.add_row(spacing_cell(axes.spacing[place.spacing]), 1e2 * axes.thickness[place.thickness],
-                  r.word(), !r.is_whole(), 1e3 * r.convergence.crown,
+                  r.word(), !r.is_whole(), r.marginal, 1e3 * r.convergence.crown,
                   1e2 * r.convergence.crown / radius, r.fallen, 1e-3 * r.demand.largest_bolt_force,
                   1e-3 * r.demand.mean_bolt_force, 1e-3 * r.demand.largest_thrust,
                   1e-3 * r.demand.largest_moment, r.error_estimate, r.out_of_balance);
@@ -90,6 +90,7 @@ std::string realised_csv(const CasePlan& plan, const std::vector<Place>& places)
                   "collapse",
                   "undecided",
                   "failed",
+                  "marginal",
                   "rockfall_share",
                   "rockfall_share_low_95",
                   "rockfall_share_high_95",
@@ -112,8 +113,8 @@ std::string realised_csv(const CasePlan& plan, const std::vector<Place>& places)
     const Interval crowns = r.crown.mean_between().value_or(Interval{none, none});
     table.add_row(spacing_cell(axes.spacing[place.spacing]), 1e2 * axes.thickness[place.thickness],
                   r.count, r.whole, r.shedding, r.without_lining, r.collapsed, r.undecided,
-                  r.failed, share.trials > 0 ? share.value() : none, shares.low, shares.high,
-                  1e3 * r.crown.mean(), 1e3 * r.crown.deviation(), 1e3 * crowns.low,
+                  r.failed, r.marginal, share.trials > 0 ? share.value() : none, shares.low,
+                  shares.high, 1e3 * r.crown.mean(), 1e3 * r.crown.deviation(), 1e3 * crowns.low,
                   1e3 * crowns.high, 1e3 * r.crown.quantile(), 1e-3 * r.largest_bolt_force.mean(),
                   1e-3 * r.largest_bolt_force.quantile(), 1e-3 * r.largest_thrust.mean(),
                   1e-3 * r.largest_thrust.quantile(), 1e-3 * r.largest_moment.mean(),
@@ -125,7 +126,7 @@ std::string realised_csv(const CasePlan& plan, const std::vector<Place>& places)
 /// What a picture shows at one place.
 struct Shown {
   double value = none;
-  bool failed = false, collapsed = false, undecided = false;
+  bool failed = false, collapsed = false, undecided = false, marginal = false;
 };
 
 InteractionPicture picture_of(const CasePlan& plan, const std::vector<Place>& places,
@@ -138,6 +139,7 @@ InteractionPicture picture_of(const CasePlan& plan, const std::vector<Place>& pl
   picture.failed.resize(columns, rows);
   picture.collapsed.resize(columns, rows);
   picture.undecided.resize(columns, rows);
+  picture.marginal.resize(columns, rows);
   for (const Place& place : places) {
     const auto i = static_cast<Eigen::Index>(place.thickness);
     const auto j = static_cast<Eigen::Index>(place.spacing);
@@ -146,6 +148,7 @@ InteractionPicture picture_of(const CasePlan& plan, const std::vector<Place>& pl
     picture.failed(i, j) = what.failed;
     picture.collapsed(i, j) = what.collapsed;
     picture.undecided(i, j) = what.undecided;
+    picture.marginal(i, j) = what.marginal;
   }
   picture.diameter = 2 * plan.input().tunnel.half_width();
   picture.thicknesses = axes.thickness;
@@ -169,14 +172,15 @@ KeyNumber bolt_length(const CasePlan& plan) {
 std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) {
   double worst = 0;
   bool estimated = false;
-  int failed = 0, undecided = 0;
+  int failed = 0, undecided = 0, marginal = 0;
   InteractionPicture picture = picture_of(plan, places, [&](const Place& place) {
     const TunnelResult& r = place.tunnels.front();
     // Where rock detached but a crown remains, its convergence still belongs to the surface; a
     // collapse has none.
     const bool stands = !r.failed && r.verdict == Verdict::stable;
     Shown shown{stands ? r.convergence.crown : none, r.is_decided() && !r.is_whole(),
-                r.is_decided() && r.verdict == Verdict::collapse, !r.is_decided()};
+                r.is_decided() && r.verdict == Verdict::collapse, !r.is_decided(), r.marginal};
+    marginal += shown.marginal;
     failed += shown.failed;
     undecided += shown.undecided;
     if (stands && std::isfinite(r.error_estimate)) {
@@ -187,16 +191,22 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
   });
   const std::string count = std::to_string(places.size());
   picture.header.title = title_of(plan);
-  picture.header.lines = {"Convergence of the crown over lining thickness and bolt spacing, " +
-                          count + " tunnels in " +
-                          std::to_string(places.front().tunnels.front().blocks) + " blocks (seed " +
-                          std::to_string(plan.input().model.seed) + "). " +
-                          (estimated ? "Largest estimated error of the displacements " +
-                                           significant_text(100 * worst, 2) + " %. "
-                                     : "Error of the displacements not estimated. ") +
-                          "Arrows: rock falls, the rest stands; red crosses: collapse."};
+  picture.header.lines = {
+      "Convergence of the crown over lining thickness and bolt spacing, " + count + " tunnels in " +
+      std::to_string(places.front().tunnels.front().blocks) + " blocks (seed " +
+      std::to_string(plan.input().model.seed) + "). " +
+      (estimated ? "Largest estimated error of the displacements " +
+                       significant_text(100 * worst, 2) + " %. "
+                 : "Error of the displacements not estimated. ") +
+      "Arrows: rock falls, the rest stands; red crosses: collapse." +
+      (marginal > 0
+           ? " Rings: marginal, another displacement limit or slower unloading changes what falls."
+           : "")};
   picture.header.key_numbers = {
       bolt_length(plan), {"tunnels with detached blocks", std::to_string(failed) + " of " + count}};
+  if (marginal > 0)
+    picture.header.key_numbers.push_back(
+        {"tunnels marginal", std::to_string(marginal) + " of " + count});
   if (undecided > 0) {
     const std::string text = std::to_string(undecided) + " of " + count;
     picture.header.key_numbers.push_back({"tunnels undecided", text});
@@ -212,12 +222,13 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
 std::string realised_svg(const CasePlan& plan, const std::vector<Place>& places,
                          const std::string& line, std::optional<InteractionQuantity> quantity,
                          const std::function<double(const Realised&)>& value) {
-  int sheds = 0, undecided = 0;
+  int sheds = 0, undecided = 0, marginal = 0;
   InteractionPicture picture = picture_of(plan, places, [&](const Place& place) {
     const Realised& r = place.realised;
     const bool is_decided = r.decided() > 0;
     const Shown shown{value(r), is_decided && r.rockfall().events + r.without_lining > 0,
-                      r.collapsed > 0, !is_decided};
+                      r.collapsed > 0, !is_decided, r.marginal > 0};
+    marginal += shown.marginal;
     sheds += shown.failed;
     undecided += r.undecided + r.failed;
     return shown;
@@ -226,9 +237,13 @@ std::string realised_svg(const CasePlan& plan, const std::vector<Place>& places,
   const auto first = plan.input().model.seed;
   const auto last = first + static_cast<std::uint64_t>(plan.parts().realisations) - 1;
   picture.header.title = title_of(plan);
-  picture.header.lines = {line +
-                          " Arrows: in at least one realisation rock falls; red crosses: in "
-                          "at least one the tunnel collapses."};
+  picture.header.lines = {
+      line +
+      " Arrows: in at least one realisation rock falls; red crosses: in "
+      "at least one the tunnel collapses." +
+      (marginal > 0
+           ? " Rings: at least one is marginal, another displacement limit or slower unloading changes what falls."
+           : "")};
   picture.header.key_numbers = {
       bolt_length(plan),
       {"realisations of the rock", std::to_string(plan.parts().realisations) + " (seeds " +
@@ -282,15 +297,17 @@ std::string tunnels_summary(const CasePlan& plan, const std::vector<Place>& plac
                             const std::vector<TunnelResult>& results) {
   std::string out = "crown convergence [mm] of " + std::to_string(places.size()) + " tunnels in " +
                     std::to_string(results.front().blocks) +
-                    " blocks; R: stable after rockfall, C: collapse, ?: undecided\n\n";
-  out += table_text(plan, places, [](const Place& place) {
-    const TunnelResult& r = place.tunnels.front();
-    const char* const mark = !r.is_decided()                  ? " ?"
-                             : r.verdict == Verdict::collapse ? " C"
-                             : !r.is_whole()                  ? " R"
-                                                              : "  ";
-    return millimetres_text(r.convergence.crown) + mark;
-  });
+                    " blocks; R: stable after rockfall, C: collapse, ?: undecided\n";
+  if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.marginal; }))
+    out += "~: marginal, another displacement limit or slower unloading changes what falls\n";
+  out += "\n" + table_text(plan, places, [](const Place& place) {
+           const TunnelResult& r = place.tunnels.front();
+           const char* const mark = !r.is_decided()                  ? " ?"
+                                    : r.verdict == Verdict::collapse ? " C"
+                                    : !r.is_whole()                  ? " R"
+                                                                     : "  ";
+           return millimetres_text(r.convergence.crown) + mark + (r.marginal ? "~" : " ");
+         });
   out += closing_text(results);
   const bool is_undecided =
       std::any_of(results.begin(), results.end(), [](const auto& r) { return !r.is_decided(); });
@@ -309,11 +326,12 @@ std::string realised_summary(const CasePlan& plan, const std::vector<Place>& pla
     return millimetres_text(place.realised.crown.mean()) + " / " +
            millimetres_text(place.realised.crown.quantile());
   });
-  out += "\nrealisations in which rock falls [%]; ?: some are undecided\n\n";
+  out += "\nrealisations in which rock falls [%]; ?: some are undecided; ~: some are marginal\n\n";
   out += table_text(plan, places, [](const Place& place) {
     const Realised& r = place.realised;
-    if (r.decided() == 0) return std::string("? ");
-    return readable_text(100 * r.rockfall().value()) + (r.decided() < r.count ? " ?" : "  ");
+    if (r.decided() == 0) return std::string("?  ");
+    return readable_text(100 * r.rockfall().value()) + (r.decided() < r.count ? " ?" : "  ") +
+           (r.marginal > 0 ? "~" : " ");
   });
   return out + closing_text(results);
 }

@@ -17,6 +17,7 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+#include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/io/operating_system.hpp>
@@ -368,6 +369,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  voussoir::keep_freed_memory();
   const voussoir::PlainOutput plain;
   std::vector<std::string> words = voussoir::program_arguments(argc, argv);
   std::vector<char*> arguments;

@@ -43,9 +43,9 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
-ChosenMethod method_of(const Input& input, LinearSettings linear, MotionTuning motion) {
+ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought range) {
   const RunInput& run = input.run;
-  motion.threads = linear.threads;
+  const MotionTuning motion{.threads = linear.threads, .range = range};
   linear.method = run.linear_solver;
   switch (run.method) {
     case RunMethod::two_level: {

@@ -59,10 +59,8 @@ using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, Chos
 [[nodiscard]] MohrCoulombJoint interface_of(const LiningInput& lining);
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);
 /// @param linear  what the computer has for elastic equations; how they are solved is the file's
-/// choice
-/// @param motion  how a stage is followed in which rock fails, by as many threads as make a factor
-[[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear,
-                                     MotionTuning motion = {});
+/// choice; as many threads as make a factor follow a stage in which rock fails
+[[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought range);
 
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);

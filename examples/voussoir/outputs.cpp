@@ -96,6 +96,15 @@ nlohmann::json detached_json(const RunResult& run) {
   return blocks;
 }
 
+/// How much would come off otherwise; empty where that is the same.
+std::string margin_text(const RunResult& run) {
+  const auto range = run.rockfall();
+  if (!range || !range->is_marginal()) return "";
+  return text("%.2f", range->low) + text(" to %.2f m2", range->high) +
+         (range->has_other_verdict ? ", and not the same verdict," : "") +
+         " with half and twice the displacement limit and slower unloading";
+}
+
 /// How much rock has come off, where, whether the rest stands without it, and how sure that is.
 std::string rockfall_sentence(const RunResult& run) {
   std::map<std::string, int> places;
@@ -119,13 +128,8 @@ std::string rockfall_sentence(const RunResult& run) {
     out += std::string("; the rest stands without ") + (count == 1 ? "it" : "them") +
            ": where nothing may fall, scale " + text("%.1f t per metre down or support it", tonnes);
   }
-  if (!run.rockfall) return out;
-  const RockfallRange& range = *run.rockfall;
-  if (range.is_marginal())
-    out += "; marginal: " + text("%.2f", range.low) + text(" to %.2f m2", range.high) +
-           (range.has_other_verdict ? ", and not the same verdict," : "") +
-           " with half and twice the displacement limit and slower unloading";
-  return out;
+  const std::string margin = margin_text(run);
+  return margin.empty() ? out : out + "; marginal: " + margin;
 }
 
 nlohmann::json joints_json(const std::vector<JointSource>& sources) {
@@ -219,11 +223,11 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
-  if (run.rockfall)
-    json["rockfall"] = {{"marginal", run.rockfall->is_marginal()},
-                        {"least_detached_area_m2", run.rockfall->low},
-                        {"most_detached_area_m2", run.rockfall->high},
-                        {"another_verdict", run.rockfall->has_other_verdict}};
+  if (const auto range = run.rockfall())
+    json["rockfall"] = {{"marginal", range->is_marginal()},
+                        {"least_detached_area_m2", range->low},
+                        {"most_detached_area_m2", range->high},
+                        {"another_verdict", range->has_other_verdict}};
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
@@ -297,7 +301,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
   if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
     out += (run.built.has_lost_lining() ? ", after rockfall of " : " of ") +
            text("%.2f m2", run.fallen_measure());
-  if (run.rockfall && run.rockfall->is_marginal()) out += ", marginal";
+  const std::string margin = margin_text(run);
+  if (!margin.empty()) out += ", marginal";
   out += ": " + last.reason + "\n";
   out += "         error estimate " + computed("%.1e", last.error_estimate) +
          ", worst out-of-balance force ratio " + computed("%.1e", last.unbalance_over_weight) +
@@ -309,7 +314,10 @@ std::string run_summary(const Input& input, const RunResult& run) {
       out += " in " + std::to_string(last.linear.iterations) + " iterations";
     out += text(", %.3g MB\n", 1e-6 * last.linear.memory);
   }
-  if (run.fallen_measure() > 0) out += "detached " + rockfall_sentence(run) + "\n";
+  if (run.fallen_measure() > 0)
+    out += "detached " + rockfall_sentence(run) + "\n";
+  else if (!margin.empty())
+    out += "marginal " + margin + " come off\n";
   out += "wall     crown " + millimetres_text(c.crown) + " mm, springings " +
          millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
          " mm, invert " + millimetres_text(c.invert) + " mm";

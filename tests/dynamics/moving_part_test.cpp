@@ -141,6 +141,42 @@ TEST_SUITE("dynamics/moving_part") {
     CHECK(run.velocity(2).norm() == 0);
     CHECK(run.energy().damping - before == doctest::Approx(kinetic).epsilon(1e-3));
   }
+
+  TEST_CASE_TEMPLATE("back in an earlier state a run goes on as it did, to the bit", Dimension,
+                     std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+    constexpr int dim = Dimension::value;
+    auto run = tower<dim>(4, settings());
+    run.hold();
+    run.advance(0.05);
+    push(run, 4);
+    run.move_only({4, 3});
+    run.advance_steps(500);
+    const auto state = run.state();
+    const auto go_on = [&] {
+      run.set_held(0.5);
+      run.advance_steps(3000);
+      run.move_only({4, 3, 2});
+      run.advance_steps(3000);
+      std::vector<Vec<dim>> places;
+      for (int b = 0; b < 5; ++b) places.push_back(run.position(b));
+      return places;
+    };
+    const double start = run.time();
+    const std::vector<Vec<dim>> first = go_on();
+    const EnergyBalance energy = run.energy();
+    run.remove({4, 3});  // what was taken out since is back again
+    run.set_held(0);
+    run.advance_steps(100);
+    run.go_back_to(state);
+    CHECK(run.time() == start);
+    CHECK(run.held() == 1);
+    CHECK(run.moves(3));
+    CHECK(!run.moves(2));
+    CHECK(go_on() == first);
+    CHECK(first[4][0] - first[3][0] > 0.03);  // it has slid: contacts were looked for
+    CHECK(run.energy().friction == doctest::Approx(energy.friction));
+    CHECK(run.energy().damping == doctest::Approx(energy.damping));
+  }
 }
 
 }  // namespace moving_part_test

@@ -99,6 +99,65 @@ TEST_SUITE("equilibrium/rock_failure") {
     CHECK(found.collapsed >= 1);
   }
 
+  /// The displacement limit times `share`, and all else as with the limit itself: how fast the
+  /// walls are unloaded, who is stepped, what rests.
+  MotionTuning tuning_for(double share) {
+    MotionTuning tuning;
+    tuning.ramp /= std::sqrt(share);
+    tuning.patience *= share;
+    return tuning;
+  }
+  TEST_CASE("the range of what comes off holds stages with half and twice the limit") {
+    const Drawn drawn = drawn_tunnel(1);
+    const Acceptance asked{.collapse_measure = collapse_measure_of(drawn.opening)};
+    const auto report_of = [&](const MotionTuning& motion, const Acceptance& acceptance) {
+      Solver<> tunnel = drawn.tunnel;
+      TwoLevel::Params params;
+      params.motion = motion;
+      return tunnel.equilibrium(0, TwoLevel(params), acceptance);
+    };
+    const EquilibriumReport plain = report_of({}, asked);
+    CHECK(!plain.rockfall);
+    const EquilibriumReport report = report_of({.range = RangeSought::all}, asked);
+    // It is a question beside the answer.
+    CHECK(report.verdict == plain.verdict);
+    CHECK(report.fallen == plain.fallen);
+    CHECK(report.largest_displacement == plain.largest_displacement);
+    REQUIRE(report.rockfall);
+    const RockfallRange& range = *report.rockfall;
+    CHECK(range.low <= report.fallen_measure);
+    CHECK(range.high >= report.fallen_measure);
+    for (const double share : {0.5, 2.0}) {
+      CAPTURE(share);
+      Acceptance other = asked;
+      other.displacement_limit = share * report.displacement_limit;
+      const EquilibriumReport anew = report_of(tuning_for(share), other);
+      CHECK(range.low <= anew.fallen_measure);
+      CHECK(range.high >= anew.fallen_measure);
+      if (anew.verdict != report.verdict) CHECK(range.has_other_verdict);
+    }
+    const EquilibriumReport brief = report_of({.range = RangeSought::until_marginal}, asked);
+    REQUIRE(brief.rockfall);
+    CHECK(brief.rockfall->is_marginal() == range.is_marginal());
+    CHECK(brief.steps <= report.steps);
+  }
+  TEST_CASE("a range is marginal where it is more than a tenth and a block, or the verdict turns") {
+    RockfallRange range{1, 1.05, false, 0.2};
+    CHECK(!range.is_marginal());
+    range.high = 1.15;
+    CHECK(!range.is_marginal());  // more than a tenth, less than a block
+    range.high = 1.25;
+    CHECK(range.is_marginal());
+    CHECK(!RockfallRange{10, 10.9, false, 0.2}.is_marginal());  // more than a block, not a tenth
+    CHECK(RockfallRange{1, 1, true, 0.2}.is_marginal());
+    CHECK(!RockfallRange{10, 30}.is_marginal());  // of a collapse: wherever it is ended
+    range.add({2, 2, true, 0.1});
+    CHECK(range.low == 3);
+    CHECK(range.high == 3.25);
+    CHECK(range.has_other_verdict);
+    CHECK(range.scale == 0.2);
+  }
+
   void check_procedures_in_space(const std::vector<std::uint64_t>& numbers) {
     for (const std::uint64_t number : numbers) {
       CAPTURE(number);
@@ -158,7 +217,7 @@ TEST_SUITE("equilibrium/rock_failure") {
     Solver<> tunnel = drawn.tunnel;
     int asked = 0;
     const EquilibriumReport stopped = tunnel.equilibrium(0, {}, {.collapse_measure = collapse},
-                                                         [&](double) { return ++asked < 120; });
+                                                         [&](double) { return ++asked < 60; });
     CHECK(stopped.stopped);
     CHECK(stopped.fallen.empty());
     CHECK(tunnel.system().wall_fraction == 1);

@@ -233,6 +233,28 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
   }
 
+  TEST_CASE("what is marginal has a ring of its own, and the legend says so") {
+    InteractionPicture picture = small_diagram();
+    const auto rings = [&] {
+      const std::string text = draw_interaction_picture(picture);
+      std::size_t count = 0;
+      for (auto at = text.find("r=\"10.5\""); at != std::string::npos;
+           at = text.find("r=\"10.5\"", at + 1))
+        ++count;
+      return count;
+    };
+    CHECK(rings() == 0);
+    CHECK_FALSE(contains(draw_interaction_picture(picture), "marginal"));
+    picture.marginal.setConstant(3, 3, false);
+    picture.marginal(1, 2) = picture.marginal(0, 0) = true;
+    CHECK(rings() == 3);  // one in the legend
+    const std::string text = draw_interaction_picture(picture);
+    CHECK(xml_fault(text) == "");
+    CHECK(contains(text, ">marginal: limits and rates decide<"));
+    picture.marginal.setConstant(2, 3, false);
+    CHECK_THROWS_AS((void)draw_interaction_picture(picture), InvalidInput);
+  }
+
   TEST_CASE("another quantity has its own name and unit") {
     InteractionPicture picture = small_diagram();
     picture.values *= 1e7;  // 40 to 300 kN

@@ -170,7 +170,7 @@ TEST_SUITE("program/cases") {
       last = rock;
     }
     CHECK(rocks.size() == 8);
-    // Of a diagram the least supported comes first: no bolts, the thinnest lining.
+    // Of a diagram the least supported comes first: the thinnest lining, no bolts.
     const CasePlan diagram(parts_of(PlanVerb::diagram, small_input(), {}, 2));
     std::vector<std::array<std::size_t, 2>> places;
     for (const std::size_t index : diagram.work_order()) {
@@ -179,7 +179,7 @@ TEST_SUITE("program/cases") {
       if (c.seed == diagram.at(diagram.work_order().front()).seed) places.push_back(*c.place);
     }
     CHECK(places ==
-          std::vector<std::array<std::size_t, 2>>{{2, 0}, {2, 1}, {1, 0}, {1, 1}, {0, 0}, {0, 1}});
+          std::vector<std::array<std::size_t, 2>>{{2, 0}, {1, 0}, {0, 0}, {2, 1}, {1, 1}, {0, 1}});
   }
 
   TEST_CASE("a result is read back from its journal to the last bit") {
@@ -192,11 +192,13 @@ TEST_SUITE("program/cases") {
     r.error_estimate = TunnelResult::not_computed;
     r.out_of_balance = 1e-17;
     r.blocks = 12345;
+    r.marginal = true;
     r.boundary = "rollers";
     r.warnings = {"one", "two"};
     const TunnelResult back = result_from_json(result_json(r));
     CHECK(result_json(back) == result_json(r));
     CHECK(back.fallen == r.fallen);
+    CHECK(back.marginal);
     CHECK(back.convergence.left_springing == 5e-324);
     CHECK(std::signbit(back.convergence.right_springing));
     CHECK(std::isnan(back.convergence.invert));
@@ -219,6 +221,10 @@ TEST_SUITE("program/cases") {
     CHECK(r.whole == 7);
     CHECK(r.shedding == 1);
     CHECK(r.verdicts() == "7 stable, 1 stable after rockfall, 1 collapse, 1 undecided");
+    results[8].marginal = results[7].marginal = true;
+    CHECK(Realised(results).marginal == 2);
+    CHECK(Realised(results).verdicts() ==
+          "7 stable, 1 stable after rockfall, 1 collapse, 1 undecided; 2 of these marginal");
     CHECK(r.rockfall().events == 2);
     CHECK(r.rockfall().trials == 9);
     CHECK(r.crown.mean() == doctest::Approx(4.5e-3));

@@ -452,11 +452,11 @@ TEST_SUITE("program/run") {
     CHECK_FALSE(std::filesystem::exists(out));
   }
 
-  TEST_CASE("a step limit that is too low is reported as undecided, status 3, with its numbers") {
+  TEST_CASE("what finds no answer is reported as undecided, status 3, with its reason") {
     const Folder folder;
     const Outcome outcome =
         run_program({"run", write_file(folder / "case.toml", supported), "--out", folder / "out",
-                     "--set", "run.method=relaxation", "--set", "run.max_steps=1"});
+                     "--set", "run.displacement_limit=0.001 mm"});
     CHECK(outcome.status == 3);
     const Json json = Json::parse(read_file(folder / "out/run.json"));
     CHECK(json.at("verdict") == "undecided");
@@ -465,7 +465,7 @@ TEST_SUITE("program/run") {
               .at("equilibrium")
               .at("reason")
               .get<std::string>()
-              .find("step limit of 1") != std::string::npos);
+              .find("raise displacement_limit") != std::string::npos);
   }
 
   TEST_CASE("rock that detached from a tunnel that stands is in every word about it [long]") {
@@ -529,6 +529,13 @@ TEST_SUITE("program/run") {
     CHECK(rows[1].at("verdict") == "stable");
     CHECK(rows[2].at("verdict") == "stable after rockfall");
     CHECK(rows[2].at("failed") == "1");
+    // `run` and `diagram` have one answer to whether it is marginal.
+    InputText bare;
+    bare.bolts = bare.lining = "";
+    const bool is_marginal = results_of(bare.text()).json.at("rockfall").at("marginal");
+    CHECK(rows[2].at("marginal") == (is_marginal ? "1" : "0"));
+    CHECK((outcome.out.find("R~") != std::string::npos) == is_marginal);
+    CHECK((outcome.out.find("\n~: marginal, ") != std::string::npos) == is_marginal);
     CHECK(outcome.out.find("R: stable after rockfall, C: collapse, ?: undecided\n") !=
           std::string::npos);
     CHECK(read_file(folder / "out/interaction.svg").find("UNDECIDED") == std::string::npos);

@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #endif
 
 namespace voussoir {
@@ -16,6 +19,13 @@ namespace voussoir {
 /// available, or what is left of the limit of a container (control groups, version 2) if that is
 /// less. Infinite where the operating system does not say.
 [[nodiscard]] VOUSSOIR_INLINE double available_memory();
+
+/// Lets this process keep the memory that it frees, for what it takes next, instead of handing it
+/// back to the operating system each time: a search takes and frees factors of some megabytes again
+/// and again, and every page of a new one is a fault. Saves a fifth of the time of a stage in which
+/// rock fails; the process then stays as large as it has ever been. Once, at the start of a
+/// program; does nothing where the C library is another than GNU's.
+VOUSSOIR_INLINE void keep_freed_memory();
 
 namespace detail {
 
@@ -61,6 +71,13 @@ VOUSSOIR_INLINE double available_memory() {
   if (const double kib = detail::number_in_file("/proc/meminfo", "MemAvailable:"); kib >= 0)
     most = std::min(most, 1024 * kib);
   return most;
+}
+
+VOUSSOIR_INLINE void keep_freed_memory() {
+#ifdef __GLIBC__
+  (void)mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest that is allowed
+  (void)mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
 }
 
 #endif

@@ -22,6 +22,7 @@ struct DynamicsSettings {
   double overlap_limit = 0.3;  ///< of the smaller block's radius, beyond which the run stops [-]
   double speed_limit = 0;      ///< beyond which it stops [m/s]; 0: four times a fall through all
   int check_every = 100;       ///< steps between run diagnostics
+  bool goes_back = true;  ///< to the last sound state, of which it keeps a copy, when it goes bad
   unsigned threads = 1;
 
   /// @throws InvalidInput  a value out of range

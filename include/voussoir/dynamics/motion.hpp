@@ -21,7 +21,7 @@
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/dynamics/run_diagnostics.hpp>
 #include <voussoir/dynamics/run_sizes.hpp>
-#include <voussoir/dynamics/sound_state.hpp>
+#include <voussoir/dynamics/run_state.hpp>
 #include <voussoir/dynamics/stepping.hpp>
 #include <voussoir/dynamics/time_step.hpp>
 #include <voussoir/geometry/cut_facing.hpp>
@@ -51,6 +51,7 @@ class Motion : public MovingBodies<Dim> {
   using typename Base::Body;
   using typename Base::Shape;
   using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>;
+  using State = detail::RunState<Dim, Network, ContactTracker<Dim, Detector>>;
 
   /// @param wall_stiffness  of smooth walls [Pa/m]
   /// @param interface_laws  of linings
@@ -235,6 +236,20 @@ class Motion : public MovingBodies<Dim> {
     return longest_step();
   }
 
+  /// All that the run consists of now. A copy: of thousands of blocks it takes as long as a hundred
+  /// steps.
+  [[nodiscard]] State state() {
+    begin();
+    return {bodies_,        network_, *tracker_, audit_,         supports_,
+            kinetic_given_, time_,    steps_,    held_fraction_, part_};
+  }
+  /// Goes back to where the run was, and on from there as it would have gone.
+  /// @param state  of this run, with the bodies and supports that it has now
+  void go_back_to(const State& state) {
+    take(state);
+    forget();
+  }
+
   /// Moves on by a time; steps are shortened a little so that a whole number of them meets it.
   /// @throws NumericalFault  the run went bad (see `RunDiagnostics`): it is back in the last sound
   /// state
@@ -249,8 +264,6 @@ class Motion : public MovingBodies<Dim> {
   }
 
  private:
-  using Sound = detail::SoundState<Dim, Network, ContactTracker<Dim, Detector>>;
-
   /// Before anything is asked: bodies that are new are taken in, and forces computed.
   void begin() {
     take_in();
@@ -303,6 +316,7 @@ class Motion : public MovingBodies<Dim> {
 
   /// Looks whether the run is sound; if not, goes back to when it was, and says what is wrong.
   void check();
+  void take(const State& state);
 
   // ---- steps -----------------------------------------------------------------------------------
 
@@ -363,7 +377,7 @@ class Motion : public MovingBodies<Dim> {
   detail::RunSizes sizes_{};
   double time_ = 0, step_ = 0, stable_step_ = 0;
   std::int64_t steps_ = 0, checked_ = 0;
-  std::optional<Sound> sound_;
+  std::optional<State> sound_;                       ///< when it was last found sound
   std::size_t known_bodies_ = 0, known_shapes_ = 0;  ///< to the tracker
 };
 

@@ -20,6 +20,15 @@
 
 namespace voussoir {
 
+/// Whether a stage in which blocks come off, or nearly, is followed in other ways too, each from
+/// where it parts: with half and with twice the displacement limit, and at half the rate from where
+/// blocks become fast (`EquilibriumReport::rockfall`).
+enum class RangeSought {
+  none,
+  until_marginal,  ///< no further than it takes to know whether it is
+  all,
+};
+
 /// What is true where rock fails: the stage as it happens, in time.
 ///
 /// The walls are unloaded slowly, along a ramp of twice the time in which a block falls through the
@@ -41,15 +50,18 @@ struct MotionTuning {
   double patience = 2;         ///< at rest nothing would come off within so long [s], > 0
   double longest = 30;         ///< after which no end is expected [s], > 0
   int looks_in_ramp = 200;     ///< times that the load is changed, and what has come off looked for
+  int looks_at_once = 4;       ///< in the ramp, while all that move are slow, > 0
   int check_every = 50;        ///< steps between two looks afterwards
   // Who is stepped: bodies that are fast or out of balance, and rings around them. All others are
   // brought to balance elastically (`detail::ElasticBalance`).
   double quiet_speed =
       0.3;                ///< of the speed that comes off within `patience`: faster is fast, >= 0
+  double slow = 0.02;     ///< of the speed that is fast, >= 0
   int rings = 2;          ///< of bodies that those touch; < 0: all bodies are stepped
   double looseness = 10;  ///< times `rest_ratio`, at which one that is not stepped is seen to, >= 1
   int batches = 20;       ///< of `check_every` steps, after which all are seen to in any case
   unsigned threads = 1;   ///< that share the steps; the result does not depend on it
+  RangeSought range = RangeSought::none;
 
   /// @throws InvalidInput  a value out of range
   void check() const {
@@ -62,10 +74,12 @@ struct MotionTuning {
     require(patience > 0, "patience", patience, "> 0 s");
     require(longest > 0, "longest", longest, "> 0 s");
     require(looks_in_ramp > 0, "looks_in_ramp", looks_in_ramp, "> 0");
+    require(looks_at_once > 0, "looks_at_once", looks_at_once, "> 0");
     require(check_every > 0, "check_every", check_every, "> 0");
     require(looseness >= 1, "looseness", looseness, ">= 1");
     require(batches > 0, "batches", batches, "> 0");
     require(quiet_speed >= 0, "quiet_speed", quiet_speed, ">= 0");
+    require(slow >= 0, "slow", slow, ">= 0");
   }
 };
 
@@ -88,66 +102,124 @@ class UnloadingInMotion {
   static constexpr int dim = System::dim, dof = System::dof;
   using Run = typename MotionOf<System>::type;
 
+  /// @param start    what the system is now, and stays
   /// @param context  its displacement limit is a number
-  UnloadingInMotion(System& system, const SearchContext& context, const MotionTuning& tuning)
+  UnloadingInMotion(System& system, const System& start, const SearchContext& context,
+                    const MotionTuning& tuning)
       : system_(system),
+        start_(start),
         context_(context),
         tuning_(tuning),
         limit_(context.acceptance.displacement_limit),
-        from_(system.wall_fraction),
         run_(set_in_motion(system, {.gravity = context.gravity,
                                     .local_damping = tuning.local_damping,
                                     .safety = tuning.safety,
                                     .points = ContactPoints::gauss,
                                     .overlap_limit = 0.5,
                                     .check_every = sound_every,
+                                    .goes_back = false,
                                     .threads = tuning.threads})) {
     duration_ = tuning.ramp * std::sqrt(2 * limit_ / context.gravity);
     run_.add_inertia(tuning.inert_share);
-    if (tuning.rings >= 0) rest_of_rock_.emplace(system, context);
-    settled_at_ = tuning.rest_ratio;
+    if (tuning.rings >= 0) rest_of_rock_.emplace(start_, context);
+    way_.limit = limit_;
+    way_.settled_at = tuning.rest_ratio;
   }
 
   /// Carries the stage out, and leaves the model where it ends.
-  /// @return  true if the rock has come to rest; else the report says what has become of it
+  /// @return  true if the rock has come to rest; else the report says what has become of it, and
+  ///          where the run went bad, the model is where it was, without what had come off
   /// @throws Stopped  the model is as it was
   bool go(EquilibriumReport& report) {
     bool rests = false;
     try {
       rests = follow(report);
+      bring_to_rest(run_, system_, way_.gone);
     } catch (const NumericalFault& fault) {
       report.reason = std::string("the stage could not be followed in motion: ") + fault.what();
+      system_.remove(way_.gone);
     }
-    bring_to_rest(run_, system_, gone_);
     report.steps += static_cast<int>(run_.steps());
     report.largest_displacement = system_.largest_translation(system_.displacement);
     return rests;
   }
 
+  /// Follows the stage in other ways, as `RangeSought` says; leaves the model alone. None where no
+  /// block has come half as far as the limit.
+  /// @param report  of the stage, with its verdict; its effort is counted on
+  /// @throws Stopped
+  [[nodiscard]] std::optional<RockfallRange> range(EquilibriumReport& report) {
+    if (!half_) return std::nullopt;
+    RockfallRange range{report.fallen_measure, report.fallen_measure};
+    if (report.verdict != Verdict::collapse) range.scale = mean_measure();
+    const auto vary = [&](std::optional<Fork>& fork, double limit, double slowness) {
+      if (!fork || (tuning_.range == RangeSought::until_marginal && range.is_marginal())) return;
+      way_ = std::move(fork->way);
+      way_.limit = limit;
+      way_.slowness = slowness;
+      EquilibriumReport varied = fork->report;
+      run_.go_back_to(fork->run);
+      const auto before = run_.steps();
+      fork.reset();
+      try {
+        if (follow(varied)) varied.verdict = Verdict::stable;
+      } catch (const NumericalFault&) {
+        varied.verdict = Verdict::undecided;
+      }
+      report.steps += static_cast<int>(run_.steps() - before);
+      report.elastic_solves += varied.elastic_solves;
+      range.low = std::min(range.low, varied.fallen_measure);
+      range.high = std::max(range.high, varied.fallen_measure);
+      range.has_other_verdict = range.has_other_verdict || varied.verdict != report.verdict;
+    };
+    vary(half_, 0.5 * limit_, 1);
+    vary(twice_, 2 * limit_, 1);
+    vary(slow_, limit_, 2);
+    return range;
+  }
+
  private:
+  /// What there is to know about a stage on its way, besides the run.
+  struct Way {
+    double limit = 0;     ///< beyond which a block has come off [m]
+    double slowness = 1;  ///< of the ramp, times its duration
+    double done = 0;      ///< of the ramp
+    std::vector<int> gone;
+    std::vector<int> moving, fringe;  ///< and those that they touch
+    double settled_at = 0;            ///< ratio up to which one that does not move is in balance
+    int batches = 0;                  ///< since who moves was chosen
+  };
+  /// Where another way begins.
+  struct Fork {
+    Way way;
+    typename Run::State run;
+    EquilibriumReport report;
+  };
+
   [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
 
   bool follow(EquilibriumReport& report) {
-    double done = 0;
+    const double from = start_.wall_fraction;
     while (run_.time() < tuning_.longest) {
-      if (done < 1) {
-        // Where nothing moves the load may change by more at a time.
-        const double now =
-            std::min(done + (quiet_looks_ > 0 ? 4.0 : 1.0) / tuning_.looks_in_ramp, 1.0);
-        run_.set_held(from_ + (context_.wall_fraction - from_) * now);
+      if (way_.done < 1) {
+        const double speed = fastest();
+        if (speed > quiet_speed()) fork(slow_, report);
+        const double now = std::min(
+            way_.done + (speed <= tuning_.slow * quiet_speed() ? tuning_.looks_at_once : 1.0) /
+                            tuning_.looks_in_ramp,
+            1.0);
+        run_.set_held(from + (context_.wall_fraction - from) * now);
         choose_who_moves(report);
-        run_.advance(duration_ * (now - done));
-        quiet_looks_ = moving_.empty() ? quiet_looks_ + 1 : 0;
-        done = now;
+        run_.advance(way_.slowness * duration_ * (now - way_.done));
+        way_.done = now;
       } else {
         if (is_to_choose()) choose_who_moves(report);
         run_.advance_steps(tuning_.check_every);
       }
       ask_to_go_on(context_);
       take_out(report);
-      take_out_linings(report);
       if (has_collapsed<dim>(report, context_)) return false;
-      if (done >= 1 && rests(report)) return true;
+      if (way_.done >= 1 && rests(report)) return true;
     }
     report.reason =
         message({"rock was still moving ", tuning_.longest,
@@ -155,19 +227,33 @@ class UnloadingInMotion {
     return false;
   }
 
-  [[nodiscard]] bool is_fast(int b, double share) const {
-    return run_.velocity(b).norm() * tuning_.patience > share * limit_;
+  void fork(std::optional<Fork>& fork, const EquilibriumReport& report) {
+    if (tuning_.range == RangeSought::none || fork) return;
+    fork.emplace(Fork{way_, run_.state(), report});
+    fork->report.elastic_solves = 0;
   }
+
+  /// Of those that are stepped [m/s].
+  [[nodiscard]] double fastest() const {
+    double most = 0;
+    for (const int b : way_.moving) most = std::max(most, run_.velocity(b).norm());
+    return most;
+  }
+  /// Faster is fast [m/s].
+  [[nodiscard]] double quiet_speed() const {
+    return tuning_.quiet_speed * limit_ / tuning_.patience;
+  }
+  [[nodiscard]] bool is_fast(int b) const { return run_.velocity(b).norm() > quiet_speed(); }
   [[nodiscard]] bool is_restless(int b) {
-    return is_fast(b, tuning_.quiet_speed) ||
-           run_.unbalance_of(b) > (run_.moves(b) ? tuning_.rest_ratio : settled_at_);
+    return is_fast(b) ||
+           run_.unbalance_of(b) > (run_.moves(b) ? tuning_.rest_ratio : way_.settled_at);
   }
   /// Whether those that move have brought others out of balance, or have come to rest themselves.
   [[nodiscard]] bool is_to_choose() {
-    if (moving_.empty() || ++batches_ >= tuning_.batches) return true;
+    if (way_.moving.empty() || ++way_.batches >= tuning_.batches) return true;
     const auto is_restless = [this](int b) { return this->is_restless(b); };
-    if (std::none_of(moving_.begin(), moving_.end(), is_restless) ||
-        std::any_of(fringe_.begin(), fringe_.end(), is_restless))
+    if (std::none_of(way_.moving.begin(), way_.moving.end(), is_restless) ||
+        std::any_of(way_.fringe.begin(), way_.fringe.end(), is_restless))
       return true;
     // A bolt or a lining reaches further than contacts do.
     for (const auto& support : run_.supports())
@@ -179,15 +265,15 @@ class UnloadingInMotion {
   /// Brings the bodies that are quiet to balance, and lets the others move.
   void choose_who_moves(EquilibriumReport& report) {
     if (!rest_of_rock_) return;
-    balance(settled_at_, report);
-    batches_ = 0;
-    moving_.clear();
-    fringe_.clear();
+    balance(way_.settled_at, report);
+    way_.batches = 0;
+    way_.moving.clear();
+    way_.fringe.clear();
     BodyMarks marks(index(run_.body_count()), 0);
     for (int b = 0; b < run_.body_count(); ++b)
       if (run_.body(b).movable() && is_restless(b)) {
         marks[index(b)] = 1;
-        moving_.push_back(b);
+        way_.moving.push_back(b);
       }
     // A lining goes as a whole: held by those of its nodes that are not stepped it would never
     // slide.
@@ -198,100 +284,119 @@ class UnloadingInMotion {
           if (marks[index(a)] == marks[index(b)]) continue;
           const int other = marks[index(a)] != 0 ? b : a;
           marks[index(other)] = 1;
-          moving_.push_back(other);
+          way_.moving.push_back(other);
           goes_on = true;
         }
     }
     // Ring after ring of those that they touch; the last is watched.
     std::size_t first = 0;
     for (int ring = 0; ring <= tuning_.rings; ++ring) {
-      const std::size_t last = moving_.size();
-      std::vector<int>& next = ring < tuning_.rings ? moving_ : fringe_;
+      const std::size_t last = way_.moving.size();
+      std::vector<int>& next = ring < tuning_.rings ? way_.moving : way_.fringe;
       for (; first < last; ++first)
-        run_.each_neighbour(moving_[first], [&](int other) {
+        run_.each_neighbour(way_.moving[first], [&](int other) {
           if (std::exchange(marks[index(other)], char{1}) == 0) next.push_back(other);
         });
     }
-    run_.move_only(moving_);
-    settled_at_ = (run_.time() < duration_ ? 1 : tuning_.looseness) * tuning_.rest_ratio;
+    run_.move_only(way_.moving);
+    way_.settled_at = (way_.done < 1 ? 1 : tuning_.looseness) * tuning_.rest_ratio;
   }
   void balance(double settled_at, EquilibriumReport& report) {
     rest_of_rock_->balance(
-        run_, [this](int b) { return is_fast(b, tuning_.quiet_speed); }, settled_at, report);
+        run_, [this](int b) { return is_fast(b); }, settled_at, report);
   }
 
-  void leave_out(const std::vector<int>& off) {
-    if (off.empty()) return;
-    run_.remove(off);
-    batches_ = tuning_.batches;
-  }
-
-  /// Takes out what has come off.
+  /// Takes out what has come off: blocks, and linings.
   void take_out(EquilibriumReport& report) {
+    if (comes_off(0.5 * limit_)) fork(half_, report);
+    if (!comes_off(way_.limit)) return;
+    fork(twice_, report);
     std::vector<int> off;
     for (int b = 0; b < run_.body_count(); ++b)
-      if (run_.body(b).movable() && system_.body(b).is_block &&
-          (run_.position(b) - system_.body(b).centre).norm() > limit_)
+      if (is_rock(b) && has_left(b, way_.limit)) {
         off.push_back(b);
-    for (const int b : off) {
-      gone_.push_back(b);
-      report.fallen.push_back(b);
-      if (context_.measures != nullptr) report.fallen_measure += (*context_.measures)[index(b)];
-    }
-    leave_out(off);
+        report.fallen.push_back(b);
+        if (context_.measures != nullptr) report.fallen_measure += (*context_.measures)[index(b)];
+      }
+    take_out_linings(off, report);
+    way_.gone.insert(way_.gone.end(), off.begin(), off.end());
+    run_.remove(off);
+    way_.batches = tuning_.batches;
   }
-
-  /// Takes out linings that have come off: one that slides off its wall carries nothing, and holds
-  /// nothing that could be taken for support.
-  void take_out_linings(EquilibriumReport& report) {
-    std::vector<int> off;
-    for (const auto& lining : system_.linings) {
-      const int count = static_cast<int>(lining.surface.node_count());
-      for (int b = lining.first; b < lining.first + count; ++b) {
-        if (!run_.body(b).movable()) continue;
-        const double moved = (run_.position(b) - system_.body(b).centre).norm();
-        if (!(moved > limit_)) continue;
+  /// A lining that slides off its wall carries nothing, and holds nothing that could be taken for
+  /// support.
+  void take_out_linings(std::vector<int>& off, EquilibriumReport& report) {
+    for (const auto& lining : start_.linings) {
+      const int end = lining.first + static_cast<int>(lining.surface.node_count());
+      for (int b = lining.first; b < end; ++b) {
+        if (!has_left(b, way_.limit)) continue;
         report.lost_lining =
-            message({"the lining comes off the wall: at ", text_of<dim>(system_.body(b).centre),
-                     " m it has moved ", moved,
+            message({"the lining comes off the wall: at ", text_of<dim>(start_.body(b).centre),
+                     " m it has moved ", way_of(b),
                      " m, more than the displacement limit; give its ends feet, "
                      "close it, bond it to the rock, or make it stiffer"});
-        for (int node = lining.first; node < lining.first + count; ++node) off.push_back(node);
+        for (int node = lining.first; node < end; ++node) {
+          off.push_back(node);
+          report.lost_nodes.push_back(node);
+        }
         break;
       }
     }
-    report.lost_nodes.insert(report.lost_nodes.end(), off.begin(), off.end());
-    gone_.insert(gone_.end(), off.begin(), off.end());
-    leave_out(off);
+  }
+  [[nodiscard]] bool is_rock(int b) const { return start_.body(b).is_block; }
+  /// From where it was in situ [m].
+  [[nodiscard]] double way_of(int b) const {
+    return (run_.position(b) - start_.body(b).centre).norm();
+  }
+  [[nodiscard]] bool has_left(int b, double limit) const {
+    return run_.body(b).movable() && way_of(b) > limit;
+  }
+  [[nodiscard]] bool comes_off(double limit) const {
+    for (int b = 0; b < run_.body_count(); ++b)
+      if (is_rock(b) && has_left(b, limit)) return true;
+    for (const auto& lining : start_.linings)
+      for (int k = 0; k < static_cast<int>(lining.surface.node_count()); ++k)
+        if (has_left(lining.first + k, limit)) return true;
+    return false;
   }
 
   [[nodiscard]] bool rests(EquilibriumReport& report) {
     const auto rests = [this](int b) {
-      return !is_fast(b, 1) && run_.unbalance_of(b) < tuning_.rest_ratio;
+      return run_.velocity(b).norm() * tuning_.patience <= limit_ &&
+             run_.unbalance_of(b) < tuning_.rest_ratio;
     };
     if (rest_of_rock_) {
-      if (!std::all_of(moving_.begin(), moving_.end(), rests)) return false;
-      settled_at_ = tuning_.rest_ratio;
-      balance(settled_at_, report);
+      if (!std::all_of(way_.moving.begin(), way_.moving.end(), rests)) return false;
+      way_.settled_at = tuning_.rest_ratio;
+      balance(way_.settled_at, report);
     }
     for (int b = 0; b < run_.body_count(); ++b)
       if (run_.body(b).movable() && !rests(b)) return false;
     return true;
   }
 
+  /// Of a block [m^2], [m^3].
+  [[nodiscard]] double mean_measure() const {
+    double sum = 0;
+    int count = 0;
+    for (int b = 0; b < start_.body_count(); ++b) {
+      if (!is_rock(b) || context_.measures == nullptr) continue;
+      sum += (*context_.measures)[index(b)];
+      ++count;
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
   System& system_;
+  const System& start_;  ///< what the stage begins with
   const SearchContext& context_;
   const MotionTuning& tuning_;
   double limit_;         ///< [m]
-  double from_;          ///< wall fraction at the start
   double duration_ = 0;  ///< of the ramp [s]
   Run run_;
   std::optional<ElasticBalance<System>> rest_of_rock_;
-  std::vector<int> gone_;
-  std::vector<int> moving_, fringe_;  ///< and those that they touch
-  double settled_at_ = 0;             ///< ratio up to which one that does not move is in balance
-  int quiet_looks_ = 0;               ///< in the ramp: one after the other with nothing that moves
-  int batches_ = 0;                   ///< since who moves was chosen
+  Way way_;
+  std::optional<Fork> half_, twice_, slow_;
   static constexpr int sound_every = 2000;  ///< steps between run diagnostics, which look at all
 };
 

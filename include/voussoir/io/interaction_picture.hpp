@@ -102,11 +102,13 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   const InteractionQuantity shown = picture.shown();
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   bool any_missing = false, any_failed = false, any_shedding = false, any_undecided = false;
+  bool any_marginal = false;
   for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
     for (std::size_t j = 0; j < picture.spacings.size(); ++j) {
       const double value = picture.at(i, j) * shown.contour_scale;
       any_shedding = any_shedding || picture.is_shedding(i, j);
       any_failed = any_failed || (picture.is_failed(i, j) && !picture.is_shedding(i, j));
+      any_marginal = any_marginal || picture.is_marginal(i, j);
       any_undecided = any_undecided || picture.is_undecided(i, j);
       any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j) &&
                                     !picture.is_undecided(i, j));
@@ -141,6 +143,7 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   if (any_failed)
     items.push_back(
         {picture.collapsed.size() > 0 ? "collapse" : "blocks detach", draw_failed_mark});
+  if (any_marginal) items.push_back({"marginal: limits and rates decide", draw_marginal_mark});
   if (any_undecided) items.push_back({"undecided: no result", draw_undecided_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
   if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});

@@ -60,6 +60,9 @@ struct InteractionPicture {
   /// (thickness, spacing): sought and not found, neither an equilibrium nor detached blocks. Such a
   /// point has no value and is not failed. Empty: nowhere.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> undecided = {};
+  /// (thickness, spacing): what came off depends on limits and rates that nobody knows. Empty:
+  /// nowhere.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> marginal = {};
   std::optional<PictureBanner> banner = {};          ///< between header and diagram
   std::optional<InteractionQuantity> quantity = {};  ///< none: crown convergence
   /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
@@ -86,6 +89,10 @@ struct InteractionPicture {
     return undecided.size() > 0 &&
            undecided(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
+  [[nodiscard]] bool is_marginal(std::size_t i, std::size_t j) const {
+    return marginal.size() > 0 &&
+           marginal(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
     return values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
@@ -108,7 +115,7 @@ VOUSSOIR_INLINE void check_interaction(const InteractionPicture& picture) {
   };
   if (picture.values.rows() != columns || picture.values.cols() != rows ||
       has_another_size(picture.failed) || has_another_size(picture.collapsed) ||
-      has_another_size(picture.undecided)) {
+      has_another_size(picture.undecided) || has_another_size(picture.marginal)) {
     throw InvalidInput("interaction picture: tables must be thicknesses x spacings");
   }
   for (std::size_t i = 0; i + 1 < picture.thicknesses.size(); ++i) {

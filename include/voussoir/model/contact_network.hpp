@@ -223,11 +223,12 @@ class ContactNetwork {
   /// All contacts of some bodies, each once, in ascending order.
   [[nodiscard]] std::vector<std::uint32_t> contacts_of(
       const std::vector<std::uint32_t>& bodies) const {
-    std::vector<std::uint32_t> all;
+    std::vector<char> marks(size(), 0);  // faster than to sort them
     for (const std::uint32_t b : bodies)
-      for (const auto& end : sums_.ends_of(b)) all.push_back(end.contact);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+      for (const auto& end : sums_.ends_of(b)) marks[end.contact] = 1;
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t k = 0; k < marks.size(); ++k)
+      if (marks[k] != 0) all.push_back(k);
     return all;
   }
   /// Calls visit(other) for every body that a contact joins to this one.

@@ -146,6 +146,22 @@ struct ConstructionResult {
     for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
     return sum;
   }
+  /// How that varies, over all stages; none where no stage says (`EquilibriumReport::rockfall`).
+  [[nodiscard]] std::optional<RockfallRange> rockfall_range() const {
+    std::optional<RockfallRange> sum;
+    double exact = 0;
+    for (const StageResult& stage : stages) {
+      const std::optional<RockfallRange>& range = stage.report.rockfall;
+      if (!range)
+        exact += stage.report.fallen_measure;
+      else if (sum)
+        sum->add(*range);
+      else
+        sum = range;
+    }
+    if (sum) sum->add({exact, exact, false, 0});
+    return sum;
+  }
   /// Whether a lining came off its wall, in any stage.
   [[nodiscard]] bool has_lost_lining() const {
     return std::any_of(stages.begin(), stages.end(),

@@ -161,31 +161,37 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::check() {
   audit_.highest_kinetic =
       std::max(audit_.highest_kinetic, this->kinetic_energy() - kinetic_given_);
   if (fault.empty()) {
-    sound_.emplace(
-        Sound{bodies_, network_, *tracker_, audit_, supports_, kinetic_given_, time_, steps_});
+    if (settings_.goes_back) sound_.emplace(state());
     return;
   }
   const std::string where = "dynamics: step " + std::to_string(steps_) + ": " + fault;
   if (!sound_) throw NumericalFault(where);
-  bodies_ = sound_->bodies;
-  network_ = sound_->network;
-  tracker_ = sound_->tracker;
-  audit_ = sound_->audit;
-  supports_.restore(sound_->supports);
-  kinetic_given_ = sound_->kinetic_given;
-  time_ = sound_->time;
-  steps_ = checked_ = sound_->steps;
+  take(*sound_);
   part_ = {};
-  only_part_has_moved_ = false;
+  checked_ = steps_;
   stable_step_ = 0;
-  fresh_ = false;
+  only_part_has_moved_ = fresh_ = false;
   throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
+}
+
+template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take(const State& state) {
+  bodies_ = state.bodies;
+  network_ = state.network;
+  tracker_ = state.tracker;
+  audit_ = state.audit;
+  supports_.restore(state.supports);
+  kinetic_given_ = state.kinetic_given;
+  time_ = state.time;
+  steps_ = checked_ = state.steps;
+  held_fraction_ = state.held_fraction;
+  part_ = state.part;
 }
 
 template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
 double Motion<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   take_in();
-  if (!sound_) check();
+  if (settings_.goes_back && !sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
   step_ = detail::chosen_time_step(settings_, stable_step_, steps_);
   if (!settings_.find_contacts || shapes_.size() < 2) return step_;

@@ -58,36 +58,40 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
     report.error_estimate = report.unbalance_over_weight = std::numeric_limits<double>::quiet_NaN();
   };
   back_to(start, fallen_before, measure_before);
-  UnloadingInMotion<System> stage(system, context, *tuning);
-  if (!stage.go(report)) return;
-  const System moved(system);
-  const std::vector<int> fallen = report.fallen;
-  const double measure = report.fallen_measure;
-  if (fallen.size() == fallen_before.size() && report.lost_nodes.empty()) {
-    // Nothing comes off: the search may take its time, for the shaking of the run breaks joints
-    // that a gradual unloading spares.
+  UnloadingInMotion<System> stage(system, start, context, *tuning);
+  const auto settle = [&] {
+    const System moved(system);
+    const std::vector<int> fallen = report.fallen;
+    const double measure = report.fallen_measure;
+    const auto stands_without_them = [&] {
+      return report.verdict == Verdict::stable && report.fallen.size() == fallen.size();
+    };
     back_to(start, fallen_before, measure_before);
-    (void)search(AtAFall::goes_on, start, report);
-    if (report.verdict == Verdict::stable && report.fallen.size() == fallen.size())
-      return say_why();
-  } else {
-    back_to(start, fallen_before, measure_before);
-    std::vector<int> off = report.lost_nodes;
-    off.insert(off.end(), fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before.size()),
-               fallen.end());
-    drop(system, off, context, report);
-    const bool is_same = report.fallen.size() == fallen.size() &&
-                         search(AtAFall::gives_up, System(system), report) == SearchEnd::decided &&
-                         report.verdict == Verdict::stable && report.fallen.size() == fallen.size();
-    if (is_same) return say_why();
-  }
-  back_to(moved, fallen, measure);
-  report.is_from_motion = true;
-  if (search(AtAFall::goes_on, moved, report) == SearchEnd::open)
-    report.reason =
-        "rock came to rest in motion, but no equilibrium within the limits was found there" +
-        (report.reason.empty() ? "" : ": " + report.reason) +
-        "; raise error_estimate or the step limit of the method";
+    if (fallen.size() == fallen_before.size() && report.lost_nodes.empty()) {
+      // Nothing comes off: the search may take its time, for the shaking of the run breaks joints
+      // that a gradual unloading spares.
+      (void)search(AtAFall::goes_on, start, report);
+      if (stands_without_them()) return;
+    } else {
+      std::vector<int> off = report.lost_nodes;
+      off.insert(off.end(), fallen.begin() + static_cast<std::ptrdiff_t>(fallen_before.size()),
+                 fallen.end());
+      drop(system, off, context, report);
+      if (report.fallen.size() == fallen.size() &&
+          search(AtAFall::gives_up, System(system), report) == SearchEnd::decided &&
+          stands_without_them())
+        return;
+    }
+    back_to(moved, fallen, measure);
+    report.is_from_motion = true;
+    if (search(AtAFall::goes_on, moved, report) == SearchEnd::open)
+      report.reason =
+          "rock came to rest in motion, but no equilibrium within the limits was found there" +
+          (report.reason.empty() ? "" : ": " + report.reason) +
+          "; raise error_estimate or the step limit of the method";
+  };
+  if (stage.go(report)) settle();
+  report.rockfall = stage.range(report);
   say_why();
 }
 

@@ -60,6 +60,11 @@ inline void draw_undecided_mark(SvgCanvas& canvas, const Vec2& at) {
               {.size = 17, .anchor = TextAnchor::middle, .bold = true, .fill = "#111"});
 }
 
+/// About the mark of what became of it.
+inline void draw_marginal_mark(SvgCanvas& canvas, const Vec2& at) {
+  canvas.circle(at, 10.5, {.stroke = "#7a1fa2", .stroke_width = 1.8});
+}
+
 inline void draw_other_mark(SvgCanvas& canvas, const Vec2& at) {
   const SvgStyle style{.stroke = "#b45309", .stroke_width = 2};
   const Vec2 corners[4] = {at + Vec2(9, 0), at + Vec2(0, 9), at - Vec2(9, 0), at - Vec2(0, 9)};
@@ -129,7 +134,9 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
       const double value = picture.at(i, panel.rows[k]);
       if (!std::isfinite(value)) continue;
       const std::string text = printed_text(value * shown.point_scale);
-      const double up = picture.is_failed(i, panel.rows[k]) ? 12 : 11;
+      const double up = picture.is_marginal(i, panel.rows[k]) ? 14
+                        : picture.is_failed(i, panel.rows[k]) ? 12
+                                                              : 11;
       for (const double shift : {-up, up + 9}) {  // above the point, else below, else nowhere
         const Vec2 at = place(i, k) + Vec2(0, shift);
         if (const ViewRect room = text_room(at, text, small).grown(-1.5); taken.is_free(room)) {
@@ -155,6 +162,7 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
       } else {
         draw_missing_mark(canvas, place(i, k));
       }
+      if (picture.is_marginal(i, panel.rows[k])) draw_marginal_mark(canvas, place(i, k));
     }
   }
   for (const Label& label : labels) canvas.text(label.at, label.text, small);
