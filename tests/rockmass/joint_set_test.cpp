@@ -193,6 +193,22 @@ TEST_SUITE("rockmass/joint_set") {
     }
   }
 
+  TEST_CASE("along a diagonal of the domain an equidistant set goes from corner to corner") {
+    const Domain<2> ground{{0, 0}, {10, 10}};
+    const Vec2 normal = Vec2(1, 1).normalized();
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      double lowest = inf, highest = -inf;
+      for (const Joint& joint :
+           generate({"J", 45 * degree, DipDirection::east, 0, 0, 2, inf}, 0, ground, seed)) {
+        lowest = std::min(lowest, normal.dot(joint.trace.start));
+        highest = std::max(highest, normal.dot(joint.trace.start));
+      }
+      // One more joint on either side would miss the square, to rounding.
+      CHECK(lowest - 2 < normal.dot(ground.low) + 1e-12);
+      CHECK(highest + 2 > normal.dot(ground.high) - 1e-12);
+    }
+  }
+
   TEST_CASE("the first joint of an equidistant set lies anywhere in one spacing") {
     const Domain<2> ground{{0, 0}, {10, 10}};
     std::array<int, 10> cells{};

@@ -36,12 +36,12 @@ bool update_when_due(System& system, const SearchContext& context, EquilibriumRe
   const bool near_by = at_rest && system.has_updated_contacts();
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
   if (report.contact_updates.count >= most)
-    throw InvalidInput(message({"contact_update_limit of ", acceptance.contact_update_limit,
-                                " m: contacts have been updated ", most,
-                                " times in one stage, and there is no end to it; it wants a "
-                                "twentieth of the displacement limit, ",
-                                0.05 * acceptance.displacement_limit,
-                                " m, or more; left out, it is chosen by the rock"}));
+    throw InvalidInput(
+        message({"contact_update_limit of ", acceptance.contact_update_limit,
+                 " m: contacts have been updated ", most,
+                 " times in one stage, and there is no end to it; it wants a ",
+                 "twentieth of the displacement limit, ", 0.05 * acceptance.displacement_limit,
+                 " m, or more; left out, it is chosen by the rock"}));
   report.contact_updates.add(
       update_contacts(system, 2 * acceptance.contact_update_limit, context.progress));
   return true;

@@ -19,6 +19,9 @@
 /// list, and the compiler leaves what stands in it to the library. Any other composition is
 /// compiled where it is used, as without the library: it saves time and changes no answer.
 
+// The arguments are types and `extern template` or `template`, which no parentheses may enclose.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+
 /// All that works on a model without knowing its laws: making it, going on after a round, updating
 /// its contacts, the searches for equilibrium and with them motion.
 #define VOUSSOIR_MODEL(WORD, GEOMETRY)                                                            \
@@ -63,6 +66,7 @@
                                           const BlockLimits&, const Progress&);                 \
   WORD RockMass<GEOMETRY> carve<GEOMETRY>(RockMass<GEOMETRY>, const GEOMETRY::Opening&, double, \
                                           const Progress&);
+// NOLINTEND(bugprone-macro-parentheses)
 
 namespace voussoir {
 
