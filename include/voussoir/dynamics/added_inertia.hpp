@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/model/moving_body.hpp>
@@ -20,7 +19,8 @@ template <int Dim>
 void add_inertia(const std::vector<double>& stiffness, double share, double gravity,
                  std::vector<MovingBody<Dim>>& bodies, std::vector<Load<Dim>>& loads) {
   std::vector<double> sorted = stiffness;
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  std::sort(sorted.begin(), sorted.end());
+  std::reverse(sorted.begin(), sorted.end());
   const double most = sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size()))];
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     MovingBody<Dim>& body = bodies[b];

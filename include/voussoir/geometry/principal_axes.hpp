@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
@@ -56,11 +56,10 @@ VOUSSOIR_INLINE PrincipalAxes principal_axes(const Fixed<3, 3>& tensor) {
     }
     if (!rotated) break;
   }
-  std::array<int, 3> order{0, 1, 2};
-  std::sort(order.begin(), order.end(), [&a](int i, int j) { return a[i][i] < a[j][j]; });
+  const auto order = order_of_values({a[0][0], a[1][1], a[2][2]});
   PrincipalAxes axes;
   for (int k = 0; k < 3; ++k) {
-    const int from = order[static_cast<std::size_t>(k)];
+    const std::size_t from = order[static_cast<std::size_t>(k)];
     axes.moments[k] = a[from][from];
     set_column(axes.directions, k, Vec3(v[0][from], v[1][from], v[2][from]));
   }

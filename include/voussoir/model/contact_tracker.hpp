@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -39,6 +40,10 @@ class ContactTracker {
     double moved = -1;          ///< of both bodies, when it was last asked; -1: never
     typename Detector::template Pair<Dim>::Memory memory{};
   };
+  using Bodies = std::vector<MovingBody<Dim>>;
+  // Who asks is called by a function known at run time: an update is compiled once for all of them.
+  using Touches = std::function<void(Pair&, const Contact<Dim>&)>;
+  using Parts = std::function<void(Pair&)>;
 
   /// @param reach    contacts may be so far open [m]
   /// @param refresh  how far the bodies of a contact move before it is updated [m]
@@ -80,59 +85,12 @@ class ContactTracker {
   /// that is within reach, `parts(pair)` for every pair with a contact that no longer is.
   /// @param moved  no other body has moved since the last update; null: any may have
   /// @cost  of the bodies that may have moved, and of all pairs where the neighbour list is renewed
-  template <class Bodies, class Touches, class Parts>
-  void update(const Bodies& bodies, const std::vector<std::uint32_t>* moved, Touches&& touches,
-              Parts&& parts) {
-    if (seen_.size() < bodies.size()) moved = nullptr;
-    follow(bodies, moved);
-    const auto place = [&](std::size_t shape) {
-      const std::size_t b = index(body_of_[shape]);
-      if (placed_[shape] == path_[b]) return;
-      placed_[shape] = path_[b];
-      const Pose<Dim>& pose = bodies[b].pose;
-      shapes_.place(shape, {pose.position, pose.rotation * home_[shape]});
-    };
-    if (since_looked_ > unseen * margin_) {
-      for (std::size_t s = 0; s < shapes_.size(); ++s) place(s);
-      if (neighbours_.update(shapes_)) carry_over(bodies, parts);
-      since_looked_ = 0;
-    }
-    typename Detector::template Pair<Dim> detector(shapes_);
-    const auto ask = [&](Pair& pair) {
-      if (is_gone(bodies, pair)) {
-        if (pair.contact >= 0) parts(pair);
-        return;
-      }
-      pair.moved = way_of(pair);
-      place(pair.a);
-      place(pair.b);
-      const Contact<Dim> contact = detector.facing_contact(pair.a, pair.b, pair.memory, reach_);
-      if (contact.touch != Touch::none)
-        touches(pair, contact);
-      else if (pair.contact >= 0)
-        parts(pair);
-    };
-    const auto ask_if_due = [&](Pair& pair) {
-      if (!is_shared(pair) && is_due(bodies, pair)) ask(pair);
-    };
-    if (moved == nullptr)
-      for (Pair& pair : pairs_) ask_if_due(pair);
-    else
-      for (const std::uint32_t k : pairs_of(*moved)) ask_if_due(pairs_[k]);
-    for (std::size_t k = 0; k < shared_.size();) {
-      std::size_t end = k;
-      bool due = false;
-      for (; end < shared_.size() && bodies_of(shared_[end]) == bodies_of(shared_[k]); ++end)
-        due = due || is_due(bodies, pairs_[shared_[end]]);
-      for (; k < end; ++k)
-        if (due) ask(pairs_[shared_[k]]);
-    }
-  }
+  void update(const Bodies& bodies, const std::vector<std::uint32_t>* moved, const Touches& touches,
+              const Parts& parts);
 
  private:
   [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  template <class Bodies>
   [[nodiscard]] bool is_gone(const Bodies& bodies, const Pair& pair) const {
     return bodies[index(body_of_[pair.a])].is_gone || bodies[index(body_of_[pair.b])].is_gone;
   }
@@ -141,7 +99,6 @@ class ContactTracker {
   [[nodiscard]] double way_of(const Pair& pair) const {
     return path_[index(body_of_[pair.a])] + path_[index(body_of_[pair.b])];
   }
-  template <class Bodies>
   [[nodiscard]] bool is_due(const Bodies& bodies, const Pair& pair) const {
     const double allowed = pair.contact >= 0 ? refresh_ : 0.5 * reach_;
     return pair.moved < 0 || way_of(pair) - pair.moved > allowed || is_gone(bodies, pair);
@@ -151,86 +108,13 @@ class ContactTracker {
   }
 
   /// All pairs of some bodies, each once, in their order.
-  [[nodiscard]] std::vector<std::uint32_t> pairs_of(const std::vector<std::uint32_t>& bodies) {
-    if (first_pair_.size() != path_.size() + 1) list_pairs();
-    std::vector<std::uint32_t> found;
-    for (const std::uint32_t b : bodies)
-      found.insert(found.end(), pairs_of_body_.begin() + first_pair_[b],
-                   pairs_of_body_.begin() + first_pair_[b + 1]);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-  void list_pairs() {
-    first_pair_.assign(path_.size() + 1, 0);
-    for (const Pair& pair : pairs_)
-      for (const std::uint32_t shape : {pair.a, pair.b}) ++first_pair_[index(body_of_[shape]) + 1];
-    for (std::size_t b = 0; b < path_.size(); ++b) first_pair_[b + 1] += first_pair_[b];
-    std::vector<std::ptrdiff_t> next(first_pair_.begin(), first_pair_.end() - 1);
-    pairs_of_body_.resize(2 * pairs_.size());
-    for (std::size_t k = 0; k < pairs_.size(); ++k)
-      for (const std::uint32_t shape : {pairs_[k].a, pairs_[k].b})
-        pairs_of_body_[static_cast<std::size_t>(next[index(body_of_[shape])]++)] =
-            static_cast<std::uint32_t>(k);
-  }
+  [[nodiscard]] std::vector<std::uint32_t> pairs_of(const std::vector<std::uint32_t>& bodies);
+  void list_pairs();
 
   /// Adds what bodies have moved to their paths.
-  template <class Bodies>
-  void follow(const Bodies& bodies, const std::vector<std::uint32_t>* moved) {
-    if (seen_.size() < bodies.size()) since_looked_ = std::numeric_limits<double>::infinity();
-    for (std::size_t b = seen_.size(); b < bodies.size(); ++b) seen_.push_back(bodies[b].pose);
-    path_.resize(bodies.size(), 0);
-    placed_.resize(shapes_.size(), -1);
-    double farthest = 0;
-    const auto follow_one = [&](std::size_t b) {
-      const auto& body = bodies[b];
-      const double shift = (body.pose.position - seen_[b].position).norm();
-      const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
-      const double path = shift + turn * body.radius;
-      if (path == 0) return;
-      path_[b] += path;
-      farthest = std::max(farthest, path);
-      seen_[b] = body.pose;
-    };
-    if (moved == nullptr)
-      for (std::size_t b = 0; b < bodies.size(); ++b) follow_one(b);
-    else
-      for (const std::uint32_t b : *moved) follow_one(b);
-    since_looked_ += farthest;
-  }
-
+  void follow(const Bodies& bodies, const std::vector<std::uint32_t>* moved);
   /// What is known of a pair goes with it from the old list to the new one.
-  template <class Bodies, class Parts>
-  void carry_over(const Bodies& bodies, Parts&& parts) {
-    const auto before = [](const auto& x, const auto& y) {
-      return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
-    };
-    std::vector<Pair> kept;
-    kept.reserve(neighbours_.pairs().size());
-    auto old = pairs_.begin();
-    const auto leave_behind = [&] {
-      if (old->contact >= 0) parts(*old);
-      ++old;
-    };
-    for (const auto& pair : neighbours_.pairs()) {
-      const auto a = index(body_of_[pair.a]), b = index(body_of_[pair.b]);
-      if (family_of_[pair.a] == family_of_[pair.b]) continue;
-      if (!(bodies[a].movable() || bodies[b].movable())) continue;
-      while (old != pairs_.end() && before(*old, pair)) leave_behind();
-      if (old != pairs_.end() && old->a == pair.a && old->b == pair.b)
-        kept.push_back(*old++);
-      else
-        kept.push_back({pair.a, pair.b});
-    }
-    while (old != pairs_.end()) leave_behind();
-    pairs_.swap(kept);
-    first_pair_.clear();
-    shared_.clear();
-    for (std::size_t k = 0; k < pairs_.size(); ++k)
-      if (is_shared(pairs_[k])) shared_.push_back(k);
-    std::stable_sort(shared_.begin(), shared_.end(),
-                     [this](std::size_t x, std::size_t y) { return bodies_of(x) < bodies_of(y); });
-  }
+  void carry_over(const Bodies& bodies, const Parts& parts);
 
   static constexpr double unseen = 0.1;  ///< of the margin
 
@@ -249,6 +133,140 @@ class ContactTracker {
   std::vector<Pose<Dim>> seen_;               ///< poses at the last update
   std::vector<double> placed_;  ///< for every shape, the path of its body when it was placed [m]
 };
+
+template <int Dim, class Detector>
+void ContactTracker<Dim, Detector>::update(const Bodies& bodies,
+                                           const std::vector<std::uint32_t>* moved,
+                                           const Touches& touches, const Parts& parts) {
+  if (seen_.size() < bodies.size()) moved = nullptr;
+  follow(bodies, moved);
+  const auto place = [&](std::size_t shape) {
+    const std::size_t b = index(body_of_[shape]);
+    if (placed_[shape] == path_[b]) return;
+    placed_[shape] = path_[b];
+    const Pose<Dim>& pose = bodies[b].pose;
+    shapes_.place(shape, {pose.position, pose.rotation * home_[shape]});
+  };
+  if (since_looked_ > unseen * margin_) {
+    for (std::size_t s = 0; s < shapes_.size(); ++s) place(s);
+    if (neighbours_.update(shapes_)) carry_over(bodies, parts);
+    since_looked_ = 0;
+  }
+  typename Detector::template Pair<Dim> detector(shapes_);
+  const auto ask = [&](Pair& pair) {
+    if (is_gone(bodies, pair)) {
+      if (pair.contact >= 0) parts(pair);
+      return;
+    }
+    pair.moved = way_of(pair);
+    place(pair.a);
+    place(pair.b);
+    const Contact<Dim> contact = detector.facing_contact(pair.a, pair.b, pair.memory, reach_);
+    if (contact.touch != Touch::none)
+      touches(pair, contact);
+    else if (pair.contact >= 0)
+      parts(pair);
+  };
+  const auto ask_if_due = [&](Pair& pair) {
+    if (!is_shared(pair) && is_due(bodies, pair)) ask(pair);
+  };
+  if (moved == nullptr)
+    for (Pair& pair : pairs_) ask_if_due(pair);
+  else
+    for (const std::uint32_t k : pairs_of(*moved)) ask_if_due(pairs_[k]);
+  for (std::size_t k = 0; k < shared_.size();) {
+    std::size_t end = k;
+    bool due = false;
+    for (; end < shared_.size() && bodies_of(shared_[end]) == bodies_of(shared_[k]); ++end)
+      due = due || is_due(bodies, pairs_[shared_[end]]);
+    for (; k < end; ++k)
+      if (due) ask(pairs_[shared_[k]]);
+  }
+}
+
+template <int Dim, class Detector>
+std::vector<std::uint32_t> ContactTracker<Dim, Detector>::pairs_of(
+    const std::vector<std::uint32_t>& bodies) {
+  if (first_pair_.size() != path_.size() + 1) list_pairs();
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t b : bodies)
+    found.insert(found.end(), pairs_of_body_.begin() + first_pair_[b],
+                 pairs_of_body_.begin() + first_pair_[b + 1]);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+template <int Dim, class Detector>
+void ContactTracker<Dim, Detector>::list_pairs() {
+  first_pair_.assign(path_.size() + 1, 0);
+  for (const Pair& pair : pairs_)
+    for (const std::uint32_t shape : {pair.a, pair.b}) ++first_pair_[index(body_of_[shape]) + 1];
+  for (std::size_t b = 0; b < path_.size(); ++b) first_pair_[b + 1] += first_pair_[b];
+  std::vector<std::ptrdiff_t> next(first_pair_.begin(), first_pair_.end() - 1);
+  pairs_of_body_.resize(2 * pairs_.size());
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    for (const std::uint32_t shape : {pairs_[k].a, pairs_[k].b})
+      pairs_of_body_[static_cast<std::size_t>(next[index(body_of_[shape])]++)] =
+          static_cast<std::uint32_t>(k);
+}
+
+template <int Dim, class Detector>
+void ContactTracker<Dim, Detector>::follow(const Bodies& bodies,
+                                           const std::vector<std::uint32_t>* moved) {
+  if (seen_.size() < bodies.size()) since_looked_ = std::numeric_limits<double>::infinity();
+  for (std::size_t b = seen_.size(); b < bodies.size(); ++b) seen_.push_back(bodies[b].pose);
+  path_.resize(bodies.size(), 0);
+  placed_.resize(shapes_.size(), -1);
+  double farthest = 0;
+  const auto follow_one = [&](std::size_t b) {
+    const auto& body = bodies[b];
+    const double shift = (body.pose.position - seen_[b].position).norm();
+    const double turn = (body.pose.rotation - seen_[b].rotation).norm();  // > the angle
+    const double path = shift + turn * body.radius;
+    if (path == 0) return;
+    path_[b] += path;
+    farthest = std::max(farthest, path);
+    seen_[b] = body.pose;
+  };
+  if (moved == nullptr)
+    for (std::size_t b = 0; b < bodies.size(); ++b) follow_one(b);
+  else
+    for (const std::uint32_t b : *moved) follow_one(b);
+  since_looked_ += farthest;
+}
+
+template <int Dim, class Detector>
+void ContactTracker<Dim, Detector>::carry_over(const Bodies& bodies, const Parts& parts) {
+  const auto before = [](const auto& x, const auto& y) {
+    return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
+  };
+  std::vector<Pair> kept;
+  kept.reserve(neighbours_.pairs().size());
+  auto old = pairs_.begin();
+  const auto leave_behind = [&] {
+    if (old->contact >= 0) parts(*old);
+    ++old;
+  };
+  for (const auto& pair : neighbours_.pairs()) {
+    const auto a = index(body_of_[pair.a]), b = index(body_of_[pair.b]);
+    if (family_of_[pair.a] == family_of_[pair.b]) continue;
+    if (!(bodies[a].movable() || bodies[b].movable())) continue;
+    while (old != pairs_.end() && before(*old, pair)) leave_behind();
+    if (old != pairs_.end() && old->a == pair.a && old->b == pair.b)
+      kept.push_back(*old++);
+    else
+      kept.push_back({pair.a, pair.b});
+  }
+  while (old != pairs_.end()) leave_behind();
+  pairs_.swap(kept);
+  first_pair_.clear();
+  shared_.clear();
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (is_shared(pairs_[k])) shared_.push_back(k);
+  std::stable_sort(shared_.begin(), shared_.end(),
+                   [this](std::size_t x, std::size_t y) { return bodies_of(x) < bodies_of(y); });
+}
 
 #ifdef VOUSSOIR_COMPILED
 VOUSSOIR_PLANAR_TEMPLATE class ContactTracker<2>;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/detection/contact.hpp>
 #include <voussoir/detection/placed_shapes.hpp>
@@ -36,6 +38,7 @@ template <int Dim, class Tracker>
 class ContactShares {
  public:
   using Pair = typename Tracker::Pair;
+  using Visit = std::function<void(Pair&, const Contact<Dim>&, const ContactArea<Dim>*)>;
 
   /// @param tracker  that finds the pairs; it outlives this
   explicit ContactShares(const Tracker& tracker) : tracker_(tracker) {}
@@ -60,61 +63,7 @@ class ContactShares {
   /// largest first, which so is the first to find what it was before; edges last. Where several
   /// pairs share it, `area` is what all have of it, on the polygon's side, counted as it is from
   /// the grid point of the pair's first shape and with the measure of all, and else null.
-  template <class Visit>
-  void join(Visit&& visit) {
-    // The largest of a contact tells its plane: it comes first. Edges come last.
-    std::sort(shares_.begin(), shares_.end(), [](const Share& x, const Share& y) {
-      return std::tuple(x.bodies, x.is_edge, x.cut, -x.found.measure, x.pair->a, x.pair->b) <
-             std::tuple(y.bodies, y.is_edge, y.cut, -y.found.measure, y.pair->a, y.pair->b);
-    });
-    for (Share& share : shares_) share.found.polygon = share.polygon;
-    std::vector<Joined> of_bodies;
-    const auto hand_over = [&] {
-      std::stable_sort(of_bodies.begin(), of_bodies.end(), [](const Joined& x, const Joined& y) {
-        return std::pair(x.share->is_edge, -x.share->found.measure) <
-               std::pair(y.share->is_edge, -y.share->found.measure);
-      });
-      for (const Joined& it : of_bodies)
-        visit(*it.share->pair, it.share->found, it.area.facets().size() > 1 ? &it.area : nullptr);
-      of_bodies.clear();
-    };
-    for (std::size_t k = 0; k < shares_.size();) {
-      std::size_t end = k + 1;
-      if (k > 0 && shares_[k].bodies != shares_[k - 1].bodies) hand_over();
-      if (shares_[k].is_edge) {
-        if (!lies_in_a_face(k)) of_bodies.push_back({&shares_[k], {}});
-        k = end;
-        continue;
-      }
-      while (end < shares_.size() && shares_[end].bodies == shares_[k].bodies &&
-             !shares_[end].is_edge && shares_[end].cut == shares_[k].cut)
-        ++end;
-      Share& first = shares_[k];
-      const Vec<Dim> normal = first.outward;
-      ContactArea<Dim> area;
-      for (std::size_t i = k; i < end; ++i) {
-        const Share& share = shares_[i];
-        const bool same_face = owner(share) == owner(first);
-        const Vec<Dim> outward = same_face ? share.outward : Vec<Dim>(-share.outward);
-        std::vector<Vec<Dim>> corners = same_face ? share.polygon : on_face(share);
-        const Vec<Dim> shift = origin(share) - origin(first);
-        for (Vec<Dim>& p : corners) p += shift;
-        auto facet = facet_of(std::move(corners), normal);
-        // Less than what is seen of it along the normal: roundings are all there is of it.
-        const bool is_sliver = !(facet.measure() > 0.999 * share.found.measure);
-        if (share.cut >= 0 && normal.dot(outward) > 0.99 && !is_sliver &&
-            (i == k || !area.facets().empty())) {
-          area.add(std::move(facet));
-          if (i != k) first.found.measure += share.found.measure;
-        } else if (i != k) {
-          of_bodies.push_back({&share, {}});
-        }
-      }
-      of_bodies.push_back({&first, std::move(area)});
-      k = end;
-    }
-    hand_over();
-  }
+  void join(const Visit& visit);
 
  private:
   struct Share {
@@ -174,6 +123,62 @@ class ContactShares {
   std::vector<Share> shares_;
 };
 
+template <int Dim, class Tracker>
+void ContactShares<Dim, Tracker>::join(const Visit& visit) {
+  // The largest of a contact tells its plane: it comes first. Edges come last.
+  std::sort(shares_.begin(), shares_.end(), [](const Share& x, const Share& y) {
+    return std::tuple(x.bodies, x.is_edge, x.cut, -x.found.measure, x.pair->a, x.pair->b) <
+           std::tuple(y.bodies, y.is_edge, y.cut, -y.found.measure, y.pair->a, y.pair->b);
+  });
+  for (Share& share : shares_) share.found.polygon = share.polygon;
+  std::vector<Joined> of_bodies;
+  const auto hand_over = [&] {
+    std::stable_sort(of_bodies.begin(), of_bodies.end(), [](const Joined& x, const Joined& y) {
+      return std::pair(x.share->is_edge, -x.share->found.measure) <
+             std::pair(y.share->is_edge, -y.share->found.measure);
+    });
+    for (const Joined& it : of_bodies)
+      visit(*it.share->pair, it.share->found, it.area.facets().size() > 1 ? &it.area : nullptr);
+    of_bodies.clear();
+  };
+  for (std::size_t k = 0; k < shares_.size();) {
+    std::size_t end = k + 1;
+    if (k > 0 && shares_[k].bodies != shares_[k - 1].bodies) hand_over();
+    if (shares_[k].is_edge) {
+      if (!lies_in_a_face(k)) of_bodies.push_back({&shares_[k], {}});
+      k = end;
+      continue;
+    }
+    while (end < shares_.size() && shares_[end].bodies == shares_[k].bodies &&
+           !shares_[end].is_edge && shares_[end].cut == shares_[k].cut)
+      ++end;
+    Share& first = shares_[k];
+    const Vec<Dim> normal = first.outward;
+    ContactArea<Dim> area;
+    for (std::size_t i = k; i < end; ++i) {
+      const Share& share = shares_[i];
+      const bool same_face = owner(share) == owner(first);
+      const Vec<Dim> outward = same_face ? share.outward : Vec<Dim>(-share.outward);
+      std::vector<Vec<Dim>> corners = same_face ? share.polygon : on_face(share);
+      const Vec<Dim> shift = origin(share) - origin(first);
+      for (Vec<Dim>& p : corners) p += shift;
+      auto facet = facet_of(std::move(corners), normal);
+      // Less than what is seen of it along the normal: roundings are all there is of it.
+      const bool is_sliver = !(facet.measure() > 0.999 * share.found.measure);
+      if (share.cut >= 0 && normal.dot(outward) > 0.99 && !is_sliver &&
+          (i == k || !area.facets().empty())) {
+        area.add(std::move(facet));
+        if (i != k) first.found.measure += share.found.measure;
+      } else if (i != k) {
+        of_bodies.push_back({&share, {}});
+      }
+    }
+    of_bodies.push_back({&first, std::move(area)});
+    k = end;
+  }
+  hand_over();
+}
+
 /// The label of the faces that touch if they are of one cut, else -1.
 /// @param is_block  is_block(body): else it is the edge of the domain
 /// @param cut_of    cut_of(shape, outward): label of the face that looks there
@@ -188,5 +193,10 @@ template <int Dim, class Tracker, class IsBlock, class CutOf>
   if (!is_block(tracker.body_of(pair.b))) return cut;
   return cut == cut_of(pair.b, back) ? cut : -1;
 }
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE class ContactShares<2, ContactTracker<2>>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactShares<3, ContactTracker<3>>;
+#endif
 
 }  // namespace voussoir::detail
