@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -98,6 +99,41 @@ Solver<Spatial> jointed_cube() {
 }  // namespace
 
 TEST_SUITE("model/contact_group") {
+  TEST_CASE("points stand for the length or area of a contact, its middle and its second moment") {
+    // By hand: L^3/12 of a segment about its middle, a^4/12 of a square about an axis.
+    const std::array<Vec2, 2> ends = {Vec2(3, 1), Vec2(3, 3)};
+    const std::array<Vec3, 4> square = {Vec3(0, 0, 5), Vec3(2, 0, 5), Vec3(2, 2, 5), Vec3(0, 2, 5)};
+    for (const ContactPoints rule : {ContactPoints::gauss, ContactPoints::corners}) {
+      std::vector<WeightedPoint<2>> on_line;
+      place_points(rule, ends, 2, on_line);
+      double length = 0, first = 0, second = 0;
+      for (const auto& p : on_line) {
+        CHECK(p.place.x() == doctest::Approx(3));
+        length += p.weight;
+        first += p.weight * (p.place.y() - 2);
+        second += p.weight * (p.place.y() - 2) * (p.place.y() - 2);
+      }
+      CHECK(length == doctest::Approx(2));
+      CHECK(std::abs(first) < 1e-15);
+      CHECK(second == doctest::Approx(8.0 / 12));
+      std::vector<WeightedPoint<3>> on_square;
+      place_points(rule, square, 4, on_square);
+      Vec3 moment = Vec3::Zero();
+      double area = 0, along_x = 0, along_y = 0;
+      for (const auto& p : on_square) {
+        const Vec3 arm = p.place - Vec3(1, 1, 5);
+        area += p.weight;
+        moment += p.weight * arm;
+        along_x += p.weight * arm.x() * arm.x();
+        along_y += p.weight * arm.y() * arm.y();
+      }
+      CHECK(area == doctest::Approx(4));
+      CHECK(moment.norm() < 1e-14);
+      CHECK(along_x == doctest::Approx(16.0 / 12));
+      CHECK(along_y == doctest::Approx(16.0 / 12));
+    }
+  }
+
   TEST_CASE("contacts are in the order of their lower body when built, updated and removed") {
     Solver<> tunnel = bolted_tunnel();
     REQUIRE(!in_order(CutContacts::find(tunnel.mass())));  // as they are found they are not
