@@ -389,11 +389,10 @@ RunResult computed_run(const Input& input, const Report& report) {
   const SupportChoice supports = supports_of(input);
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  run.built = construct(
-      run.tunnel,
-      construction_of(input, run.tunnel, run.opening, supports.spacing, supports.thickness, linear,
-                      RangeSought::all),
-      report);
+  run.built = construct(run.tunnel,
+                        construction_of(input, run.tunnel, run.opening, supports.spacing,
+                                        supports.thickness, linear, RangeSought::all),
+                        report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
   run.warnings = warnings_of(input, run);

@@ -132,7 +132,11 @@ run elastic_ground tunnel --set boundary.sides=elastic --set boundary.base=elast
 stands $page "elastic ground, which adds $(compute '%.0f' "100 *
   ($(value elastic_ground largest_thrust_kN_per_m) / $(value seed1 largest_thrust_kN_per_m) - 1)") % to the thrust"
 # Of the diagram that the page has computed: verdict and detached area of two tunnels without lining.
-area() { awk -F, -v spacing="$1" '$1 == spacing && $2 == 0 { printf "%.1f", $5 == "" ? 0 : $7 }' results/interaction.csv; }
+area() {
+  awk -F, -v spacing="$1" '
+    NR == 1 { for (k = 1; k <= NF; ++k) column[$k] = k }
+    $1 == spacing && $2 == 0 { printf "%.1f", $column["detached_area_m2"] }' results/interaction.csv
+}
 stands $page "at 22.5° blocks of $(area 22.5) m² detach, and without bolts $(area none) m²"
 
 page=README.md

@@ -79,7 +79,8 @@ class Stepping {
  public:
   using Forces = ForcesOnBodies<Dim, Network>;
 
-  explicit Stepping(unsigned threads) : team_(std::make_unique<ThreadTeam>(threads)) {}
+  explicit Stepping(unsigned threads)
+      : team_(std::make_unique<ThreadTeam>(threads)), alone_(std::make_unique<ThreadTeam>(1)) {}
 
   void resize(std::size_t bodies) { acting_.resize(bodies); }
   /// What acts on each body, when it was last computed.
@@ -88,10 +89,11 @@ class Stepping {
   /// Brings what acts on the bodies up to date, with nothing moving.
   /// @return  what contacts lose by that: of bodies that were moved by hand
   Dissipation freshen(const Forces& forces) {
-    sums_.assign(team_->size(), {});
-    team_->run([&](unsigned member) {
-      respond(forces, member, sums_[member].lost);
-      forces.part.each_body(*team_, member, forces.bodies.size(),
+    ThreadTeam& team = team_for(forces);
+    sums_.assign(team.size(), {});
+    team.run([&](unsigned member) {
+      respond(forces, team, member, sums_[member].lost);
+      forces.part.each_body(team, member, forces.bodies.size(),
                             [&](std::size_t b) { settle(forces, b); });
     });
     Dissipation lost;
@@ -120,18 +122,18 @@ class Stepping {
  private:
   /// A member's share of what contacts and supports do to the bodies where they are; all of it is
   /// done when it returns.
-  void respond(const Forces& forces, unsigned member, Dissipation& lost) {
+  void respond(const Forces& forces, ThreadTeam& team, unsigned member, Dissipation& lost) {
     const MovingPart& part = forces.part;
     if (part.is_all) {
-      const auto contacts = team_->share(forces.network.size(), member);
+      const auto contacts = team.share(forces.network.size(), member);
       forces.network.react(contacts.first, contacts.last, forces.bodies, lost);
     } else {
-      const auto share = team_->share(part.contacts.size(), member);
+      const auto share = team.share(part.contacts.size(), member);
       forces.network.react(std::span(part.contacts).subspan(share.first, share.last - share.first),
                            forces.bodies, lost);
     }
     if (member == 0) forces.supports.act(forces.bodies);
-    team_->meet();
+    team.meet();
   }
   /// First half kick, and the drift.
   void start(const Forces& forces, std::size_t b, double step, MemberSums& sums) {
@@ -153,7 +155,13 @@ class Stepping {
     acting_[b].kick(body, step);
   }
 
-  std::unique_ptr<ThreadTeam> team_;
+  /// Where few bodies move, a step is over before the members of a team have met.
+  [[nodiscard]] ThreadTeam& team_for(const Forces& forces) {
+    constexpr std::size_t few = 300;
+    return forces.part.is_all || forces.part.bodies.size() > few ? *team_ : *alone_;
+  }
+
+  std::unique_ptr<ThreadTeam> team_, alone_;
   std::vector<Kick<Dim>> acting_;
   std::vector<MemberSums> sums_;
 };
@@ -162,12 +170,13 @@ template <int Dim, class Network>
 int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, const Ways& ways,
                                 EnergyBalance& audit) {
   std::vector<MovingBody<Dim>>& bodies = forces.bodies;
-  sums_.assign(team_->size(), {});
+  ThreadTeam& team = team_for(forces);
+  sums_.assign(team.size(), {});
   int made = 0;
-  team_->run([&](unsigned member) {
+  team.run([&](unsigned member) {
     MemberSums& sums = sums_[member];
     const auto each = [&](auto&& visit) {
-      forces.part.each_body(*team_, member, bodies.size(), [&](std::size_t b) {
+      forces.part.each_body(team, member, bodies.size(), [&](std::size_t b) {
         if (bodies[b].movable()) visit(b);
       });
     };
@@ -175,11 +184,11 @@ int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, co
     for (int k = 0; k < count; ++k) {
       sums.fastest = 0;
       each([&](std::size_t b) { start(forces, b, step, sums); });
-      team_->meet();
+      team.meet();
       double fastest = 0;
       for (const MemberSums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
       way += step * fastest;
-      respond(forces, member, sums.lost);
+      respond(forces, team, member, sums.lost);
       sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
       each([&](std::size_t b) {
         settle(forces, b);
