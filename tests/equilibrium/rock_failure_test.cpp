@@ -226,4 +226,26 @@ TEST_SUITE("equilibrium/rock_failure") {
     std::sort(fallen.begin(), fallen.end());
     CHECK(fallen == whole.fallen);
   }
+
+  TEST_CASE("one that is stopped while other ways are followed is where it was, too") {
+    const Drawn drawn = drawn_tunnel(1);
+    TwoLevel::Params params;
+    params.motion.range = RangeSought::all;
+    const Acceptance asked{.collapse_measure = 1e3};
+    int all = 0;
+    Solver<> whole = drawn.tunnel;
+    REQUIRE(
+        whole.equilibrium(0, TwoLevel(params), asked, [&](double) { return ++all > 0; }).rockfall);
+    Solver<> tunnel = drawn.tunnel;
+    int left = all - 1;
+    const EquilibriumReport stopped =
+        tunnel.equilibrium(0, TwoLevel(params), asked, [&](double) { return --left > 0; });
+    CHECK(stopped.stopped);
+    CHECK(!stopped.rockfall);
+    CHECK(stopped.fallen.empty());
+    CHECK(tunnel.fallen().empty());
+    CHECK(tunnel.system().wall_fraction == 1);
+    CHECK(tunnel.equilibrium(0, TwoLevel(params), asked).fallen_measure ==
+          doctest::Approx(area_of(whole, whole.fallen())));
+  }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/displacement_limits.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
@@ -90,8 +91,13 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
           (report.reason.empty() ? "" : ": " + report.reason) +
           "; raise error_estimate or the step limit of the method";
   };
-  if (stage.go(report)) settle();
-  report.rockfall = stage.range(report);
+  try {
+    if (stage.go(report)) settle();
+    report.rockfall = stage.range(report);
+  } catch (const Stopped&) {
+    back_to(start, fallen_before, measure_before);
+    throw;
+  }
   say_why();
 }
 
