@@ -2,10 +2,12 @@
 // Bolts between blocks that move: forces against closed forms f.7, energy, turning of the whole.
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/model/bolt_set.hpp>
@@ -110,6 +112,45 @@ TEST_SUITE("dynamics/bolts") {
       CHECK(bolts->axial_force(0) ==
             doctest::Approx(stiffness * (std::sqrt(d * d + s * s) - d)).epsilon(1e-12));
     }
+  }
+
+  TEST_CASE("back from motion a dowel holds K_s times the jump, and goes on from there") {
+    // Two blocks on each other, turned as a whole, the upper one shifted by `jump` along the joint:
+    // a bar of d from anchor to anchor through it is K_a (sqrt(d^2 + s^2) - d) in tension.
+    const double axial = 2e8, shear = 3e8, d = 0.6, jump = 2e-3, more = 5e-4;
+    BoltSet<2, AxialShearBolt> bolts(
+        AxialShearBolt({.axial = {.axial_stiffness = axial}, .shear_stiffness = shear}));
+    BoltSpring<2, AxialShearBolt> spring{};
+    spring.a = 0;
+    spring.b = 1;
+    spring.joint_a = {0, 0.5};
+    spring.joint_b = {0, -0.5};
+    spring.arm_a = {0, 0.2};
+    spring.arm_b = {0, -0.2};
+    spring.span.initial = {0, d};
+    spring.span.axis = Vec2::UnitY();
+    bolts.add(spring);
+    const Rotation<2> turn = rotation_by(Spin<2>(0.7));
+    const Vec2 along = turn.col(0);
+    // Wherever displacements are counted from: here both blocks have some in common.
+    const Vec2 common(0.03, -0.02);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+    u.head<2>() = common;
+    u.segment<2>(3) = common + jump * along;
+    bolts.from_frames({{turn * Vec2(0, -0.5), turn}, {turn * Vec2(jump, 0.5), turn}}, u.data());
+    const auto force_along = [&] {  // on the lower block
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(6);
+      bolts.add_forces(u.data(), f.data(), nullptr);
+      CHECK((f.head<2>() + f.segment<2>(3)).norm() <= 1e-12 * f.norm());
+      return f.head<2>().dot(along);
+    };
+    const auto expected = [&](double s) {
+      const double length = std::hypot(d, s);
+      return shear * s + axial * (length - d) * s / length;
+    };
+    CHECK(force_along() == doctest::Approx(expected(jump)).epsilon(1e-9));
+    u.segment<2>(3) += more * along;
+    CHECK(force_along() == doctest::Approx(expected(jump + more)).epsilon(1e-9));
   }
 
   TEST_CASE("turning everything strains no bolt; rupture lets go and keeps the account") {

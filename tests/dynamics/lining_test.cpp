@@ -225,6 +225,35 @@ TEST_SUITE("dynamics/lining") {
     CHECK(past.run.time() <= before + 100 * past.run.step());
   }
 
+  TEST_CASE_TEMPLATE("a member between nodes that have moved feels only what comes after", Geometry,
+                     Planar, Spatial) {
+    constexpr int dim = Geometry::dim, dof = Geometry::dof;
+    const LiningSection section = LiningSection::strip(0.1, 1, 30e9);
+    const double length = 0.5, stretch = 1e-5;
+    const Vec<dim> x = Vec<dim>::UnitX(), y = Vec<dim>::UnitY();
+    FrameElement<Geometry> member(0, 1, length, frame_axes<dim>(x, y),
+                                  EulerBernoulliBeam::stiffness<dof>(section, length));
+    // The rock has parted them by 3 mm, shifted them by 2 mm and turned them.
+    Pose<dim> a, b;
+    Spin<dim> spin = zeros<Spin<dim>>();
+    spin[spin.size() - 1] = 4e-3;
+    a.rotation = rotation_by(spin);
+    b.rotation = rotation_by(Spin<dim>(-0.5 * spin));
+    b.position = (length + 3e-3) * x + 2e-3 * y;
+    const Fixed<2 * dof, 1> u = Fixed<2 * dof, 1>::Zero();
+    member.install_at(a, b, u.data());
+    CHECK(member.end_forces(a, b).norm() == 0);
+    CHECK(member.energy(a, b) == 0);
+    // EA / L per metre along the chord that it was installed on, and nothing else.
+    b.position += stretch * b.position.normalized();
+    const auto force = member.end_forces(a, b);
+    const double pull = section.axial_stiffness * stretch / length;
+    CHECK(force[dof] == doctest::Approx(pull).epsilon(1e-9));
+    CHECK(force[0] == doctest::Approx(-pull).epsilon(1e-9));
+    CHECK(std::abs(force.squaredNorm() - 2 * pull * pull) <= 1e-8 * pull * pull);
+    CHECK(member.energy(a, b) == doctest::Approx(0.5 * pull * stretch).epsilon(1e-9));
+  }
+
   TEST_CASE("what is not a lining is refused") {
     Run run(joint);
     CHECK_THROWS_AS(run.add_lining_nodes({{{0, 0}, {}, 0, Spin<2>(1)}}, joint), InvalidInput);

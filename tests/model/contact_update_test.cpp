@@ -224,6 +224,35 @@ TEST_SUITE("model/contact_update") {
     CHECK((after - before).norm() <= 1e-7 * (before - in_situ).norm());
   }
 
+  TEST_CASE("the shear force of a contact that becomes two is that of both") {
+    // A slit of 10 mm along the middle of a joint: its walls are no joint, but within reach.
+    // Pressed down by 12 mm the upper block touches there as well, in a contact of its own that
+    // carries on the one beside the slit.
+    Solver<> rock(slice({{0, 0}, {4, 2}}, std::vector<Joint>{{{{-1, 1}, {5, 1}}, 0}}, {}),
+                  CoulombJoint({1e7, 1e6, 60 * degree}, any_units), {.density = 2700});
+    rock.excavate(SimplePolygon({{1.5, 1}, {2.5, 1}, {2.5, 1.01}, {1.5, 1.01}}));
+    auto& system = detail::SystemOf::in(rock);
+    const int upper = system.body(0).centre.y() > 1 ? 0 : 1;
+    REQUIRE(system.body(upper).movable);
+    system.displacement[3 * upper] = 1e-3;
+    system.displacement[3 * upper + 1] = -0.012;
+    system.commit();
+    const auto shear = [&] {
+      double sum = 0;  // of both blocks, whichever comes first in the contact
+      system.joints.visit(
+          system.displacement.data(),
+          [&](const auto&, const auto&, const auto&, const auto& f) { sum += f.tangential[0]; });
+      return sum;
+    };
+    REQUIRE(system.joints.contacts().size() == 1);
+    const double before = shear();
+    // In its in-situ state there is none: it comes from 1 mm on the 3 m beside the slit.
+    CHECK(std::abs(before) == doctest::Approx(1e6 * 3 * 1e-3));
+    update_contacts(system, 0.02);
+    REQUIRE(system.joints.contacts().size() == 2);
+    CHECK(shear() == doctest::Approx(before).epsilon(1e-9));
+  }
+
   TEST_CASE("an update that is stopped leaves everything as it was") {
     // 6 400 blocks: more than the 10 ms in which nothing is asked.
     std::vector<Joint> joints;

@@ -10,6 +10,7 @@
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
 
 #include "support/dense_algebra.hpp"
 #include "support/reference.hpp"
@@ -27,6 +28,7 @@ constexpr double half = pi / count;  // half the angle of a chord
 
 /// A ring of frame elements alone, in the place of a solver: what the measurements ask of one.
 struct RingAlone {
+  static constexpr int dim = 2;
   using SystemType = System<Planar, CoulombJoint>;
   using LiningType = LiningMembers<Planar>;
 
@@ -48,6 +50,9 @@ struct RingAlone {
   [[nodiscard]] const LiningMembers<Planar>* lining() const {
     return bodies.supports.first<LiningMembers<Planar>>();
   }
+  [[nodiscard]] std::vector<const LiningMembers<Planar>*> linings() const { return {lining()}; }
+  [[nodiscard]] const BoltSet<2, AxialBolt>* bolts() const { return nullptr; }
+  [[nodiscard]] int bolt_count() const { return 0; }
   [[nodiscard]] Vec2 displacement_of(int body, const Vec2& point) const {
     return displacement_at<2>(bodies.displacement.data() + 3 * body,
                               Vec2(point - bodies.body(body).centre));
@@ -116,6 +121,9 @@ TEST_SUITE("tunnel/measurements") {
     }
     for (std::size_t k = 0; k < count; ++k)
       CHECK((at[k].position - RingAlone::position(static_cast<int>(k))).norm() == 0);
+    // The largest moment is the one under the load, whatever its sign.
+    REQUIRE(under > beside);
+    CHECK(std::abs(support_demand(ring).largest_moment - under) <= tolerance);
   }
 
   TEST_CASE("a ring squeezed from all sides: thrust positive everywhere, no moment") {
