@@ -3,9 +3,12 @@
 // procedure and by all blocks in motion. One line a case as CSV; counts at the end on the error
 // stream.
 //   failure_table_3d [FIRST] [COUNT]      default: 1 40; some ten minutes
+//   failure_table_3d FIRST COUNT PERCENT [THREADS]
+//                                         blocks of that part of the size, by TwoLevel alone
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <vector>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
@@ -25,9 +28,14 @@ class Clock {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
+  /// Of all processors together.
+  [[nodiscard]] double processor_seconds() const {
+    return static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC;
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t processor_start_ = std::clock();
 };
 
 struct Column {
@@ -50,14 +58,39 @@ void print(const Column& column) {
               column.answer.fallen.size(), column.seconds);
 }
 
+/// Smaller blocks, and how long they take.
+void print_scaled(int first, int count, int percent, int threads) {
+  std::printf("case,bodies,two_level,two_level_m3,two_level_blocks,steps,wall_s,processor_s\n");
+  for (int k = first; k < first + count; ++k) {
+    const DrawnInSpace drawn = drawn_tunnel_in_space(static_cast<std::uint64_t>(k), 1e-2 * percent);
+    std::printf("%d,%zu", k, drawn.tunnel.mass().bodies.size());
+    std::fflush(stdout);
+    const Clock clock;
+    const EquilibriumReport report =
+        report_by<TwoLevel>(drawn.tunnel, collapse_measure_of(drawn.section),
+                            TwoLevel({.motion = {.threads = static_cast<unsigned>(threads)}}));
+    std::printf(",%s,%.3f,%zu,%d,%.1f,%.1f\n", to_string(report.verdict), report.fallen_measure,
+                report.fallen.size(), report.steps, clock.seconds(), clock.processor_seconds());
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const int first = argc > 1 ? voussoir_bench::number_of(argv[1]) : 1;
   const int count = argc > 2 ? voussoir_bench::number_of(argv[2]) : 40;
-  if (first < 0 || count < 1 || argc > 3) {
-    std::fprintf(stderr, "failure_table_3d [FIRST] [COUNT]: whole numbers, COUNT > 0\n");
+  const int percent = argc > 3 ? voussoir_bench::number_of(argv[3]) : 100;
+  const int threads = argc > 4 ? voussoir_bench::number_of(argv[4]) : 1;
+  if (first < 0 || count < 1 || percent < 1 || threads < 1 || argc > 5) {
+    std::fprintf(stderr,
+                 "failure_table_3d [FIRST] [COUNT] [PERCENT] [THREADS]: whole numbers, all but "
+                 "FIRST > 0\n");
     return 2;
+  }
+  if (argc > 3) {
+    print_scaled(first, count, percent, threads);
+    return 0;
   }
   std::printf("case,bodies");
   for (const char* name : {"two_level", "relaxation", "explicit", "reference"})

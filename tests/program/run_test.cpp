@@ -83,11 +83,28 @@ double thrust(const Results& r) { return r.json.at("lining").at("mean_thrust_kN_
 
 const std::string supported = InputText{}.text();
 
+InputText without_support() {
+  InputText input;
+  input.bolts = input.lining = "";
+  return input;
+}
+const std::string bare = without_support().text();
+
+/// Of `supported` and of `bare`, run once for all test cases that only look at the results.
+const Results& supported_results() {
+  static const Results results = results_of(supported);
+  return results;
+}
+const Results& bare_results() {
+  static const Results results = results_of(bare);
+  return results;
+}
+
 }  // namespace
 
 TEST_SUITE("program/run") {
   TEST_CASE("a run writes numbers, tables and a picture that agree with each other") {
-    const Results r = results_of(supported);
+    const Results& r = supported_results();
     CHECK(
         header(r.files.at("bolts.csv")) ==
         "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state,run_id");
@@ -169,9 +186,9 @@ TEST_SUITE("program/run") {
                             CoulombJoint({1e9, 1e9, 30 * deg}));
       REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
 
-      std::vector<std::string> kind;
-      if (!automatic) kind = {"--set", "boundary.sides=rollers", "--set", "boundary.base=rollers"};
-      const Results r = results_of(supported, kind);
+      const Results r = automatic ? supported_results()
+                                  : results_of(supported, {"--set", "boundary.sides=rollers",
+                                                           "--set", "boundary.base=rollers"});
       CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
       const Convergence c = convergence(tunnel);
       // The program composes AxialShearBolt without shear and TimoshenkoBeam without shear
@@ -204,7 +221,7 @@ TEST_SUITE("program/run") {
   }
 
   TEST_CASE("the same seed gives the same bytes, another seed another rock") {
-    Results a = results_of(supported), b = results_of(supported);
+    Results a = supported_results(), b = results_of(supported);
     a.json.erase("time_s");
     b.json.erase("time_s");
     CHECK(a.json == b.json);
@@ -216,7 +233,7 @@ TEST_SUITE("program/run") {
   }
 
   TEST_CASE("--set changes the result") {
-    const Results stiff = results_of(supported);
+    const Results& stiff = supported_results();
     const Results soft = results_of(
         supported, {"--set", "joint.kn=2.5 GPa/m", "--set", "joint.ks = \"0.25 GPa/m\""});
     CHECK(crown(soft) > crown(stiff));
@@ -227,7 +244,7 @@ TEST_SUITE("program/run") {
     const Results quiet = results_of(supported, {"--quiet"});
     CHECK(quiet.outcome.out.empty());
     CHECK(quiet.outcome.err.empty());
-    const Results spoken = results_of(supported);
+    const Results& spoken = supported_results();
     CHECK(spoken.outcome.err.empty());
     CHECK(spoken.outcome.out.find("verdict  stable") != std::string::npos);
     CHECK(std::none_of(spoken.outcome.out.begin(), spoken.outcome.out.end(), [](char c) {
@@ -264,7 +281,7 @@ TEST_SUITE("program/run") {
     CHECK(crown_at(3) < crown_at(2));
     CHECK(crown_at(0) <= crown_at(2));
     // The tunnel of the file is one of the four; the table has 6 digits.
-    const Results single = results_of(supported);
+    const Results& single = supported_results();
     CHECK(std::abs(crown_at(1) - crown(single)) < 1e-5 * crown(single));
 
     const Outcome one =
@@ -281,7 +298,7 @@ TEST_SUITE("program/run") {
     staged.rest =
         "[[stage]]\nname = \"excavation\"\nwall_traction = \"60 %\"\n"
         "[[stage]]\nname = \"support\"\nwall_traction = \"0 %\"\ninstall = [\"bolts\", \"lining\"]\n";
-    const Results wished = results_of(supported), relaxed = results_of(staged.text());
+    const Results &wished = supported_results(), relaxed = results_of(staged.text());
     REQUIRE(relaxed.json.at("stages").size() == 2);
     CHECK(relaxed.json.at("stages")[0].at("name") == "excavation");
     CHECK(relaxed.json.at("stages")[0].at("residual_wall_traction") == 0.6);
@@ -314,14 +331,12 @@ TEST_SUITE("program/run") {
   }
 
   TEST_CASE("without support there is neither a bolts nor a lining entry") {
-    InputText bare;
-    bare.bolts = bare.lining = "";
-    const Results r = results_of(bare.text());
+    const Results& r = bare_results();
     CHECK_FALSE(r.json.contains("bolts"));
     CHECK_FALSE(r.json.contains("lining"));
     CHECK(table(r.files.at("bolts.csv")).empty());
     CHECK(table(r.files.at("lining.csv")).empty());
-    CHECK(crown(r) > crown(results_of(supported)));
+    CHECK(crown(r) > crown(supported_results()));
   }
 
   TEST_CASE(
@@ -401,7 +416,7 @@ TEST_SUITE("program/run") {
       given.joints += lines;
       return results_of(given.text());
     };
-    const Results plain = with(""), same = with("friction = \"35 deg\"\n"),
+    const Results &plain = supported_results(), same = with("friction = \"35 deg\"\n"),
                   soft = with("kn = \"1 GPa/m\"\nks = \"0.1 GPa/m\"\n");
     CHECK(without_run_id(plain.files.at("lining.csv")) ==
           without_run_id(same.files.at("lining.csv")));
@@ -469,9 +484,7 @@ TEST_SUITE("program/run") {
   }
 
   TEST_CASE("rock that detached from a tunnel that stands is in every word about it [long]") {
-    InputText bare;
-    bare.bolts = bare.lining = "";
-    const Results r = results_of(bare.text());
+    const Results& r = bare_results();
     const double area = r.json.at("detached_area_m2");
     REQUIRE(area > 0.1);  // a block of 0.2 m2 falls from the roof
     CHECK(r.json.at("verdict") == "stable after rockfall");
@@ -504,14 +517,15 @@ TEST_SUITE("program/run") {
     CHECK(range.at("most_detached_area_m2") >= area);
 
     // The same when it detached in an earlier stage than the last.
-    bare.rest =
+    InputText in_stages = without_support();
+    in_stages.rest =
         "[[stage]]\nwall_traction = 0.01\n[[stage]]\nwall_traction = \"0 %\"\nname = \"end\"\n";
-    const Results staged = results_of(bare.text());
+    const Results staged = results_of(in_stages.text());
     REQUIRE(staged.json.at("stages")[1].at("equilibrium").at("detached_area_m2") == 0.0);
     CHECK(staged.json.at("stages")[1].at("equilibrium").at("verdict") == "stable");
     CHECK(staged.json.at("verdict") == "stable after rockfall");
 
-    const Results stands = results_of(supported);
+    const Results& stands = supported_results();
     CHECK(stands.json.at("verdict") == "stable");
     CHECK(stands.files.at("blocks.svg").find("ROCKFALL") == std::string::npos);
     CHECK(stands.files.at("blocks.svg").find("banner") == std::string::npos);
@@ -530,9 +544,7 @@ TEST_SUITE("program/run") {
     CHECK(rows[2].at("verdict") == "stable after rockfall");
     CHECK(rows[2].at("failed") == "1");
     // `run` and `diagram` have one answer to whether it is marginal.
-    InputText bare;
-    bare.bolts = bare.lining = "";
-    const bool is_marginal = results_of(bare.text()).json.at("rockfall").at("marginal");
+    const bool is_marginal = bare_results().json.at("rockfall").at("marginal");
     CHECK(rows[2].at("marginal") == (is_marginal ? "1" : "0"));
     CHECK((outcome.out.find("R~") != std::string::npos) == is_marginal);
     CHECK((outcome.out.find("\n~: marginal, ") != std::string::npos) == is_marginal);
@@ -544,10 +556,8 @@ TEST_SUITE("program/run") {
   TEST_CASE(
       "a stage that ends before it is unloaded says what was reached and what was asked for") {
     const Folder folder;
-    InputText bare;
-    bare.bolts = bare.lining = "";
     const Outcome outcome =
-        run_program({"run", write_file(folder / "case.toml", bare.text()), "--out", folder / "out",
+        run_program({"run", write_file(folder / "case.toml", bare), "--out", folder / "out",
                      "--set", "run.displacement_limit=0.001 mm"});
     CAPTURE(outcome.out);
     const Json stage = Json::parse(read_file(folder / "out/run.json")).at("stages").back();
@@ -560,7 +570,7 @@ TEST_SUITE("program/run") {
                   "asked for",
                   100 * reached);
     CHECK(outcome.out.find(words) != std::string::npos);
-    const Results stands = results_of(supported);
+    const Results& stands = supported_results();
     CHECK(stands.outcome.out.find("stable at a residual wall traction of 0 %;") !=
           std::string::npos);
     CHECK(stands.outcome.out.find("asked for") == std::string::npos);
@@ -628,10 +638,8 @@ TEST_SUITE("program/run") {
 
   TEST_CASE("a tunnel that collapses has a status of its own, verdict and reason") {
     const Folder folder;
-    InputText bare;
-    bare.bolts = bare.lining = "";
     const Outcome outcome =
-        run_program({"run", write_file(folder / "case.toml", bare.text()), "--out", folder / "out",
+        run_program({"run", write_file(folder / "case.toml", bare), "--out", folder / "out",
                      "--set", "joint.friction=5 deg", "--set", "run.displacement_limit=5 cm"});
     INFO(outcome.out);
     CHECK(outcome.status == 7);

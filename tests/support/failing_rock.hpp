@@ -25,7 +25,8 @@ struct DrawnInSpace {
   SimplePolygon section = circular_opening(4, 36);
   Solver<Spatial> tunnel;
 };
-[[nodiscard]] inline DrawnInSpace drawn_tunnel_in_space(std::uint64_t number) {
+/// @param size  of the blocks, over that drawn [-], > 0
+[[nodiscard]] inline DrawnInSpace drawn_tunnel_in_space(std::uint64_t number, double size = 1) {
   Random random(1910, number);
   const double span = 2.4 + random.uniform(), spacing = 0.9 + 0.2 * random.uniform();
   const SimplePolygon section =
@@ -34,8 +35,8 @@ struct DrawnInSpace {
   const double k0 = 0.5 + random.uniform(), cover = 8 + 40 * random.uniform();
   const double half = 1.45 * span, above = half - 0.5 * span;
   Solver<Spatial> tunnel(
-      jointed_mass({{-half, 0, -half}, {half, 0.9 * span, half}}, number, spacing,
-                   {.min_inscribed_radius = 0.2}),
+      jointed_mass({{-half, 0, -half}, {half, 0.9 * span, half}}, number, size * spacing,
+                   {.min_inscribed_radius = size * 0.2}),
       CoulombJoint({5e9, 1e9, friction}),
       {.density = 2700, .k0 = k0, .surcharge = 9.81 * 2700 * std::max(cover - above, 0.0)});
   tunnel.excavate(PrismaticOpening(section));
@@ -61,7 +62,8 @@ template <class Tunnel>
 /// By one procedure; the blocks in the order of their numbers.
 /// @param collapse  area, in 3-D per metre of tunnel, beyond which it is one [m^2]
 template <class Method, class Tunnel>
-[[nodiscard]] EquilibriumReport report_by(Tunnel tunnel, double collapse) {
+[[nodiscard]] EquilibriumReport report_by(Tunnel tunnel, double collapse,
+                                          const Method& method = Method()) {
   std::vector<double> measures;
   for (const auto& body : tunnel.mass().bodies) measures.push_back(body.properties.measure);
   measures.resize(static_cast<std::size_t>(tunnel.system().body_count()), 0.0);
@@ -69,7 +71,7 @@ template <class Method, class Tunnel>
   context.acceptance.collapse_measure = collapse;
   context.measures = &measures;
   context.open_length = open_length(tunnel.mass());
-  EquilibriumReport report = Method().find(detail::SystemOf::in(tunnel), context);
+  EquilibriumReport report = method.find(detail::SystemOf::in(tunnel), context);
   std::sort(report.fallen.begin(), report.fallen.end());
   return report;
 }
