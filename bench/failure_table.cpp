@@ -91,9 +91,7 @@ bool rests(Run& run, double limit) {
 
 void simulate(const Tunnel& tunnel, const Limits& limits, const Unloading& unloading,
               Answer& answer) {
-  auto run = set_in_motion(
-      tunnel,
-      {.local_damping = damping, .safety = unloading.safety, .points = ContactPoints::gauss});
+  auto run = set_in_motion(tunnel, {.local_damping = damping, .safety = unloading.safety});
   while (run.time() < longest) {
     const double done = std::min(run.time() / unloading.duration, 1.0);
     run.set_held(1 - done);

@@ -66,8 +66,7 @@ void hole_in_squares() {
           const auto field =
               field_of(boundary, elastic_matrix<2>({0.5 * young, 0}), Boundary::elastic);
           Solver<Planar, MohrCoulombJoint> tunnel(
-              rock, law, {.density = 0.01, .k0 = k0, .surcharge = pressure}, ContactPoints::gauss,
-              {}, field);
+              rock, law, {.density = 0.01, .k0 = k0, .surcharge = pressure}, {}, field);
           tunnel.excavate(circular_opening(2, 360), 1e-9);
           const SectionClosure closure = section_closure(elastic_wall_motion(tunnel));
           const FarStress far{pressure, k0};
@@ -105,7 +104,7 @@ void ring_in_squares() {
       const Domain<2> domain{{-box, -box}, {box, box}};
       Solver<Planar, MohrCoulombJoint, RockOnLining<MohrCoulombJoint>> tunnel(
           squares(domain, side), glued(stiffness, stiffness),
-          {.density = 1, .k0 = k0, .surcharge = pressure}, ContactPoints::gauss, {},
+          {.density = 1, .k0 = k0, .surcharge = pressure}, {},
           field_of("elastic", elastic_matrix<2>({0.5 * young, 0}), Boundary::elastic));
       tunnel.excavate(circular_opening(2 * radius, 360), 1e-9);
       const int nodes = 20 * blocks_per_radius;
@@ -178,8 +177,7 @@ void design_rock() {
             const auto rock = slice(domain_around(opening, width, 20, below), joints, {0.25, 5});
             const bool is_same = are_alike(near_blocks(rock), usual);
             const auto field = field_of(boundary, elastic_moduli(rock, law), Boundary::stress);
-            Solver<> tunnel(rock, law, {.density = 2700, .k0 = k0}, ContactPoints::gauss, {},
-                            field);
+            Solver<> tunnel(rock, law, {.density = 2700, .k0 = k0}, {}, field);
             tunnel.excavate(opening, 0.074);
             Verdict verdict = Verdict::stable;
             std::vector<WallMotion> wall;

@@ -39,11 +39,10 @@ void report(benchmark::State& state, std::size_t contacts, int steps) {
 }
 
 /// The design case, excavated at once and falling; `found`: contacts are updated.
-void plane(benchmark::State& state, bool found, ContactPoints points) {
+void plane(benchmark::State& state, bool found) {
   auto mass = carve(generate(voussoir::paper::mass_a), circular_opening(10), 0.074);
   auto run = moving_rock(mass, joint, InSitu{.density = 2700},
                          {.local_damping = 0.3,
-                          .points = points,
                           .find_contacts = found,
                           .threads = static_cast<unsigned>(state.range(0))});
   run.set_held(0);
@@ -88,7 +87,6 @@ void forces(benchmark::State& state) {
 }  // namespace
 
 BENCHMARK(forces)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(plane, fixed_gauss, false, ContactPoints::gauss)->Arg(1)->Arg(2)->UseRealTime();
-BENCHMARK_CAPTURE(plane, fixed_corners, false, ContactPoints::corners)->Arg(1)->UseRealTime();
-BENCHMARK_CAPTURE(plane, moving, true, ContactPoints::corners)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK_CAPTURE(plane, fixed, false)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK_CAPTURE(plane, moving, true)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(space)->Arg(1)->Arg(2)->UseRealTime();

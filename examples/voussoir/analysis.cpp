@@ -330,7 +330,7 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
                    .k0 = input.stress.K0,
                    .surcharge = input.stress.surcharge,
                    .gravity = input.model.gravity},
-                  ContactPoints::gauss, progress, far_field);
+                  progress, far_field);
     unbalance = tunnel.out_of_balance_ratio();
     tunnel.excavate(opening, input.blocks.min_wall_area, progress);
     return tunnel;

@@ -37,6 +37,7 @@
 #include <voussoir/rockmass/cut_contacts.hpp>
 #include <voussoir/rockmass/isotropic_sets.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
+#include <voussoir/rockmass/laid_blocks.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>

@@ -75,7 +75,9 @@ TEST_SUITE("dynamics/run_diagnostics") {
     CHECK(says(text, "block "));
     CHECK(says(text, " m/s"));
     CHECK(says(text, "stiffer than it says"));
-    Run limit = tower({.safety = 1});
+    // Where joints open and close again the step makes an error at each time, which near the stable
+    // step adds up; half of it is the default.
+    Run limit = tower({.safety = 0.5});
     CHECK(fault_of(limit, 20000) == "");
     CHECK(limit.kinetic_energy() < 100);  // J: the tower is dropped by 10 um, 120 kN
   }

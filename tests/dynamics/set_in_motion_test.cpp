@@ -33,7 +33,7 @@ using voussoir_test::small_rock;
 
 namespace {
 
-const DynamicsSettings damped{.local_damping = 0.8, .points = ContactPoints::gauss};
+const DynamicsSettings damped{.local_damping = 0.8};
 
 /// Relaxed to 0.6, bolted and lined, and in equilibrium at 0.
 /// @param stiff  times as stiff as usual are joints, bolts and lining
@@ -95,9 +95,10 @@ TEST_SUITE("dynamics/set_in_motion") {
     // 0.32 are seen.
     const double second_order = run.unbalance_over_weight();
     CHECK(second_order < 0.5);
-    // Ten times as stiff, a hundredth of the square with ten times the force.
+    // Ten times as stiff, a hundredth of the square with ten times the force; but in 3-D some
+    // joints are pressed at an edge alone, and that is where the faces end now: first order there.
     CHECK(set_in_motion(supported<Geometry>(70 * degree, 10), damped).unbalance_over_weight() <
-          0.15 * second_order);
+          (Geometry::dim == 2 ? 0.15 : 0.6) * second_order);
     run.advance_steps(1500);
     CHECK(run.unbalance_over_weight() < 0.02);
     tunnel.take_back(run);
@@ -139,14 +140,12 @@ TEST_SUITE("dynamics/set_in_motion") {
   }
 
   TEST_CASE("a run that unloads the wall ends where the search does") {
-    // Without slip, and with points at the corners, so that a joint opens once its edge does. With
-    // friction of 70 degrees or two points inside, one loose block at the wall comes to rest 0.04
-    // to 0.17 mm from where the search leaves it, and stays there: it has several places to lie.
-    Solver<> moved(small_rock<Planar>(), CoulombJoint({5e9, 5e8, 89.9 * degree}), small_in_situ,
-                   ContactPoints::corners),
+    // Without slip. With friction of 70 degrees one loose block at the wall comes to rest 0.04 to
+    // 0.17 mm from where the search leaves it, and stays there: it has several places to lie.
+    Solver<> moved(small_rock<Planar>(), CoulombJoint({5e9, 5e8, 89.9 * degree}), small_in_situ),
         sought = moved;
     for (Solver<>* tunnel : {&moved, &sought}) tunnel->excavate(small_opening<Planar>(), 0.02);
-    auto run = set_in_motion(moved, {.local_damping = 0.8, .points = ContactPoints::corners});
+    auto run = set_in_motion(moved, {.local_damping = 0.8});
     CHECK(run.held() == 1);
     CHECK(run.unbalance_over_weight() < 1e-6);  // in-situ stress, all of the wall held
     for (int k = 1; k <= 8; ++k) {
@@ -157,11 +156,11 @@ TEST_SUITE("dynamics/set_in_motion") {
     CHECK(moved.wall_fractions() == std::vector<double>{0});
     REQUIRE(sought.equilibrium().verdict == Verdict::stable);
     const double largest = sought.system().largest_translation(sought.system().displacement);
-    // 1.1 % are seen, of blocks that are out of balance by a tenth of their weight; 0.6 % after the
-    // search has gone on: joints open and close again on the way.
-    CHECK(farthest(moved, sought.system().displacement) < 0.03 * largest);
+    // 0.13 mm are seen, 9 %, of one loose block at the wall, which stays there after the search has
+    // gone on: joints open and close again on the way.
+    CHECK(farthest(moved, sought.system().displacement) < 0.12 * largest);
     REQUIRE(moved.equilibrium().verdict == Verdict::stable);
-    CHECK(farthest(moved, sought.system().displacement) < 0.03 * largest);
+    CHECK(farthest(moved, sought.system().displacement) < 0.12 * largest);
   }
 
   TEST_CASE("a run is composed of the policies of its solver, whatever their order") {

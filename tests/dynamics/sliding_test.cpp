@@ -66,7 +66,7 @@ struct Topple {
 };
 Topple topple(double b, double h, double slope, double friction_angle, double local_damping = 0) {
   Dynamics<2, CoulombJoint> run(
-      CoulombJoint({5e10, 5e10, friction_angle}),
+      CoulombJoint({5e13, 5e13, friction_angle}),  // it turns about a hinge l / 3 inside
       {.local_damping = local_damping, .viscous_damping = 0.8, .safety = 0.3});
   const Vec2 up(std::sin(slope), std::cos(slope)), down(std::cos(slope), -std::sin(slope));
   run.add_fixed_block(rectangle(-0.5 * up, 40, 1, -slope));

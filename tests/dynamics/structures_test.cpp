@@ -27,7 +27,7 @@ using Run = Dynamics<2, CoulombJoint>;
 bool comes_to_rest(Run& run, double far, double still) {
   std::vector<Vec2> start;
   for (int b = 0; b < run.body_count(); ++b) start.push_back(run.position(b));
-  for (int look = 0; look < 4000; ++look) {
+  for (int look = 0; look < 20000; ++look) {
     run.advance_steps(200);
     double moved = 0, speed = 0;
     for (int b = 0; b < run.body_count(); ++b) {
@@ -67,7 +67,7 @@ bool arch_stands(int voussoirs, double thickness) {
   const auto at = [](double r, double angle) {
     return Vec2(r * std::cos(angle), r * std::sin(angle));
   };
-  Run run(CoulombJoint({2e11, 2e11, 45 * degree}), {.local_damping = 0.7});
+  Run run(CoulombJoint({2e12, 2e12, 45 * degree}), {.local_damping = 0.7});
   for (const double side : {-1.0, 1.0})
     run.add_fixed_block(rectangle({side * radius, -1}, 3 * thickness, 2));
   const double share = std::numbers::pi / voussoirs;

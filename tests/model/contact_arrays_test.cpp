@@ -112,10 +112,11 @@ ContactGroup<Geometry, Law> random_contacts(bool shifted) {
     c.b = (k * 7 + 1 + k / 7) % body_count;
     if (c.a == c.b) c.b = (c.b + 1) % body_count;
     std::vector<typename Group::Point> points(static_cast<std::size_t>(1 + k % 5));
+    const double weight = 0.5 + 0.4 * number();  // one for all, as contacts have it
     for (auto& p : points) {
       p.offset = number.vector<dim>();
       if (!shifted) p.offset[0] = 0;
-      p.weight = 0.5 + 0.4 * number();
+      p.weight = weight;
       p.initial.normal = 1e5 * (1 + number());
       p.initial.tangential = 3e4 * number.vector<dim - 1>();
       if (shifted) p.start = 1e-5 * number.vector<dim>();
@@ -133,22 +134,25 @@ Eigen::VectorXd random_displacement() {
   return u;
 }
 
-/// By the formulas, point by point and in world axes. `largest` gets the sum of the magnitudes.
+/// By the formulas, point by point and in world axes: the normal force where the contact is pressed
+/// (model/pressed_part_test.cpp), the shear where its slip is. `largest` gets the sum of the
+/// magnitudes.
 template <class Group>
 Eigen::VectorXd point_by_point(const Group& group, const Eigen::VectorXd& u, double& largest) {
   constexpr int dim = Group::dim, dof = Group::dof;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
   largest = 0;
-  for (const auto& c : group.contacts())
-    for (const auto& p : group.points_of(c)) {
-      const Vec<dim> offset = c.offset_of(p);
-      const PointForce<dim> at = group.law_of(c).force(
-          PointLoad<dim>{p.weight, p.initial, c.motion(p, offset, u.data())}, p.state);
-      const Vec<dim> force = at.normal * c.normal + c.tangents() * at.tangential;
+  std::size_t k = 0;
+  group.visit(u.data(), [&](const auto& c, const auto& p, const auto&, const auto& at) {
+    const auto add = [&](const ReferencePoint<dim>& point, const Vec<dim>& force) {
+      const Vec<dim> offset = c.offset_of(point);
       add_force_at<dim>(f.data() + dof * c.b, c.arm_b + offset, force);
       add_force_at<dim>(f.data() + dof * c.a, c.arm_a + offset, -force);
       largest += force.norm();
-    }
+    };
+    add(p, at.normal * c.normal);
+    add(group.points().place(k++), c.tangents() * at.tangential);
+  });
   return f;
 }
 
@@ -288,7 +292,7 @@ TEST_SUITE("model/contact_arrays") {
 
   TEST_CASE("a contact and its points take few bytes") {
     CHECK(sizeof(ReferenceContact<2>) + 2 * sizeof(PointRecord<2>) == 128);
-    CHECK(sizeof(ReferenceContact<3>) + 4 * sizeof(PointRecord<3>) == 328);
+    CHECK(sizeof(ReferenceContact<3>) + 4 * sizeof(PointRecord<3>) == 352);
   }
 
   TEST_CASE("a contact with more points than its record can count is refused") {

@@ -63,12 +63,20 @@ template <class Group, class System>
 Eigen::VectorXd point_by_point(const Group& group, const System& system, const Eigen::VectorXd& u) {
   constexpr int dim = System::dim, dof = System::dof;
   Eigen::VectorXd f = Eigen::VectorXd::Zero(system.displacement.size());
+  const ReferenceContact<dim>* last = nullptr;
+  std::size_t k = 0;
   group.visit(u.data(), [&](const auto& c, const auto& p, const auto&, const auto& at) {
-    const Vec<dim> force = at.normal * c.normal + c.tangents() * at.tangential;
-    const Vec<dim> offset =
-        p.offset[0] * c.normal + c.tangents() * p.offset.template tail<dim - 1>();
-    add_force_at<dim>(f.data() + dof * c.b, c.arm_b + offset, force);
-    add_force_at<dim>(f.data() + dof * c.a, c.arm_a + offset, -force);
+    // On a joint that is open from an edge the normal force acts on the part that is pressed, the
+    // shear where the slip of the point is.
+    if (&c != last) k = static_cast<std::size_t>(c.first);
+    last = &c;
+    const auto add = [&](const ReferencePoint<dim>& point, const Vec<dim>& force) {
+      const Vec<dim> offset = c.offset_of(point);
+      add_force_at<dim>(f.data() + dof * c.b, c.arm_b + offset, force);
+      add_force_at<dim>(f.data() + dof * c.a, c.arm_a + offset, -force);
+    };
+    add(p, at.normal * c.normal);
+    add(group.points().place(k++), c.tangents() * at.tangential);
   });
   return f;
 }
@@ -101,37 +109,30 @@ Solver<Spatial> jointed_cube() {
 TEST_SUITE("model/contact_group") {
   TEST_CASE("points stand for the length or area of a contact, its middle and its second moment") {
     // By hand: L^3/12 of a segment about its middle, a^4/12 of a square about an axis.
-    const std::array<Vec2, 2> ends = {Vec2(3, 1), Vec2(3, 3)};
-    const std::array<Vec3, 4> square = {Vec3(0, 0, 5), Vec3(2, 0, 5), Vec3(2, 2, 5), Vec3(0, 2, 5)};
-    for (const ContactPoints rule : {ContactPoints::gauss, ContactPoints::corners}) {
-      std::vector<WeightedPoint<2>> on_line;
-      place_points(rule, ends, 2, on_line);
-      double length = 0, first = 0, second = 0;
-      for (const auto& p : on_line) {
-        CHECK(p.place.x() == doctest::Approx(3));
-        length += p.weight;
-        first += p.weight * (p.place.y() - 2);
-        second += p.weight * (p.place.y() - 2) * (p.place.y() - 2);
-      }
-      CHECK(length == doctest::Approx(2));
-      CHECK(std::abs(first) < 1e-15);
-      CHECK(second == doctest::Approx(8.0 / 12));
-      std::vector<WeightedPoint<3>> on_square;
-      place_points(rule, square, 4, on_square);
-      Vec3 moment = Vec3::Zero();
-      double area = 0, along_x = 0, along_y = 0;
-      for (const auto& p : on_square) {
-        const Vec3 arm = p.place - Vec3(1, 1, 5);
-        area += p.weight;
-        moment += p.weight * arm;
-        along_x += p.weight * arm.x() * arm.x();
-        along_y += p.weight * arm.y() * arm.y();
-      }
-      CHECK(area == doctest::Approx(4));
-      CHECK(moment.norm() < 1e-14);
-      CHECK(along_x == doctest::Approx(16.0 / 12));
-      CHECK(along_y == doctest::Approx(16.0 / 12));
+    const Segment ends{Vec2(3, 1), Vec2(3, 3)};
+    double length = 0, first = 0, second = 0;
+    for (const auto& p : ends.gauss_points()) {
+      CHECK(p.offset.x() == doctest::Approx(0));
+      length += p.weight;
+      first += p.weight * p.offset.y();
+      second += p.weight * p.offset.y() * p.offset.y();
     }
+    CHECK(length == doctest::Approx(2));
+    CHECK(std::abs(first) < 1e-15);
+    CHECK(second == doctest::Approx(8.0 / 12));
+    const SpatialFacet square{{Vec3(0, 0, 5), Vec3(2, 0, 5), Vec3(2, 2, 5), Vec3(0, 2, 5)}};
+    Vec3 moment = Vec3::Zero();
+    double area = 0, along_x = 0, along_y = 0;
+    for (const auto& p : square.gauss_points()) {
+      area += p.weight;
+      moment += p.weight * p.offset;
+      along_x += p.weight * p.offset.x() * p.offset.x();
+      along_y += p.weight * p.offset.y() * p.offset.y();
+    }
+    CHECK(area == doctest::Approx(4));
+    CHECK(moment.norm() < 1e-14);
+    CHECK(along_x == doctest::Approx(16.0 / 12));
+    CHECK(along_y == doctest::Approx(16.0 / 12));
   }
 
   TEST_CASE("contacts are in the order of their lower body when built, updated and removed") {
@@ -273,10 +274,9 @@ TEST_SUITE("model/contact_group") {
                    {.density = 2700});
     Solver<> second = first;
     CHECK_THROWS_AS(first.excavate(opening, 0.05, [](double) { return false; }), Stopped);
-    CHECK_THROWS_AS(
-        Solver<>(second.mass(), CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700}, opening,
-                 0.05, ContactPoints::gauss, [](double) { return false; }),
-        Stopped);
+    CHECK_THROWS_AS(Solver<>(second.mass(), CoulombJoint({5e9, 5e8, 35 * degree}),
+                             {.density = 2700}, opening, 0.05, [](double) { return false; }),
+                    Stopped);
     int asked = 0;
     second.excavate(opening, 0.05, [&](double) { return ++asked > 0; });
     CHECK(asked > 0);

@@ -11,6 +11,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/model/contact_update.hpp>
+#include <voussoir/model/pressed_part.hpp>
 
 #include "support/bolted_tunnel.hpp"
 #include "support/jointed_mass.hpp"
@@ -27,9 +28,9 @@ double unbalance(Tunnel& tunnel) {
   return tunnel.out_of_balance_ratio();
 }
 
-/// Which contact points are open by more than the reach, and of these which carry on none of the
-/// contacts before: none of the same two bodies, turned by less than 60 degrees, had a point there,
-/// as near as one point's share of the area is long.
+/// Which points are of contacts that are open by more than the reach wherever they are, and of
+/// these which carry on none of the contacts before: none of the same two bodies, turned by less
+/// than 60 degrees, had a point there, as near as one point's share of the area is long.
 /// @param moved  by how much points have moved against their bodies' centres at most [m]
 struct OpenPoints {
   int all = 0, new_ones = 0;
@@ -40,10 +41,16 @@ OpenPoints open_points(const Group& now, const Eigen::VectorXd& u, const Group& 
                        double reach, double moved) {
   constexpr int dim = Group::dim;
   OpenPoints open;
-  for (const auto& c : now.contacts())
+  for (const auto& c : now.contacts()) {
+    std::vector<double> pressed_in;
+    for (const auto& p : now.points_of(c))
+      pressed_in.push_back(-c.motion(p, c.offset_of(p), u.data()).opening);
+    const double deepest = pressed_in.size() == PressedPart<dim>::count
+                               ? PressedPart<dim>::deepest(pressed_in.data(), c.outline)
+                               : *std::max_element(pressed_in.begin(), pressed_in.end());
+    if (deepest >= -1.001 * reach) continue;  // the reach itself is met to rounding
     for (int k = c.first; k < c.last(); ++k) {
       const auto& p = now.points()[static_cast<std::size_t>(k)];
-      if (c.motion(p, c.offset_of(p), u.data()).opening <= reach) continue;
       ++open.all;
       bool known = false;
       for (const auto& old : before.contacts()) {
@@ -60,6 +67,7 @@ OpenPoints open_points(const Group& now, const Eigen::VectorXd& u, const Group& 
       }
       open.new_ones += !known;
     }
+  }
   return open;
 }
 

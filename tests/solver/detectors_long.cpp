@@ -49,8 +49,7 @@ template <class Geometry, class Detector>
 [[nodiscard]] Eigen::VectorXd in_motion() {
   Solver<Geometry, Detector> tunnel(small_rock<Geometry>(), joint, small_in_situ);
   tunnel.excavate(small_opening<Geometry>(), 0.02);
-  auto run =
-      set_in_motion(tunnel, {.local_damping = 0.8, .points = ContactPoints::gauss, .reach = 1e-3});
+  auto run = set_in_motion(tunnel, {.local_damping = 0.8, .reach = 1e-3});
   for (int k = 1; k <= 4; ++k) {
     run.set_held(1 - (1 - left<Geometry>)*k / 4.0);
     run.advance_steps(400);

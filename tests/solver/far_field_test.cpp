@@ -55,8 +55,7 @@ const double young = 1e10;
 SectionClosure hole_in_squares(double half_width, double side, double turn, double k0) {
   const Domain<2> box{{-half_width, -half_width}, {half_width, half_width}};
   Elastic tunnel(squares(box, side, turn), glued(young / side, young / side),
-                 {.density = 0.01, .k0 = k0, .surcharge = 1e6}, ContactPoints::gauss, {},
-                 ground_of_squares(young));
+                 {.density = 0.01, .k0 = k0, .surcharge = 1e6}, {}, ground_of_squares(young));
   tunnel.excavate(circular_opening(2, 360), 1e-9);
   return section_closure(elastic_wall_motion(tunnel));
 }
@@ -108,7 +107,7 @@ TEST_SUITE("solver/far_field") {
       const MohrCoulombJoint law = glued(5e9, 5e8);
       const FarField<2> field =
           is_elastic ? FarField<2>::elastic(elastic_moduli(rock, law)) : FarField<2>();
-      Elastic tunnel(rock, law, {.density = 2700, .k0 = 0.7}, ContactPoints::gauss, {}, field);
+      Elastic tunnel(rock, law, {.density = 2700, .k0 = 0.7}, {}, field);
       tunnel.excavate(opening, 0.02);
       return elastic_wall_motion(tunnel);
     };
@@ -141,9 +140,9 @@ TEST_SUITE("solver/far_field") {
   TEST_CASE_TEMPLATE("set in motion it rests, and comes back as it was", Geometry, Planar,
                      Spatial) {
     const Acceptance tight{.error_estimate = 1e-6, .unbalance_over_weight = 1e-5};
-    const DynamicsSettings settings{.local_damping = 0.8, .points = ContactPoints::gauss};
+    const DynamicsSettings settings{.local_damping = 0.8};
     Solver<Geometry> tunnel(small_rock<Geometry>(), CoulombJoint({5e9, 5e8, 40 * degree}),
-                            small_in_situ, ContactPoints::gauss, {}, around_tunnel<Geometry>());
+                            small_in_situ, {}, around_tunnel<Geometry>());
     CHECK(unbalance(tunnel) < 1e-9);
     tunnel.excavate(small_opening<Geometry>(), 0.02);
     REQUIRE(tunnel.equilibrium(0.3, {}, tight).verdict == Verdict::stable);
@@ -174,8 +173,7 @@ TEST_SUITE("solver/far_field") {
     const SimplePolygon heading = voussoir_test::box(-2, 0, 2, 2),
                         bench = voussoir_test::box(-2, -2, 2, 0),
                         whole = voussoir_test::box(-2, -2, 2, 2);
-    Elastic at_once(rock, elastic, voussoir_test::deep, ContactPoints::gauss, {}, field),
-        in_rounds = at_once;
+    Elastic at_once(rock, elastic, voussoir_test::deep, {}, field), in_rounds = at_once;
     at_once.excavate(whole, 1e-6);
     REQUIRE(at_once.equilibrium(0, {}, tight).verdict == Verdict::stable);
     in_rounds.excavate(heading, 1e-6);
@@ -190,8 +188,7 @@ TEST_SUITE("solver/far_field") {
     const auto rock = voussoir_test::jointed_rock(domain, 2);
     const auto moduli = elastic_moduli(rock, voussoir_test::elastic);
     const auto crown = [&](const FarField<2>& field) {
-      Elastic tunnel(rock, voussoir_test::elastic, voussoir_test::deep, ContactPoints::gauss, {},
-                     field);
+      Elastic tunnel(rock, voussoir_test::elastic, voussoir_test::deep, {}, field);
       CHECK(unbalance(tunnel) < 1e-8);
       tunnel.excavate(voussoir_test::box(-2, -2, 2, 2), 1e-6);
       return elastic_displacement(tunnel);
@@ -223,7 +220,7 @@ TEST_SUITE("solver/far_field") {
           joints.push_back({Segment{middle - 40 * along, middle + 40 * along}, set});
         }
       Elastic tunnel(slice(domain, joints, {.min_inscribed_radius = 0.01}), glued(5e9, 5e8),
-                     {.density = 2700, .surcharge = 1e6}, ContactPoints::gauss, {}, field);
+                     {.density = 2700, .surcharge = 1e6}, {}, field);
       tunnel.excavate(SimplePolygon({Vec2(-2, -2) + shift, Vec2(2, -2) + shift, Vec2(2, 2) + shift,
                                      Vec2(-2, 2) + shift}),
                       0.01);

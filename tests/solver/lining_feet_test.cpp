@@ -202,7 +202,7 @@ TEST_SUITE("solver/lining_feet") {
     tunnel.install_lining(lining_frame(tunnel.mass(), arch), shotcrete(), smooth, strong);
     REQUIRE(tunnel.equilibrium(0.3, {}, tight).verdict == Verdict::stable);
     const auto before = foot_forces(tunnel);
-    auto run = set_in_motion(tunnel, {.local_damping = 0.7, .points = ContactPoints::gauss});
+    auto run = set_in_motion(tunnel, {.local_damping = 0.7});
     tunnel.take_back(run);
     const auto after = foot_forces(tunnel);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -216,8 +216,7 @@ TEST_SUITE("solver/lining_feet") {
     const auto frame = lining_frame(still.mass(), arch);
     still.install_lining(frame, shotcrete(), smooth, strong);
     REQUIRE(still.equilibrium(0, {}, tight).verdict == Verdict::stable);
-    auto moving = moving_rock(still.mass(), joint, in_situ,
-                              {.local_damping = 0.8, .points = ContactPoints::gauss});
+    auto moving = moving_rock(still.mass(), joint, in_situ, {.local_damping = 0.8});
     const auto lining =
         add_lining<EulerBernoulliBeam>(moving, frame, {shotcrete()}, smooth, 0.2, strong);
     for (int k = 1; k <= 4; ++k) {
@@ -385,7 +384,7 @@ TEST_SUITE("solver/lining_feet") {
       CHECK(foot.bearing > 1e4);
       CHECK(std::abs(foot.place.z()) < 0.7);
     }
-    auto run = set_in_motion(tunnel, {.local_damping = 0.7, .points = ContactPoints::gauss});
+    auto run = set_in_motion(tunnel, {.local_damping = 0.7});
     tunnel.take_back(run);
     const auto after = foot_forces(tunnel);
     for (std::size_t k = 0; k < feet.size(); ++k)

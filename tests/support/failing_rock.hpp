@@ -82,8 +82,7 @@ template <class Method, class Tunnel>
 template <class Tunnel>
 [[nodiscard]] FailureAnswer all_blocks_in_motion(const Tunnel& tunnel, double limit,
                                                  double collapse, double duration, double safety) {
-  auto run = set_in_motion(
-      tunnel, {.local_damping = 0.7, .safety = safety, .points = ContactPoints::gauss});
+  auto run = set_in_motion(tunnel, {.local_damping = 0.7, .safety = safety});
   std::vector<int> fallen;
   while (run.time() < 30) {
     const double done = std::min(run.time() / duration, 1.0);

@@ -33,8 +33,7 @@ TEST_SUITE("tunnel/ring_in_ground") {
       CAPTURE(slips);
       Solver<Planar, MohrCoulombJoint, RockOnLining<MohrCoulombJoint>> tunnel(
           squares({{-box, -box}, {box, box}}, side, 20 * degree), glued(young / side, young / side),
-          {.density = 1, .k0 = k0, .surcharge = pressure}, ContactPoints::gauss, {},
-          ground_of_squares(young));
+          {.density = 1, .k0 = k0, .surcharge = pressure}, {}, ground_of_squares(young));
       tunnel.excavate(circular_opening(2 * radius, 360), 1e-9);
       const double shear = slips ? 1e-5 * normal : section.axial_stiffness / (4 * side * side);
       tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 200}), section,

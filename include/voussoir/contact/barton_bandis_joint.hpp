@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/shear_spring.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 
@@ -76,10 +76,7 @@ class BartonBandisJoint {
   }
 
   template <int Dim>
-  struct State {
-    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
-    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T at the last commit [N]
-  };
+  using State = ShearSpring<Dim>;
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
   explicit BartonBandisJoint(const Params& params) : BartonBandisJoint(params, any_units) {
@@ -145,21 +142,20 @@ class BartonBandisJoint {
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const double sigma = normal_stress(load);
-    return {sigma * load.weight,
-            -shear_stiffness(load) * load.weight * elastic_slip(load, state, sigma)};
+    return {sigma * load.weight, shear(load, state, sigma)};
   }
 
-  /// @return  the friction work [J]
+  /// @return  the friction work, and what shear loses where the joint has opened or closed [J]
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
-    const double sigma = normal_stress(load);
-    const Vec<Dim - 1> elastic = elastic_slip(load, state, sigma), all = spring_slip(load, state);
-    const Vec<Dim - 1> now = -shear_stiffness(load) * load.weight * elastic;
-    const Vec<Dim - 1> before = std::exchange(state.shear, now);
-    // Only a point that slides moves its spring: q stays bit for bit where it was otherwise.
-    if (elastic == all) return 0;
-    state.plastic_slip += all - elastic;
-    return -0.5 * (before + now).dot(all - elastic);
+    return state.commit(load, initial_shear(load), shear_stiffness(load),
+                        shear(load, state, normal_stress(load)));
+  }
+
+  /// Where the curve begins.
+  template <int Dim>
+  [[nodiscard]] double release_opening(const PointLoad<Dim>& load, const State<Dim>&) const {
+    return closure(load.initial.normal / load.weight);
   }
 
   /// The area under the closure curve, and T^2 / (2 k_s w), k_s a number of the point.
@@ -179,9 +175,10 @@ class BartonBandisJoint {
   /// Its shear spring is as stiff as the in-situ stress has made it. No wear: no damage.
   template <int Dim>
   [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    const double sigma = normal_stress(load);
-    const Vec<Dim - 1> sliding = spring_slip(load, state) - elastic_slip(load, state, sigma);
     const PointForce<Dim> now = force(load, state);
+    const double spring = shear_stiffness(load) * load.weight;
+    const Vec<Dim - 1> sliding =
+        load.motion.slip - state.plastic_slip + (now.tangential - initial_shear(load)) / spring;
     return {.normal = now.normal,
             .shear = now.tangential.norm(),
             .opening = load.motion.opening,
@@ -214,23 +211,20 @@ class BartonBandisJoint {
     const double in_situ = std::max(load.initial.normal / load.weight, 0.01 * p_.largest_stress);
     return std::min(peak_strength(in_situ) / peak_slip_, joint_shear_stiffness());
   }
-  /// s - q - e0
+  /// None where nothing presses in situ: there the curve has no shear to begin with.
   template <int Dim>
-  [[nodiscard]] Vec<Dim - 1> spring_slip(const PointLoad<Dim>& load,
-                                         const State<Dim>& state) const {
-    Vec<Dim - 1> slip = load.motion.slip - state.plastic_slip;
-    if (load.initial.normal > 0)
-      slip -= load.initial.tangential / (shear_stiffness(load) * load.weight);
-    return slip;
+  [[nodiscard]] static Vec<Dim - 1> initial_shear(const PointLoad<Dim>& load) {
+    return load.initial.normal > 0 ? load.initial.tangential : zeros<Vec<Dim - 1>>();
   }
-  /// The same, shortened to what the strength allows.
+  /// Of the spring, shortened to what the strength allows [N].
   template <int Dim>
-  [[nodiscard]] Vec<Dim - 1> elastic_slip(const PointLoad<Dim>& load, const State<Dim>& state,
-                                          double sigma) const {
-    Vec<Dim - 1> slip = spring_slip(load, state);
-    const double most = sigma > 0 ? peak_strength(sigma) / shear_stiffness(load) : 0.0;
-    if (const double length = slip.norm(); length > most) slip *= most / length;
-    return slip;
+  [[nodiscard]] Vec<Dim - 1> shear(const PointLoad<Dim>& load, const State<Dim>& state,
+                                   double sigma) const {
+    const Vec<Dim - 1> elastic = state.force(load, initial_shear(load), shear_stiffness(load));
+    const double most = sigma > 0 ? peak_strength(sigma) * load.weight : 0.0;
+    if (const double size = elastic.norm(); size > most)
+      return Vec<Dim - 1>(elastic * (most / size));
+    return elastic;
   }
 
   Params p_;

@@ -24,11 +24,15 @@ struct PointForce {
 
 /// A contact point as a law sees it: the length (2-D) or area (3-D) it stands for [m], [m^2], the
 /// force in the in-situ state, and the motion since.
+///
+/// Of a joint that is open from an edge on, all this is told of the part that is pressed
+/// (`PressedPart`): its points stand for that part alone.
 template <int Dim>
 struct PointLoad {
   double weight;
   PointForce<Dim> initial;
   PointMotion<Dim> motion;
+  double whole_over_part = 1;  ///< weight of the whole joint over that of its pressed part [-]
 };
 
 /// Two contact points in 2-D side by side, as `PointLoad` and `PointForce` have one.
@@ -95,6 +99,24 @@ concept HasJointStiffness = requires(const Law law) {
   { law.joint_shear_stiffness() } -> std::same_as<double>;
 };
 
+/// Optional: the law says itself at which opening a point lets go, since the in-situ state.
+template <class Law, int Dim>
+concept HasRelease = requires(const Law law, const PointLoad<Dim>& load,
+                              const typename Law::template State<Dim>& state) {
+  { law.release_opening(load, state) } -> std::same_as<double>;
+};
+
+/// The opening at which a point carries nothing any more [m]; infinity where it holds tension. Of a
+/// law that does not say: that of a linear normal spring.
+template <int Dim, class Law>
+[[nodiscard]] double release_opening(const Law& law, const PointLoad<Dim>& load,
+                                     const typename Law::template State<Dim>& state) {
+  if constexpr (HasRelease<Law, Dim>)
+    return law.release_opening(load, state);
+  else
+    return load.initial.normal / (law.joint_normal_stiffness() * load.weight);
+}
+
 /// Turns the motion at one contact point into a force. Reading and remembering are separate.
 ///
 /// What the compiler cannot check, and a law must still honour:
@@ -106,9 +128,14 @@ concept HasJointStiffness = requires(const Law law) {
 ///  admissible;
 ///  - no tangent stiffness exceeds weight * joint stiffness: time steps are derived from it.
 ///
+/// A joint that opens from an edge on hands the law points of its pressed part, whose weights
+/// change with it. A law whose shear spring shall make no energy as it closes again remembers how
+/// much was pressed when its history was last brought up to date (`ShearSpring`).
+///
 /// Optional: `ContactReport describe(const PointLoad<Dim>&, const State<Dim>&) const`, for a law
 /// that has damage to tell of, or whose shear stiffness is not one number (see
-/// `report_from_force`).
+/// `report_from_force`); `double release_opening(const PointLoad<Dim>&, const State<Dim>&) const`,
+/// for one whose normal force is not linear, or that holds tension.
 ///
 /// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
 /// BurgersJoint, SmoothWall (edge of the domain).

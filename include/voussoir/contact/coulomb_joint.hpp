@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/shear_spring.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/lane_pair.hpp>
@@ -18,7 +18,8 @@ namespace voussoir {
 ///   N = max(0, N0 - k_n w g)
 ///   T = T0 - k_s w (s - q), shortened to |T| <= N tan(phi)
 ///
-/// w weight of the point, g opening, s slip, q plastic slip (the only thing that forces depend on).
+/// w weight of the point, g opening, s slip, q plastic slip (the only thing of the past that forces
+/// depend on, unless the joint is open from an edge on: see `ShearSpring`).
 /// The normal force is in total form, so an opened joint closes again where it opened; the shear
 /// spring needs no turning along at the small rotations for which the contact topology is frozen.
 ///
@@ -36,10 +37,7 @@ class CoulombJoint {
   };
 
   template <int Dim>
-  struct State {
-    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
-    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T then, for the friction work alone [N]
-  };
+  using State = ShearSpring<Dim>;
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
   explicit CoulombJoint(const Params& params) : CoulombJoint(params, any_units) {
@@ -64,7 +62,9 @@ class CoulombJoint {
     const double normal =
         std::max(0.0, load.initial.normal -
                           params_.joint_normal_stiffness * load.weight * load.motion.opening);
-    return {normal, shortened(elastic_shear(load, state), friction_coefficient_ * normal)};
+    return {normal,
+            shortened(state.force(load, load.initial.tangential, params_.joint_shear_stiffness),
+                      friction_coefficient_ * normal)};
   }
 
   /// The same of two points, in lanes.
@@ -73,23 +73,20 @@ class CoulombJoint {
         larger(LanePair(0.0),
                load.initial_normal - params_.joint_normal_stiffness * load.weight * load.opening);
     const LanePair plastic_slip(two[0].plastic_slip.data()[0], two[1].plastic_slip.data()[0]);
-    const LanePair elastic = load.initial_shear - params_.joint_shear_stiffness * load.weight *
-                                                      (load.slip - plastic_slip);
+    LanePair elastic = load.initial_shear -
+                       params_.joint_shear_stiffness * load.weight * (load.slip - plastic_slip);
+    if (two[0].pressed < load.weight[0] || two[1].pressed < load.weight[1])
+      elastic = LanePair(elastic_in_lane(load, two, 0), elastic_in_lane(load, two, 1));
     const LanePair limit = friction_coefficient_ * normal;
     return {normal, smaller(larger(elastic, -limit), limit)};
   }
 
-  /// @return  the friction work T . dq [J], T the mean of now and the last commit
+  /// @return  the friction work T . dq, T the mean of now and the last commit, and what shear loses
+  ///          where the joint has opened or closed [J]
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
-    const PointForce<Dim> now = force(load, state);
-    const Vec<Dim - 1> before = std::exchange(state.shear, now.tangential);
-    // Only a point that slides moves its spring: q stays bit for bit where it was otherwise.
-    if (now.tangential == elastic_shear(load, state)) return 0;
-    const Vec<Dim - 1> from = state.plastic_slip;
-    state.plastic_slip = load.motion.slip + (now.tangential - load.initial.tangential) /
-                                                (params_.joint_shear_stiffness * load.weight);
-    return -0.5 * (before + now.tangential).dot(state.plastic_slip - from);
+    return state.commit(load, load.initial.tangential, params_.joint_shear_stiffness,
+                        force(load, state).tangential);
   }
 
   /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
@@ -106,18 +103,14 @@ class CoulombJoint {
   [[nodiscard]] double friction_coefficient() const { return friction_coefficient_; }
 
  private:
-  template <int Dim>
-  [[nodiscard]] Vec<Dim - 1> elastic_shear(const PointLoad<Dim>& load,
-                                           const State<Dim>& state) const {
-    // Number by number: g++ 12 loads as a pair what was just stored as two, and waits for it.
-    const double stiffness = params_.joint_shear_stiffness * load.weight;
-    Vec<Dim - 1> shear;
-    for (int k = 0; k < Dim - 1; ++k)
-      shear.data()[k] = load.initial.tangential.data()[k] -
-                        stiffness * (load.motion.slip.data()[k] - state.plastic_slip.data()[k]);
-    return shear;
+  /// Shear of one of two points before it is shortened, where part of the joint has closed.
+  [[nodiscard]] double elastic_in_lane(const PairLoad& load, const State<2>* two, int k) const {
+    PointLoad<2> one;
+    one.weight = load.weight[k];
+    one.initial.tangential.data()[0] = load.initial_shear[k];
+    one.motion.slip.data()[0] = load.slip[k];
+    return two[k].force(one, one.initial.tangential, params_.joint_shear_stiffness)[0];
   }
-
   [[nodiscard]] static Vec<1> shortened(const Vec<1>& shear, double limit) {
     return Vec<1>(std::clamp(shear[0], -limit, limit));
   }

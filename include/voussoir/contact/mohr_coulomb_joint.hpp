@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <utility>
 #include <voussoir/contact/contact_law.hpp>
+#include <voussoir/contact/shear_spring.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 
@@ -46,10 +47,10 @@ class MohrCoulombJoint {
   };
 
   template <int Dim>
-  struct State {
-    Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
-    Vec<Dim - 1> shear = zeros<Vec<Dim - 1>>();         ///< T at the last commit [N]
-    double path = 0;                                    ///< Q [m]
+  struct State : ShearSpring<Dim> {
+    double path = 0;  ///< Q [m]
+    /// Least weight that was ever pressed: what has opened has lost its bond [m], [m^2].
+    double bonded = std::numeric_limits<double>::infinity();
     bool failed = false;
   };
 
@@ -103,23 +104,18 @@ class MohrCoulombJoint {
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const PointForce<Dim> trial = elastic_force(load, state);
-    return holds(trial, load.weight, state.failed) ? trial : respond(load, state).force;
+    return holds(trial, load, state) ? trial : respond(load, state).force;
   }
 
   /// @return  work of slip less what dilation stores, and what breaking in tension sets free [J]
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
     const Response<Dim> now = respond(load, state);
-    const Vec<Dim - 1> before = std::exchange(state.shear, now.force.tangential);
-    double lost = 0;
-    if (now.slip > 0 || now.opens) {
-      const Vec<Dim - 1> from = state.plastic_slip;
-      state.plastic_slip = load.motion.slip + (now.force.tangential - load.initial.tangential) /
-                                                  (p_.joint_shear_stiffness * load.weight);
-      lost = -0.5 * (before + now.force.tangential).dot(state.plastic_slip - from) -
-             now.force.normal * (dilation(state.path + now.slip) - dilation(state.path));
-      state.path += now.slip;  // what an open joint slips wears no teeth
-    }
+    double lost =
+        state.commit(load, load.initial.tangential, p_.joint_shear_stiffness, now.force.tangential);
+    lost -= now.force.normal * (dilation(state.path + now.slip) - dilation(state.path));
+    state.path += now.slip;  // what an open joint slips wears no teeth
+    state.bonded = std::min(state.bonded, load.weight);
     if (now.opens && !state.failed)
       lost +=
           0.5 * load.weight * p_.tensile_strength * p_.tensile_strength / p_.joint_normal_stiffness;
@@ -128,6 +124,14 @@ class MohrCoulombJoint {
     // It slips on at once to what it still carries: a spring left at the peak would come back to it
     // as soon as the joint is pressed, with energy from nowhere.
     return lost + commit(load, state);
+  }
+
+  /// Where the bond holds, no opening; else where the normal spring, lifted by the dilation so far,
+  /// lets go.
+  template <int Dim>
+  [[nodiscard]] double release_opening(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    if (!state.failed && p_.tensile_strength > 0) return std::numeric_limits<double>::infinity();
+    return load.initial.normal / (p_.joint_normal_stiffness * load.weight) + dilation(state.path);
   }
 
   /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
@@ -174,8 +178,7 @@ class MohrCoulombJoint {
     const double w = load.weight;
     return {load.initial.normal -
                 p_.joint_normal_stiffness * w * (load.motion.opening - dilation(state.path)),
-            load.initial.tangential -
-                p_.joint_shear_stiffness * w * (load.motion.slip - state.plastic_slip)};
+            state.force(load, load.initial.tangential, p_.joint_shear_stiffness)};
   }
   [[nodiscard]] double tensile_strength(double weight, bool failed) const {
     return failed ? 0.0 : weight * p_.tensile_strength;
@@ -183,15 +186,20 @@ class MohrCoulombJoint {
   [[nodiscard]] double friction_coefficient(bool failed) const {
     return failed ? residual_friction_coefficient_ : friction_coefficient_;
   }
-  [[nodiscard]] double shear_strength(double normal, double weight, bool failed) const {
-    const double cohesion = weight * (failed ? p_.residual_cohesion : p_.cohesion);
-    return std::max(0.0, cohesion + friction_coefficient(failed) * normal);
+  /// Of the bond, as far as the joint has never been open, and of what is left of it elsewhere [N].
+  template <int Dim>
+  [[nodiscard]] double cohesion(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    if (state.failed) return load.weight * p_.residual_cohesion;
+    const double bonded = std::min(1.0, state.bonded / load.weight);
+    return load.weight * (bonded * p_.cohesion + (1 - bonded) * p_.residual_cohesion);
   }
   /// True where a force is within both strengths: nearly everywhere, and without a root.
   template <int Dim>
-  [[nodiscard]] bool holds(const PointForce<Dim>& force, double weight, bool failed) const {
-    const double strength = shear_strength(force.normal, weight, failed);
-    return force.normal >= -tensile_strength(weight, failed) &&
+  [[nodiscard]] bool holds(const PointForce<Dim>& force, const PointLoad<Dim>& load,
+                           const State<Dim>& state) const {
+    const double strength =
+        std::max(0.0, cohesion(load, state) + friction_coefficient(state.failed) * force.normal);
+    return force.normal >= -tensile_strength(load.weight, state.failed) &&
            force.tangential.squaredNorm() <= strength * strength;
   }
 
@@ -199,7 +207,7 @@ class MohrCoulombJoint {
   [[nodiscard]] Response<Dim> respond(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const double w = load.weight, kn = p_.joint_normal_stiffness * w,
                  ks = p_.joint_shear_stiffness * w, mu = friction_coefficient(state.failed),
-                 cohesion = w * (state.failed ? p_.residual_cohesion : p_.cohesion),
+                 cohesion = this->cohesion(load, state),
                  least_normal = -tensile_strength(w, state.failed);
     Response<Dim> r;
     r.force = elastic_force(load, state);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/model/contact_points.hpp>
 
 namespace voussoir {
 
@@ -14,9 +13,8 @@ struct DynamicsSettings {
   double viscous_damping = 0;  ///< normal dashpots at contacts, ratio to critical [-], >= 0
   double safety = 0.5;         ///< of the stable step [-], 0 < safety <= 1
   double time_step = 0;        ///< [s]; 0: safety times the stable step
-  ContactPoints points = ContactPoints::corners;
-  bool find_contacts = true;  ///< false: the contacts stay those of the beginning
-  double reach = 0;           ///< contacts are listed up to this gap [m]; 0: 2 % of the mean radius
+  bool find_contacts = true;   ///< false: the contacts stay those of the beginning
+  double reach = 0;  ///< contacts are listed up to this gap [m]; 0: 2 % of the mean radius
   /// Bodies of a contact move so far before its contact update [m]; 0: a quarter of the reach.
   double refresh = 0;
   double overlap_limit = 0.3;  ///< of the smaller block's radius, beyond which the run stops [-]

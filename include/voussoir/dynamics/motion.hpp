@@ -62,7 +62,7 @@ class Motion : public MovingBodies<Dim> {
          const DynamicsSettings& settings)
       : settings_(settings),
         network_(std::move(laws), wall_stiffness, std::move(interface_laws), std::move(law_of_cut),
-                 settings.points, settings.viscous_damping),
+                 settings.viscous_damping),
         stepping_(settings.threads) {
     settings.check();
   }

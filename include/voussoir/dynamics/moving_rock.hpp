@@ -50,8 +50,7 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
   {
     detail::LawsAside<decltype(system)> aside(system);
     detail::make_model<Detector>(*aside, std::make_shared<const RockMass<Geometry>>(mass), in_situ,
-                                 far_field, settings.points, laws.of_cuts(mass), around, measures,
-                                 {});
+                                 far_field, laws.of_cuts(mass), around, measures, {});
   }
   auto run = set_in_motion(system, settings);
   run.hold();

@@ -10,6 +10,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/model/moving_bodies.hpp>
+#include <voussoir/model/pressed_part.hpp>
 
 namespace voussoir::detail {
 
@@ -77,18 +78,17 @@ class RunDiagnostics {
                           : a.movable()              ? a.radius
                                                      : b.radius;
       const auto at = c.place(a.pose, b.pose);
-      for (int i = c.first; i < c.last; ++i) {
-        const double overlap =
-            c.uncounted - group.points()[static_cast<std::size_t>(i)].motion(at).opening;
-        if (!(overlap > overlap_limit_ * size)) continue;
+      if (c.first == c.last) return;
+      const auto points = group.points_of(c);
+      const double overlap =
+          c.uncounted + detail::deepest<Dim>(c, points.data(), points.size(), at);
+      if (overlap > overlap_limit_ * size)
         text = name_of(ib) + " overlaps " + name_of(ia) + " by " +
                message_number(1e3 * overlap, 3) + " mm, more than " +
                message_number(100 * overlap_limit_, 3) + " % of its radius of " +
                message_number(size, 3) +
                " m; the joint is too soft for what presses on it or strikes it (raise "
                "joint_normal_stiffness), or the blocks overlapped from the beginning";
-        return;
-      }
     });
     return text;
   }

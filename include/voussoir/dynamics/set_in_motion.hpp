@@ -83,7 +83,10 @@ class Handover {
     }
     for (int b = 0; b < system_.body_count(); ++b) {
       run.place(b, system_.motion_of(b));
-      if (system_.body(b).is_gone) run.leave_out(b);
+      if (system_.body(b).is_gone)
+        run.leave_out(b);
+      else if (system_.body(b).is_block && !system_.body(b).movable)
+        run.fix(b);
     }
   }
 
@@ -247,7 +250,7 @@ void take_from_run(typename MotionOf<System>::type& run, System& system,
 ///
 /// A lining is touched there by rock that lands on it, too: its nodes have tiles as thick as its
 /// section (`LiningSection::thickness`), and its mass must be given. Contacts are found anew where
-/// bodies are, as a contact update does; with `ContactPoints::gauss` forces and moments are those
+/// bodies are, as a contact update does; forces and moments are those
 /// at rest, to second order of the displacements since contacts were last updated.
 /// @param settings  gravity as that of the weights
 /// @throws InvalidInput  a body without shape; a lining without mass or thickness

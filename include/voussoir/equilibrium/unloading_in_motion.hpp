@@ -114,7 +114,6 @@ class UnloadingInMotion {
         run_(set_in_motion(system, {.gravity = context.gravity,
                                     .local_damping = tuning.local_damping,
                                     .safety = tuning.safety,
-                                    .points = ContactPoints::gauss,
                                     .overlap_limit = 0.5,
                                     .check_every = sound_every,
                                     .goes_back = false,

@@ -48,6 +48,7 @@ class ConvexPolygon {
   [[nodiscard]] const std::vector<Vec2>& vertices() const { return vertices_; }
   [[nodiscard]] const Vec2& vertex(std::size_t k) const { return vertices_[k]; }
   [[nodiscard]] int cut(std::size_t face) const { return cuts_[face]; }
+  void set_cut(std::size_t face, int cut) { cuts_[face] = cut; }
   [[nodiscard]] Segment face(std::size_t k) const {
     VOUSSOIR_ASSERT(k < size(), "a face is one of the polygon");
     return {vertices_[k], vertices_[k + 1 == size() ? 0 : k + 1]};

@@ -59,6 +59,7 @@ class ConvexPolyhedron {
   [[nodiscard]] const std::vector<Vec3>& vertices() const { return surface_.vertices; }
   [[nodiscard]] const Vec3& vertex(std::size_t k) const { return surface_.vertices[k]; }
   [[nodiscard]] int cut(std::size_t face) const { return surface_.faces[face].cut; }
+  void set_cut(std::size_t face, int cut) { surface_.faces[face].cut = cut; }
   /// Vertices of a face by number, anticlockwise seen from outside.
   [[nodiscard]] std::span<const int> loop(std::size_t face) const {
     return surface_.loop(surface_.faces[face]);

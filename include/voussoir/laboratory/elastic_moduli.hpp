@@ -11,7 +11,6 @@
 #include <voussoir/farfield/elastic_matrix.hpp>
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/linear/small_inverse.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/small_displacement.hpp>
@@ -40,8 +39,7 @@ class StrainedMass {
     const InSitu unstressed{.density = 1};
     const FarField<dim> rollers;
     std::vector<double> measures;
-    InitialModel<CutContacts, System<Geometry, JointLaw>> model(mass, unstressed, rollers,
-                                                                ContactPoints::gauss, system_);
+    InitialModel<CutContacts, System<Geometry, JointLaw>> model(mass, unstressed, rollers, system_);
     model.add_bodies(measures);
     model.add_contacts(laws.of_cuts(mass));
     const int ground = system_.body_count() - 1;

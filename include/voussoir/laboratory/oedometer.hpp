@@ -10,7 +10,6 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
@@ -63,8 +62,7 @@ struct Press {
     // compared with, that of the stresses that are meant.
     const InSitu meant{.density = 1e4, .gravity = 1};
     const FarField<dim> rollers;
-    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, rollers,
-                                                             ContactPoints::gauss, system);
+    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, rollers, system);
     model.add_bodies(measures);
     model.add_contacts(LawsBySet<JointLaw>(joint_law).of_cuts(mass));
     std::fill(system.load.data(), system.load.data() + system.load.size(), 0.0);
@@ -95,13 +93,22 @@ struct Press {
   ///               opening, which is linear
   [[nodiscard]] OedometerResult read(double motion, bool opens) {
     double axial = 0, lateral = 0;  // forces on the walls [N]
-    system.boundary.visit(system.displacement.data(),
-                          [&](const auto& contact, const auto&, const auto& load, const auto&) {
-                            double force = -wall_stiffness * load.weight * load.motion.opening;
-                            if (opens) force = std::fmax(force, 0.0);
-                            if (contact.b == platen) axial += force;
-                            if (std::abs(contact.normal.dot(outward)) < 0.5) lateral += force;
-                          });
+    const auto add = [&](const auto& contact, double force) {
+      if (contact.b == platen) axial += force;
+      if (std::abs(contact.normal.dot(outward)) < 0.5) lateral += force;
+    };
+    if (opens) {
+      system.boundary.visit(system.displacement.data(),
+                            [&](const auto& contact, const auto&, const auto&, const auto& force) {
+                              add(contact, force.normal);
+                            });
+    } else {
+      for (const auto& contact : system.boundary.contacts())
+        for (const auto& p : system.boundary.points_of(contact))
+          add(contact,
+              -wall_stiffness * p.weight *
+                  contact.motion(p, contact.offset_of(p), system.displacement.data()).opening);
+    }
     OedometerResult result{};
     result.stress_axial = axial / platen_area;
     result.stress_lateral = lateral / lateral_area;

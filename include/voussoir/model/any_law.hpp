@@ -23,7 +23,7 @@ namespace detail {
 /// Makes and copies what a law remembers. There is one for every type, which outlives all of them.
 class StateModel {
  public:
-  static constexpr std::size_t most_bytes = 64, alignment = 16;
+  static constexpr std::size_t most_bytes = 80, alignment = 16;
 
   explicit StateModel(std::size_t size) : size_(size) {}
   StateModel(const StateModel&) = delete;
@@ -147,6 +147,8 @@ class LawModel {
   virtual double commit(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual double stored_energy(const PointLoad<Dim>& load,
                                              const void* state) const = 0;
+  [[nodiscard]] virtual double release_opening(const PointLoad<Dim>& load,
+                                               const void* state) const = 0;
   /// See `detail::commit_point` and `detail::tangent_at`.
   virtual bool commit_point(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual Stress<Dim> tangent_at(const PointLoad<Dim>& load,
@@ -210,6 +212,9 @@ class AnyLaw {
   }
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const AnyState& state) const {
     return model_->stored_energy(load, state.of(model_->states()));
+  }
+  [[nodiscard]] double release_opening(const PointLoad<Dim>& load, const AnyState& state) const {
+    return model_->release_opening(load, state.of(model_->states()));
   }
   [[nodiscard]] double joint_normal_stiffness() const { return normal_stiffness_; }
   [[nodiscard]] double joint_shear_stiffness() const { return shear_stiffness_; }

@@ -17,6 +17,7 @@
 #include <voussoir/model/contact_arrays.hpp>
 #include <voussoir/model/contact_kernel.hpp>
 #include <voussoir/model/detail/law_steps.hpp>
+#include <voussoir/model/pressed_part.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
@@ -146,11 +147,10 @@ class ContactGroup {
   template <class CreepLaw = Law>
   requires CreepingLaw<CreepLaw, dim>
   void creep(const double* u, double time) {
-    for_each_point(
-        [&](const Contact& c, std::size_t k, const ReferencePoint<dim>& p, const Vec<dim>& offset) {
-          law_of(c).creep({p.weight, p.initial, c.motion(p, offset, u)}, points_.states().data()[k],
-                          time);
-        });
+    for (const Contact& c : contacts_)
+      visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
+        law_of(c).creep(load, points_.states().data()[k], time);
+      });
   }
 
   /// Hands the elastic (closed, sticking) stiffness of each contact to `sink(a, b, aa, ab, bb)`.
@@ -189,37 +189,62 @@ class ContactGroup {
     for (const int number : which) {
       const Contact& c = contacts_[static_cast<std::size_t>(number)];
       Block aa = zeros<Block>(), ab = zeros<Block>(), ba = zeros<Block>(), bb = zeros<Block>();
-      for (int k = c.first; k < c.last(); ++k) {
-        const Point p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = c.offset_of(p);
-        const Stress<dim> stiffness = detail::tangent_at<dim>(
-            law_of(c), {p.weight, p.initial, c.motion(p, offset, u)}, p.state);
-        Rows a, b;
-        for (int l = 0; l < dim; ++l) {
-          const Vec<dim> axis = l == 0 ? c.normal : column(c.tangents(), l - 1);
-          set_column(a, l, stacked(axis, moment_of(c.arm_a + offset, axis)));
-          set_column(b, l, stacked(axis, moment_of(c.arm_b + offset, axis)));
-        }
-        const Rows sa = a * stiffness, sb = b * stiffness;
-        aa += sa * transposed(a);
-        ab -= sa * transposed(b);
-        ba -= sb * transposed(a);
-        bb += sb * transposed(b);
-      }
+      bool is_whole = true;
+      visit_loads(
+          c, u,
+          [&](std::size_t k, const auto&, const Vec<dim>& offset, const PointLoad<dim>& load) {
+            is_whole = is_whole && load.whole_over_part == 1;
+            if (!is_whole) return;
+            const Stress<dim> stiffness =
+                detail::tangent_at<dim>(law_of(c), load, points_.states().value(k));
+            Rows a, b;
+            for (int l = 0; l < dim; ++l) {
+              const Vec<dim> axis = l == 0 ? c.normal : column(c.tangents(), l - 1);
+              set_column(a, l, stacked(axis, moment_of(c.arm_a + offset, axis)));
+              set_column(b, l, stacked(axis, moment_of(c.arm_b + offset, axis)));
+            }
+            const Rows sa = a * stiffness, sb = b * stiffness;
+            aa += sa * transposed(a);
+            ab -= sa * transposed(b);
+            ba -= sb * transposed(a);
+            bb += sb * transposed(b);
+          });
+      if (!is_whole) difference(c, u, aa, ab, ba, bb);
       sink(c.a, c.b, aa, ab, ba, bb);
     }
   }
 
-  /// Calls visit(contact, point, load, force) for every point at displacement `u`.
+  /// Calls visit(contact, point, load, force) for every point at displacement `u`; where a joint is
+  /// open from one edge on, those of its pressed part.
   template <class Visit>
   void visit(const double* u, Visit&& visit) const {
     for (const Contact& c : contacts_)
-      for (int k = c.first; k < c.last(); ++k) {
-        const Point p = points_[static_cast<std::size_t>(k)];
-        const Vec<dim> offset = c.offset_of(p);
-        const PointLoad<dim> load{p.weight, p.initial, c.motion(p, offset, u)};
-        visit(c, p, load, law_of(c).force(load, p.state));
-      }
+      visit_loads(c, u,
+                  [&](std::size_t k, const ReferencePoint<dim>& at, const auto&,
+                      const PointLoad<dim>& load) {
+                    Point p = points_[k];
+                    static_cast<ReferencePoint<dim>&>(p) = at;
+                    visit(c, p, load, law_of(c).force(load, p.state));
+                  });
+  }
+
+  /// Sum of the shear forces of a contact at displacement `u` [N].
+  /// @param points  of the contact, here or to be
+  [[nodiscard]] Vec<dim - 1> shear_of(const Contact& c, std::span<const Point> points,
+                                      const double* u) const {
+    Vec<dim - 1> sum = zeros<Vec<dim - 1>>();
+    detail::visit_pressed<dim>(
+        points.size(), c.outline, [&](std::size_t k) { return points[k]; },
+        [&](const auto& p) {
+          return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
+        },
+        [&](std::size_t k, const PointLoad<dim>& load) {
+          return release_opening<dim>(law_of(c), load, points[k].state);
+        },
+        [&](std::size_t k, const auto&, const PointLoad<dim>& load) {
+          sum += law_of(c).force(load, points[k].state).tangential;
+        });
+    return sum;
   }
 
   /// Forgets the contacts of bodies for which `gone(body)` holds.
@@ -257,6 +282,9 @@ class ContactGroup {
     task.states = points_.states().data();
     task.u = u;
     task.f = f;
+    add_forces(task);
+  }
+  void add_forces(detail::ForceTask<dim>& task) const {
     if constexpr (is_any_law<Law>) {
       task.laws = laws_.data();
       laws_.front().model().add_forces(task);
@@ -269,6 +297,38 @@ class ContactGroup {
     if constexpr (is_any_law<Law>)
       if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
   }
+
+  [[nodiscard]] static PointMotion<dim> motion_of(const Contact& c, const ReferencePoint<dim>& p,
+                                                  const double* u) {
+    return c.motion(p, c.offset_of(p), u);
+  }
+  [[nodiscard]] double release_of(const Contact& c, std::size_t k,
+                                  const PointLoad<dim>& load) const {
+    if constexpr (is_any_law<Law>)
+      return law_of(c).model().release_opening(load, points_.states().at(k));
+    else
+      return release_opening<dim>(law_of(c), load, points_.states().data()[k]);
+  }
+  /// Calls visit(number of the point, point, offset, load) for the points of a contact at
+  /// displacement `u`, on its pressed part.
+  template <class Visit>
+  void visit_loads(const Contact& c, const double* u, Visit&& visit) const {
+    const auto first = static_cast<std::size_t>(c.first);
+    detail::visit_pressed<dim>(
+        c.count, c.outline, [&](std::size_t k) { return points_.place(first + k); },
+        [&](const auto& p) {
+          return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
+        },
+        [&](std::size_t k, const PointLoad<dim>& load) { return release_of(c, first + k, load); },
+        [&](std::size_t k, const ReferencePoint<dim>& p, const PointLoad<dim>& load) {
+          visit(first + k, p, c.offset_of(p), load);
+        });
+  }
+  /// The tangent of a contact that is open from one edge on, where the part that is pressed changes
+  /// with the motion: by differences of all its forces.
+  template <class Block>
+  void difference(const Contact& c, const double* u, Block& aa, Block& ab, Block& ba,
+                  Block& bb) const;
 
   /// Calls visit(contact, number of the point, point, offset) for every point.
   template <class Visit>
@@ -301,6 +361,7 @@ void ContactGroup<Geometry, Law>::add(int a, int b, const Area& area, const Vec<
   contact.a = a;
   contact.b = b;
   contact.set_points(static_cast<int>(points_.size()), at.size());
+  contact.outline = detail::kept_outline(area, area.centre(), at.data(), at.size());
   for (const FacetPoint<dim>& point : at) {
     Point p;
     p.offset = stacked(0.0, transposed(tangents) * point.offset);
@@ -333,15 +394,55 @@ void ContactGroup<Geometry, Law>::take_contacts(ContactGroup<Geometry, Other>& f
 template <class Geometry, class Law>
 int ContactGroup<Geometry, Law>::commit(const double* u) {
   int weakened = 0;
-  for_each_point([&](const Contact& c, std::size_t k, const ReferencePoint<dim>& p,
-                     const Vec<dim>& offset) {
-    const PointLoad<dim> load{p.weight, p.initial, c.motion(p, offset, u)};
-    if constexpr (is_any_law<Law>)
-      weakened += law_of(c).model().commit_point(load, points_.states().at(k)) ? 1 : 0;
-    else
-      weakened += detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]) ? 1 : 0;
-  });
+  for (const Contact& c : contacts_)
+    visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
+      if constexpr (is_any_law<Law>)
+        weakened += law_of(c).model().commit_point(load, points_.states().at(k)) ? 1 : 0;
+      else
+        weakened += detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]) ? 1 : 0;
+    });
   return weakened;
+}
+
+template <class Geometry, class Law>
+template <class Block>
+void ContactGroup<Geometry, Law>::difference(const Contact& c, const double* u, Block& aa,
+                                             Block& ab, Block& ba, Block& bb) const {
+  Contact alone = c;
+  alone.a = 0;
+  alone.b = 1;
+  std::array<double, 2 * dof> at;
+  std::copy_n(u + dof * c.a, dof, at.begin());
+  std::copy_n(u + dof * c.b, dof, at.begin() + dof);
+  detail::ForceTask<dim> task;
+  task.contacts = &alone;
+  task.count = 1;
+  task.records = points_.records();
+  task.shifts = points_.shifts();
+  // The task has room for a history that is brought up to date, too; this one reads.
+  task.states = const_cast<void*>(static_cast<const void*>(points_.states().data()));
+  task.u = at.data();
+  const auto forces = [&] {
+    std::array<double, 2 * dof> f{};
+    task.f = f.data();
+    add_forces(task);
+    return f;
+  };
+  const double arm = std::max(c.arm_a.norm(), c.arm_b.norm());
+  for (int col = 0; col < 2 * dof; ++col) {
+    double& entry = at[static_cast<std::size_t>(col)];
+    const double step = col % dof < dim ? 1e-12 : 1e-12 / arm, before = entry;
+    entry = before + step;
+    const auto up = forces();
+    entry = before - step;
+    const auto down = forces();
+    entry = before;
+    for (int row = 0; row < 2 * dof; ++row) {
+      Block& block = row < dof ? (col < dof ? aa : ab) : (col < dof ? ba : bb);
+      const auto r = static_cast<std::size_t>(row);
+      block(row % dof, col % dof) = (down[r] - up[r]) / (2 * step);
+    }
+  }
 }
 
 }  // namespace voussoir

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/contact_arrays.hpp>
+#include <voussoir/model/pressed_part.hpp>
 #include <voussoir/model/reference_contact.hpp>
 #include <voussoir/model/small_displacement.hpp>
 
@@ -43,13 +45,16 @@ class ContactKernel {
   }
 
  private:
-  /// A point's force, its history brought up to date if asked.
-  /// @param load  its motion, the rest is filled in
-  [[nodiscard]] PointForce<Dim> react(const Law& law, std::size_t k, PointLoad<Dim>& load) const {
+  /// What a point carries in the in-situ state.
+  void read(std::size_t k, PointLoad<Dim>& load) const {
     const PointRecord<Dim>& r = records_[k];
     load.weight = r.weight;
     load.initial.normal = r.initial_normal;
     for (int m = 0; m < Dim - 1; ++m) load.initial.tangential.data()[m] = r.initial_tangential[m];
+  }
+  /// A point's force, its history brought up to date if asked.
+  [[nodiscard]] PointForce<Dim> react(const Law& law, std::size_t k,
+                                      const PointLoad<Dim>& load) const {
     const PointForce<Dim> at = law.force(load, states_[k]);
     if constexpr (std::is_same_v<History, Committing>) law.commit(load, states_[k]);
     return at;
@@ -62,19 +67,28 @@ class ContactKernel {
   struct PlaneSums {
     double normal = 0, tangential = 0, moment = 0;
   };
-  void add_point(const Law& law, std::size_t k, const PlaneMotion& motion, PlaneSums& sums) const
-      requires(Dim == 2) {
-    const double along = records_[k].along[0];
+  /// A point in the plane: where it is, and its load.
+  struct PlanePoint {
+    double along, height = 0;
     PointLoad<2> load;
-    load.motion.opening = motion.normal - motion.turn * along;
-    load.motion.slip.data()[0] = motion.tangential;
-    double height = 0;
+  };
+  [[nodiscard]] PlanePoint plane_point(std::size_t k, const PlaneMotion& motion) const
+      requires(Dim == 2) {
+    PlanePoint p;
+    p.along = records_[k].along[0];
+    p.load.motion.opening = motion.normal - motion.turn * p.along;
+    p.load.motion.slip.data()[0] = motion.tangential;
     if constexpr (Shifted) {
       const double* start = shifts_[k].start.data();
-      height = shifts_[k].height;
-      load.motion.opening = start[0] + motion.normal - motion.turn * along;
-      load.motion.slip.data()[0] = start[1] + motion.tangential + motion.turn * height;
+      p.height = shifts_[k].height;
+      p.load.motion.opening = start[0] + motion.normal - motion.turn * p.along;
+      p.load.motion.slip.data()[0] = start[1] + motion.tangential + motion.turn * p.height;
     }
+    read(k, p.load);
+    return p;
+  }
+  void add_point(const Law& law, std::size_t k, double along, [[maybe_unused]] double height,
+                 const PointLoad<2>& load, PlaneSums& sums) const requires(Dim == 2) {
     const PointForce<2> at = react(law, k, load);
     sums.normal += at.normal;
     sums.tangential += at.tangential.data()[0];
@@ -83,20 +97,36 @@ class ContactKernel {
     else
       sums.moment -= along * at.normal;
   }
+  /// Both points of a contact that has two, on its pressed part.
+  void add_two(const Law& law, std::size_t k, const PlaneMotion& motion, PlaneSums& sums) const
+      requires(Dim == 2) {
+    const PlanePoint p = plane_point(k, motion), q = plane_point(k + 1, motion);
+    PointLoad<2> loads[2] = {p.load, q.load};
+    const auto part = press<2>(loads, {}, [&](std::size_t i, const PointLoad<2>& load) {
+      return release_opening<2>(law, load, states_[k + i]);
+    });
+    if (part.is_whole()) {
+      add_point(law, k, p.along, p.height, loads[0], sums);
+      add_point(law, k + 1, q.along, q.height, loads[1], sums);
+    } else {
+      add_point(law, k, part.at(0, p.along, q.along), p.height, loads[0], sums);
+      add_point(law, k + 1, part.at(1, p.along, q.along), q.height, loads[1], sums);
+    }
+  }
 
   /// Both points of a contact that has two.
   [[nodiscard]] PlaneSums pair_of_points(const Law& law, std::size_t k,
                                          const PlaneMotion& motion) const
       requires(Dim == 2 && has_pairs) {
     const PointRecord<2>&p = records_[k], &q = records_[k + 1];
-    const LanePair along(p.along[0], q.along[0]);
+    LanePair along(p.along[0], q.along[0]);
     PairLoad load;
     load.weight = LanePair(p.weight, q.weight);
     load.initial_normal = LanePair(p.initial_normal, q.initial_normal);
     load.initial_shear = LanePair(p.initial_tangential[0], q.initial_tangential[0]);
     load.opening = LanePair(motion.normal);
     load.slip = LanePair(motion.tangential);
-    [[maybe_unused]] LanePair height(0.0);
+    [[maybe_unused]] LanePair height(0.0);  // of the shear: it stays where its slip is
     if constexpr (Shifted) {
       const PointShift<2>&of_p = shifts_[k], &of_q = shifts_[k + 1];
       height = LanePair(of_p.height, of_q.height);
@@ -105,6 +135,21 @@ class ContactKernel {
           LanePair(of_p.start.data()[1], of_q.start.data()[1]) + load.slip + motion.turn * height;
     }
     load.opening = load.opening - motion.turn * along;
+    const LanePair normal =
+        load.initial_normal - law.joint_normal_stiffness() * load.weight * load.opening;
+    const double mean = normal[0] + normal[1],
+                 steep = PressedPart<2>::root * (normal[1] - normal[0]);
+    if (std::abs(mean) < std::abs(steep)) {
+      const auto part = PressedPart<2>::of(normal[0], normal[1]);
+      const auto move = [&part](LanePair of) {
+        return LanePair(part.at(0, of[0], of[1]), part.at(1, of[0], of[1]));
+      };
+      along = move(along);
+      load.opening = move(load.opening);
+      load.initial_normal = part.share * move(load.initial_normal);
+      load.initial_shear = part.share * load.initial_shear;
+      load.weight = part.share * load.weight;
+    }
     const PairForce at = law.pair_force(load, states_ + k);
     LanePair moment = -(along * at.normal);
     if constexpr (Shifted) moment = height * at.shear + moment;
@@ -130,8 +175,14 @@ class ContactKernel {
       is_done = c.count == 2;  // as nearly all have
       if (is_done) sums = pair_of_points(law, first, motion);
     }
-    if (!is_done)
-      for (std::size_t k = first; k < first + c.count; ++k) add_point(law, k, motion, sums);
+    if (!is_done && c.count == 2) {
+      add_two(law, first, motion, sums);
+    } else if (!is_done) {
+      for (std::size_t k = first; k < first + c.count; ++k) {
+        const PlanePoint p = plane_point(k, motion);
+        add_point(law, k, p.along, p.height, p.load, sums);
+      }
+    }
     const LanePair force = n * sums.normal + t * sums.tangential;
     double *fa = f + dof * c.a, *fb = f + dof * c.b;
     (LanePair::load(fb) + force).store(fb);
@@ -149,37 +200,84 @@ class ContactKernel {
     return axis[0] * v.data()[0] + axis[1] * v.data()[1] + axis[2] * v.data()[2];
   }
 
+  /// A point in space: where it is along the tangents and the normal, and its load.
+  struct SpacePoint {
+    double s, t, height = 0;
+    PointLoad<3> load;
+  };
   /// @param jump, spin  of body b against body a, along normal and tangents
+  [[nodiscard]] SpacePoint space_point(std::size_t k, const double* jump, const double* spin) const
+      requires(Dim == 3) {
+    SpacePoint p;
+    p.s = records_[k].along[0];
+    p.t = records_[k].along[1];
+    if constexpr (Shifted) {
+      const double* start = shifts_[k].start.data();
+      p.height = shifts_[k].height;
+      p.load.motion.opening = start[0] + jump[0] + spin[1] * p.t - spin[2] * p.s;
+      p.load.motion.slip = {start[1] + jump[1] + spin[2] * p.height - spin[0] * p.t,
+                            start[2] + jump[2] + spin[0] * p.s - spin[1] * p.height};
+    } else {
+      p.load.motion.opening = jump[0] + spin[1] * p.t - spin[2] * p.s;
+      p.load.motion.slip = {jump[1] - spin[0] * p.t, jump[2] + spin[0] * p.s};
+    }
+    read(k, p.load);
+    return p;
+  }
+  /// @param p     where the shear acts: where its slip is
+  /// @param s, t  where the normal force does
+  void add_point(const Law& law, std::size_t k, const SpacePoint& p, double s, double t,
+                 const PointLoad<3>& load, Sums& sums) const requires(Dim == 3) {
+    const PointForce<3> at = react(law, k, load);
+    const double fn = at.normal, fs = at.tangential.data()[0], ft = at.tangential.data()[1];
+    sums.force[0] += fn;
+    sums.force[1] += fs;
+    sums.force[2] += ft;
+    sums.moment[0] += p.s * ft - p.t * fs;
+    if constexpr (Shifted) {
+      sums.moment[1] += t * fn - p.height * ft;
+      sums.moment[2] += p.height * fs - s * fn;
+    } else {
+      sums.moment[1] += t * fn;
+      sums.moment[2] -= s * fn;
+    }
+  }
   void add_points(const Contact& c, const Law& law, const double* jump, const double* spin,
                   Sums& sums) const requires(Dim == 3) {
-    const auto end = static_cast<std::size_t>(c.last());
-    for (auto k = static_cast<std::size_t>(c.first); k < end; ++k) {
-      const double s = records_[k].along[0], t = records_[k].along[1];
-      PointLoad<3> load;
-      double height = 0;
-      if constexpr (Shifted) {
-        const double* start = shifts_[k].start.data();
-        height = shifts_[k].height;
-        load.motion.opening = start[0] + jump[0] + spin[1] * t - spin[2] * s;
-        load.motion.slip = {start[1] + jump[1] + spin[2] * height - spin[0] * t,
-                            start[2] + jump[2] + spin[0] * s - spin[1] * height};
-      } else {
-        load.motion.opening = jump[0] + spin[1] * t - spin[2] * s;
-        load.motion.slip = {jump[1] - spin[0] * t, jump[2] + spin[0] * s};
+    const auto first = static_cast<std::size_t>(c.first);
+    constexpr std::size_t four = PressedPart<3>::count;
+    bool may_be_cut = c.count == four && c.outline.radius > 0;
+    if (may_be_cut) {
+      double pressed_in[four];
+      for (std::size_t k = 0; k < four; ++k) {
+        const SpacePoint p = space_point(first + k, jump, spin);
+        pressed_in[k] = release_opening<3>(law, p.load, states_[first + k]) - p.load.motion.opening;
       }
-      const PointForce<3> at = react(law, k, load);
-      const double fn = at.normal, fs = at.tangential.data()[0], ft = at.tangential.data()[1];
-      sums.force[0] += fn;
-      sums.force[1] += fs;
-      sums.force[2] += ft;
-      sums.moment[0] += s * ft - t * fs;
-      if constexpr (Shifted) {
-        sums.moment[1] += t * fn - height * ft;
-        sums.moment[2] += height * fs - s * fn;
-      } else {
-        sums.moment[1] += t * fn;
-        sums.moment[2] -= s * fn;
+      may_be_cut = PressedPart<3>::may_be_cut(pressed_in, c.outline);
+    }
+    if (!may_be_cut) {
+      for (std::size_t k = first; k < first + c.count; ++k) {
+        const SpacePoint p = space_point(k, jump, spin);
+        add_point(law, k, p, p.s, p.t, p.load, sums);
       }
+      return;
+    }
+    SpacePoint points[four];
+    PointLoad<3> loads[four];
+    for (std::size_t k = 0; k < four; ++k) {
+      points[k] = space_point(first + k, jump, spin);
+      loads[k] = points[k].load;
+    }
+    const auto part = press<3>(loads, c.outline, [&](std::size_t k, const PointLoad<3>& load) {
+      return release_opening<3>(law, load, states_[first + k]);
+    });
+    for (std::size_t k = 0; k < four; ++k) {
+      const SpacePoint& p = points[k];
+      if (part.is_whole())
+        add_point(law, first + k, p, p.s, p.t, loads[k], sums);
+      else
+        add_point(law, first + k, p, part.at(k, [&](std::size_t i) { return points[i].s; }),
+                  part.at(k, [&](std::size_t i) { return points[i].t; }), loads[k], sums);
     }
   }
 

@@ -13,7 +13,6 @@
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_tracker.hpp>
 #include <voussoir/model/detail/any_moving_contacts.hpp>
 #include <voussoir/model/detail/body_rates.hpp>
@@ -57,11 +56,10 @@ class ContactNetwork {
   /// @param viscous_damping  ratio to critical of the dashpots [-]
   ContactNetwork(std::vector<JointLaw> laws, double wall_stiffness,
                  std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
-                 ContactPoints rule, double viscous_damping)
+                 double viscous_damping)
       : groups_(Joints(std::move(laws)), Walls(detail::wall_laws<Dim, JointLaw>(wall_stiffness)),
                 Interface(std::move(interface_laws))),
         law_of_cut_(std::move(law_of_cut)),
-        rule_(rule),
         viscous_damping_(viscous_damping) {}
 
   [[nodiscard]] const Joints& joints() const { return std::get<0>(groups_); }
@@ -375,7 +373,6 @@ class ContactNetwork {
   bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;
   std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
-  ContactPoints rule_;
   double viscous_damping_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
   detail::ContactSums<Dim> sums_;

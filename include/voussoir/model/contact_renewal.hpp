@@ -13,7 +13,6 @@
 #include <voussoir/detection/placed_shapes.hpp>
 #include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/facing_normal.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
@@ -31,20 +30,12 @@ namespace voussoir::detail {
 /// turned by more than 60 degrees since, it is another contact and begins without history.
 ///
 /// The weights of its points are their shares of the whole of the faces that lie over one another,
-/// whatever the depth. Points that are open by more than the reach are left out, unless they carry
-/// on old ones: what closes between two updates is within reach at the first of them, and farther
-/// off the faces need not look at each other at all, but at a third body between them. A joint that
-/// has been closed and gapes keeps its points.
+/// whatever the depth: which part of them is pressed follows from the motion (`PressedPart`). Faces
+/// that are all open by more than the reach make no contact: what closes between two updates is
+/// within reach at the first of them.
 template <int Dim, class State>
 class ContactRenewal {
  public:
-  /// Which faces that meet keep all their points, however far these are open.
-  enum class Gaping {
-    known,  ///< those of contacts that are carried on
-    /// and those within 15 degrees of each other: a block that comes down on its edge. Blocks that
-    /// meet at an edge at such an angle hold no third one between them, but for slivers.
-    facing
-  };
   using Contact = MovingContact<Dim>;
   using Point = MovingContactPoint<Dim, State>;
   using Bodies = std::vector<MovingBody<Dim>>;
@@ -58,11 +49,12 @@ class ContactRenewal {
   /// @param reach   points may be so far open [m]
   /// @param old     the contact as it was, or null
   /// @param points  its springs are written there
+  /// @param is_centred  it has one point in the middle and resists no turning: see `MovingContact`
   /// @param joined  all that several pairs of shapes have of the contact, counted from `from`, with
   /// their measure in `found`; null: the polygon found
   [[nodiscard]] Contact run(const voussoir::Contact<Dim>& found, const Vec<Dim>& from,
                             const PlacedShapes<Dim>& shapes, std::size_t owner, int a, int b,
-                            ContactPoints rule, double reach, Gaping gaping, const Contact* old,
+                            bool is_centred, double reach, const Contact* old,
                             std::vector<Point>& points, const ContactArea<Dim>* joined = nullptr) {
     const bool of_a = found.touch != Touch::face_b;
     Vec<Dim> normal = of_a ? found.normal : Vec<Dim>(-found.normal);
@@ -87,19 +79,22 @@ class ContactRenewal {
     const auto at = contact.place(pose_a, pose_b);
     const double face =
         normal_reach(shapes[owner], normal) + normal.dot(shapes.grid_point(owner) - from);
-    if (joined != nullptr)
-      place_joined(*joined, rule, found.measure);
-    else if (found.touch == Touch::edge_edge)
+    if (joined != nullptr) {
+      place_on(*joined, is_centred, found.measure);
+      set_outline(*joined, contact);
+    } else if (found.touch == Touch::edge_edge) {
       place_at_edges(found, a, b);
-    else
-      place_points(rule, found.polygon, found.measure, places_);
+    } else {
+      const auto facet = facet_of(found.polygon);
+      place_on(facet, is_centred, found.measure);
+      set_outline(facet, contact);
+    }
     if (keeps) find_gradient(*old, frame);
+    meet_at(found, joined, normal, reach, pose_b.position);
     points.clear();
     if (found.touch != Touch::edge_edge && lowest_of(found.polygon, joined, normal) - face > reach)
       return contact;
-    const double area = joined != nullptr ? joined->measure() : area_of(found.polygon);
-    const bool faces = found.measure > facing_cosine * area;
-    for (const WeightedPoint<Dim>& it : places_) {
+    for (const WeightedPoint& it : places_) {
       if (!(it.weight > 0)) continue;
       Point point{};
       point.place = transposed(pose_b.rotation) * (it.place - pose_b.position);
@@ -110,7 +105,6 @@ class ContactRenewal {
       const double opening =
           found.touch == Touch::edge_edge ? found.separation : normal.dot(it.place) - face;
       const bool is_old = keeps && carries_on(*old, it.place, normal);
-      if (opening > reach && !(is_old || (gaping == Gaping::facing && faces))) continue;
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
       if (is_old || (keeps && is_in_old_area(it.place))) inherit(*old, frame, it.place, point);
@@ -125,13 +119,20 @@ class ContactRenewal {
   /// come nearer by what the joints between them have closed.
   void start_at_rest() { new_at_rest_ = true; }
 
+  /// Where the bodies of the last contact meet, from the centre of body b, world axes: in the
+  /// middle of faces that come down flat, else at the corner or edge that is lowest [m].
+  [[nodiscard]] const Vec<Dim>& meeting_place() const { return meeting_place_; }
   /// Whether the last contact has taken over what the old one remembered.
   [[nodiscard]] bool keeps_history() const { return keeps_history_; }
 
  private:
-  static constexpr double facing_cosine = 0.966;  ///< of 15 degrees
-
   using InPlane = Vec<Dim - 1>;
+
+  /// A place on a contact and the length or area that it stands for.
+  struct WeightedPoint {
+    Vec<Dim> place;  ///< [m]
+    double weight;   ///< [m], [m^2]
+  };
 
   /// Of a body, counted from where the points of the contact are.
   [[nodiscard]] Pose<Dim> pose(int b) const {
@@ -147,33 +148,43 @@ class ContactRenewal {
     return reach;
   }
 
+  /// Calls visit(corner) for those of what is common to two faces.
+  template <class Visit>
+  static void each_corner(std::span<const Vec<Dim>> polygon, const ContactArea<Dim>* joined,
+                          Visit&& visit) {
+    if (joined == nullptr) {
+      for (const Vec<Dim>& p : polygon) visit(p);
+      return;
+    }
+    for (const auto& facet : joined->facets())
+      if constexpr (Dim == 2) {
+        visit(facet.start);
+        visit(facet.end);
+      } else {
+        for (const Vec3& p : facet.vertices) visit(p);
+      }
+  }
   [[nodiscard]] static double lowest_of(std::span<const Vec<Dim>> polygon,
                                         const ContactArea<Dim>* joined, const Vec<Dim>& normal) {
     double low = std::numeric_limits<double>::infinity();
-    const auto look = [&](const Vec<Dim>& p) { low = std::min(low, normal.dot(p)); };
-    if (joined == nullptr) {
-      for (const Vec<Dim>& p : polygon) look(p);
-    } else {
-      for (const auto& facet : joined->facets())
-        if constexpr (Dim == 2) {
-          look(facet.start);
-          look(facet.end);
-        } else {
-          for (const Vec3& p : facet.vertices) look(p);
-        }
-    }
+    each_corner(polygon, joined, [&](const Vec<Dim>& p) { low = std::min(low, normal.dot(p)); });
     return low;
   }
-
-  [[nodiscard]] static double area_of(std::span<const Vec<Dim>> polygon) {
-    if constexpr (Dim == 2) {
-      return (polygon[1] - polygon[0]).norm();
-    } else {
-      Vec3 doubled = zeros<Vec3>();
-      for (std::size_t k = 2; k < polygon.size(); ++k)
-        doubled += cross(Vec3(polygon[k - 1] - polygon[0]), Vec3(polygon[k] - polygon[0]));
-      return 0.5 * length_of(doubled);
-    }
+  /// Corners count the less the higher they are over the lowest, up to the reach.
+  void meet_at(const voussoir::Contact<Dim>& found, const ContactArea<Dim>* joined,
+               const Vec<Dim>& normal, double reach, const Vec<Dim>& centre_b) {
+    const double low = lowest_of(found.polygon, joined, normal);
+    const bool is_edge = found.touch == Touch::edge_edge;
+    meeting_place_ = zeros<Vec<Dim>>();
+    double sum = 0;
+    each_corner(found.polygon, joined, [&](const Vec<Dim>& p) {
+      const double height = normal.dot(p) - low;
+      const double share =
+          is_edge || !std::isfinite(reach) ? 1.0 : std::max(0.0, 1 - height / reach);
+      meeting_place_ += share * p;
+      sum += share;
+    });
+    meeting_place_ = meeting_place_ / sum - centre_b;
   }
 
   /// Whether a point stands where an old one did: seen along the normal, as near to it as its share
@@ -199,14 +210,36 @@ class ContactRenewal {
     return distance > 0 && distance <= 8 * (1 + 1e-6);
   }
 
-  void place_joined(const ContactArea<Dim>& joined, ContactPoints rule, double measure) {
-    std::vector<FacetPoint<Dim>> from_centre;
-    place_points_on(joined, rule, from_centre);
-    const Vec<Dim> centre = joined.centre();
-    const double scale = measure / joined.measure();  // seen along the normal
+  [[nodiscard]] static auto facet_of(std::span<const Vec<Dim>> polygon) {
+    if constexpr (Dim == 2)
+      return Segment{polygon[0], polygon[1]};
+    else
+      return SpatialFacet{{polygon.begin(), polygon.end()}};
+  }
+
+  /// @param measure  of the area as it is seen along the normal
+  template <class Area>
+  void place_on(const Area& area, bool is_centred, double measure) {
     places_.clear();
-    for (const FacetPoint<Dim>& p : from_centre)
+    const Vec<Dim> centre = area.centre();
+    // At most 1, unless rounding is all there is of the area.
+    const double scale = measure / area.measure();
+    if (is_centred || !(scale < 1.001)) {
+      places_.push_back({centre, measure});
+      return;
+    }
+    for (const FacetPoint<Dim>& p : area.gauss_points())
       places_.push_back({centre + p.offset, scale * p.weight});
+  }
+
+  template <class Area>
+  void set_outline([[maybe_unused]] const Area& area, [[maybe_unused]] Contact& contact) const {
+    if constexpr (Dim == 3) {
+      const Vec<3> centre = area.centre();
+      std::vector<FacetPoint<3>> points;
+      for (const WeightedPoint& p : places_) points.push_back({p.place - centre, p.weight});
+      contact.outline = kept_outline(area, centre, points.data(), points.size());
+    }
   }
 
   void place_at_edges(const voussoir::Contact<Dim>& found, int a, int b) {
@@ -315,12 +348,13 @@ class ContactRenewal {
 
   const Bodies& bodies_;
   const std::vector<Point>& old_points_;
-  std::vector<WeightedPoint<Dim>> places_;
+  std::vector<WeightedPoint> places_;
   Vec<Dim> from_ = zeros<Vec<Dim>>();
   Fixed<Dim, Dim - 1> gradient_ = zeros<Fixed<Dim, Dim - 1>>();  ///< of the initial stress [Pa/m]
   double squared_extent_ = 0;                                    ///< of the old contact [m^2]
   Rotation<Dim> frame_ = diagonal_of<Dim>(1);                    ///< of the contact
   InPlane middle_ = zeros<InPlane>();                            ///< of the old points, there [m]
+  Vec<Dim> meeting_place_ = zeros<Vec<Dim>>();
   /// Of the area's second moments over the area [1/m^2]; zero where they are not known: in 2-D.
   Fixed<Dim - 1, Dim - 1> inverse_spread_ = zeros<Fixed<Dim - 1, Dim - 1>>();
   bool keeps_history_ = false, new_at_rest_ = false;

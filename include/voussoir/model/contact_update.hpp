@@ -122,13 +122,7 @@ class SystemUpdate {
     using Point = typename Group::Point;
     using Shear = Vec<dim - 1>;
     const auto shear_of = [&](const ReferenceContact<dim>& c, std::span<const Point> of) {
-      Shear sum = zeros<Shear>();
-      for (const Point& p : of) {
-        const PointLoad<dim> load{p.weight, p.initial,
-                                  c.motion(p, c.offset_of(p), system_.displacement.data())};
-        sum += group.law_of(c).force(load, p.state).tangential;
-      }
-      return sum;
+      return group.shear_of(c, of, system_.displacement.data());
     };
     std::vector<int> contact_of(group.points().size(), -1);
     for (std::size_t n = 0; n < group.contacts().size(); ++n)

@@ -5,6 +5,7 @@
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/model/contact_outline.hpp>
 
 namespace voussoir {
 
@@ -32,6 +33,7 @@ struct MovingContact {
   double viscosity = 0;      ///< damping force over (stiffness times velocity) [s]
   double uncounted = 0;      ///< of the overlap, that presses on no spring (`limit_energy`) [m]
   double least_area = 0;     ///< its points' together, since the impact (`Impact`) [m], [m^2]
+  [[no_unique_address]] detail::KeptOutline<Dim> outline;
 
   /// Where its frame is with its bodies at these poses, and what follows from that.
   struct Place {

@@ -12,6 +12,7 @@
 #include <voussoir/model/detail/contact_reaction.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
+#include <voussoir/model/pressed_part.hpp>
 
 namespace voussoir {
 
@@ -119,6 +120,44 @@ class MovingContacts {
                                      const State& state) const {
     return law_of(c).stored_energy(load, state);
   }
+  /// Calls visit(k, point, load) for points of a contact, here or to be, on its pressed part.
+  template <class Visit>
+  void visit_loads(const Contact& c, std::span<const Point> points,
+                   const typename Contact::Place& at, Visit&& visit) const {
+    detail::visit_pressed<Dim>(
+        points.size(), c.outline, [&](std::size_t k) { return points[k]; },
+        [&](const Point& p) { return p.load(at); },
+        [&](std::size_t k, const PointLoad<Dim>& load) {
+          return release_opening<Dim>(law_of(c), load, points[k].state);
+        },
+        visit);
+  }
+  /// The same of a contact that is here.
+  template <class Visit>
+  void visit_loads(const Contact& c, const typename Contact::Place& at, Visit&& visit) const {
+    visit_loads(c, points_of(c), at, visit);
+  }
+  /// Sum of the shear forces of such points [N].
+  [[nodiscard]] Vec<Dim - 1> shear_of(const Contact& c, std::span<const Point> points,
+                                      const typename Contact::Place& at) const {
+    Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
+    visit_loads(c, points, at, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+      sum += force(c, load, p.state).tangential;
+    });
+    return sum;
+  }
+  /// Energy that the springs of such points hold [J].
+  /// @param way  by which the bodies are farther apart along the normal [m]
+  [[nodiscard]] double stored_energy(const Contact& c, std::span<const Point> points,
+                                     const typename Contact::Place& at, double way = 0) const {
+    typename Contact::Place there = at;
+    there.base[0] += way;
+    double sum = 0;
+    visit_loads(c, points, there, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+      sum += stored_energy(c, load, p.state);
+    });
+    return sum;
+  }
   /// What is remembered of a point.
   [[nodiscard]] const State& state_of(std::size_t point) const { return points_[point].state; }
 
@@ -128,10 +167,7 @@ class MovingContacts {
     const Contact& c = contacts_[k];
     const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
                             bodies[static_cast<std::size_t>(c.b)].pose);
-    double sum = 0;
-    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
-      sum += law_of(c).stored_energy(points_[i].load(at), points_[i].state);
-    return sum;
+    return stored_energy(c, points_of(c), at);
   }
 
  private:

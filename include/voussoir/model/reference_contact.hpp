@@ -12,6 +12,7 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
+#include <voussoir/model/contact_outline.hpp>
 #include <voussoir/model/small_displacement.hpp>
 
 namespace voussoir {
@@ -49,7 +50,7 @@ struct KeptTangents<3> {
 /// What body a shares with body b on one plane, in the reference configuration: where the bodies
 /// were when contacts were last updated.
 ///
-/// Forces read all of it, so it is as small as it can be: 64 bytes in 2-D, 136 in 3-D.
+/// Forces read all of it, so it is as small as it can be: 64 bytes in 2-D, 160 in 3-D.
 template <int Dim>
 struct ReferenceContact {
   static constexpr int dof = Dim + spin_count<Dim>;
@@ -61,6 +62,7 @@ struct ReferenceContact {
   std::int32_t first;       ///< of its points
   std::uint16_t count = 0;  ///< of its points
   std::uint16_t law = 0;    ///< index into the laws of the group
+  [[no_unique_address]] detail::KeptOutline<Dim> outline;
 
   /// One behind its last point.
   [[nodiscard]] int last() const { return first + count; }
@@ -112,7 +114,7 @@ struct ReferenceContact {
  private:
   static constexpr int most = std::numeric_limits<std::uint16_t>::max();
 };
-static_assert(sizeof(ReferenceContact<2>) == 64 && sizeof(ReferenceContact<3>) == 136);
+static_assert(sizeof(ReferenceContact<2>) == 64 && sizeof(ReferenceContact<3>) == 160);
 
 /// The order in which contacts that have been found go into their group: by the lower of their two
 /// bodies, then by the other one; several of the same two as they were found.

@@ -53,6 +53,9 @@ class SystemState {
   /// For every label of their faces the index of the joint law; null: the first for all.
   std::shared_ptr<const std::vector<int>> law_of_cut;
 
+  /// From now on the body stays where it is.
+  void fix(int b) { bodies_[static_cast<std::size_t>(b)].movable = false; }
+
   int add_body(const Body& body) { return add_bodies({&body, 1}); }
   /// @return  number of the first
   int add_bodies(std::span<const Body> bodies);

@@ -51,6 +51,9 @@ struct InSitu {
   double gravity = 9.81;  ///< g [m/s^2], > 0
   double k0_y = -1;       ///< in 3-D: along y / vertical [-], >= 0; -1: as along x
   double k0_xy = 0;       ///< in 3-D: sigma_xy / vertical [-]
+  /// Blocks that are laid, not cut out of the ground: nothing presses between them, and the first
+  /// stage lets their weight come on.
+  bool is_laid = false;
   /// In 3-D: what the measured stress has besides surcharge and ratios, at every depth [Pa]. Its
   /// vertical part is zero (see `with_measured`).
   Stress<3> besides = zeros<Stress<3>>();
@@ -94,6 +97,8 @@ struct InSitu {
     require(k0_xy * k0_xy <= k0 * (k0_y < 0 ? k0 : k0_y) * (1 + 1e-12), "K0 of shear", k0_xy,
             "such that no horizontal stress is tensile");
     require(gravity > 0 && std::isfinite(gravity), "gravity", gravity, "> 0 m/s^2");
+    require(!is_laid || (surcharge == 0 && !(besides.squaredNorm() > 0)),
+            "surcharge or measured stress of blocks that are laid", surcharge, "none");
     if (!(besides.squaredNorm() > 0)) return;
     const double least = principal_axes(stress<3>(0)).moments[0];
     require(least >= 0, "smallest principal stress at the top of the domain", least,
@@ -101,7 +106,7 @@ struct InSitu {
   }
 
   [[nodiscard]] double vertical(double depth) const {
-    return surcharge + density * gravity * depth;
+    return is_laid ? 0.0 : surcharge + density * gravity * depth;
   }
 
   /// Stress at a depth, compression positive [Pa].

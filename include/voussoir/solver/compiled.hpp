@@ -44,13 +44,13 @@
                                   const std::vector<int>&);                                       \
   WORD void detail::make_model<CutContacts>(                                                      \
       AnySystem<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,             \
-      const FarField<GEOMETRY::dim>&, ContactPoints, std::vector<int>,                            \
+      const FarField<GEOMETRY::dim>&, std::vector<int>,                                           \
       std::shared_ptr<const GroundAround<GEOMETRY::dim>>, std::vector<double>&, const Progress&); \
   WORD detail::AfterRound detail::go_on_after_round<CutContacts>(                                 \
       AnySystem<GEOMETRY>&, AnySystem<GEOMETRY>&,                                                 \
       const std::shared_ptr<const RockMass<GEOMETRY>>&, std::vector<int>,                         \
-      const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&, ContactPoints,     \
-      double, WallTractions&, const std::vector<int>&, const Progress&);
+      const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&, double,            \
+      WallTractions&, const std::vector<int>&, const Progress&);
 
 /// A kind of lining.
 #define VOUSSOIR_LINING(WORD, GEOMETRY, LINING)                           \

@@ -22,12 +22,12 @@
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/model/any_system.hpp>
 #include <voussoir/model/bolt_set.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/detail/bolt_assembly.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/detail/next_round.hpp>
 #include <voussoir/model/lining_members.hpp>
+#include <voussoir/model/support.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -68,29 +68,24 @@ class ComposedSolver {
   static constexpr int dof = Geometry::dof;
 
   /// Puts the rock in its in-situ state.
-  /// @param points  of every contact; with `centre` a block that touches others in one facet alone
-  ///                can turn freely, which `TwoLevel` does not accept
   /// @param progress  asked now and then whether to go on
   /// @param far_field  what the sides of the domain meet
   /// @throws InvalidInput  no bodies, or a parameter of `in_situ` or `far_field` out of range
   /// @throws Stopped
   ComposedSolver(RockMass<Geometry> mass, JointLaw joint_law, const InSitu& in_situ,
-                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {},
-                 const FarField<dim>& far_field = {})
-      : ComposedSolver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ, points,
+                 const Progress& progress = {}, const FarField<dim>& far_field = {})
+      : ComposedSolver(std::move(mass), LawsBySet<JointLaw>(std::move(joint_law)), in_situ,
                        progress, far_field) {}
   /// The same with laws of their own for some joint sets.
   ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {},
-                 const FarField<dim>& far_field = {});
+                 const Progress& progress = {}, const FarField<dim>& far_field = {});
 
   /// Rock that is excavated at once: what the constructor above and `excavate` do, bit for bit,
   /// with one model to make instead of two.
   /// @throws InvalidInput, Stopped  as they do
   ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
                  const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
-                 ContactPoints points = ContactPoints::gauss, const Progress& progress = {},
-                 const FarField<dim>& far_field = {});
+                 const Progress& progress = {}, const FarField<dim>& far_field = {});
 
   /// Takes an opening out of the rock: a round. The traction that the excavated rock exerted on the
   /// walls that it leaves goes on acting until a stage takes it away; that of every round has a
@@ -169,6 +164,17 @@ class ComposedSolver {
     started_ = true;
   }
 
+  /// A load on a block that acts from now on, besides its weight; the next stage lets it come on
+  /// together with what it takes off the walls.
+  /// @param load  in the centre of the block [N], [N m]; per metre of tunnel in 2-D
+  /// @throws InvalidInput  there is no such block, it has fallen or is fixed, or the load is not
+  ///                       finite
+  void add_load(int block, const Load<dim>& load);
+
+  /// Holds a block where it is from now on: an abutment, a base.
+  /// @throws InvalidInput  there is no such block, or it has fallen
+  void fix(int block);
+
   /// Lets joints creep under the forces that they carry now; `creep` finds the equilibria.
   /// @param time  [s]
   template <class Law = JointLaw>  // a template: clang++ 14 instantiates the others unasked
@@ -222,7 +228,7 @@ class ComposedSolver {
   /// Takes what there is, and checks it; `build` makes the model of it.
   struct Unbuilt {};
   ComposedSolver(Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
-                 const InSitu& in_situ, ContactPoints points, const FarField<dim>& far_field);
+                 const InSitu& in_situ, const FarField<dim>& far_field);
 
   void build(const Progress& progress);
   /// All that the rock in the opening has exerted on the walls goes on acting.
@@ -231,6 +237,13 @@ class ComposedSolver {
   /// Takes a round out of rock that has moved, or has been excavated before.
   void excavate_further(const typename Geometry::Opening& opening, double smallest_piece,
                         const Progress& progress);
+  /// Goes on acting on all bodies until the next stage takes it away.
+  void hold(Eigen::VectorXd load) {
+    walls_.add(std::move(load));
+    (void)aim_at(std::vector<double>(static_cast<std::size_t>(walls_.count()), 0.0));
+  }
+  /// @throws InvalidInput  there is no such block, or it has fallen
+  void check_block(int block, const char* what) const;
   /// Makes the next stage one that brings the walls to these parts of their traction.
   /// @return  the largest of them
   double aim_at(const std::vector<double>& wall_fractions);
@@ -241,25 +254,23 @@ class ComposedSolver {
   InSitu in_situ_;
   FarField<dim> far_field_;
   std::shared_ptr<const GroundAround<dim>> around_;  ///< null: nothing elastic is there
-  ContactPoints points_;
   SystemType system_;
   WallTractions walls_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
   double update_limit_ = 0.02;  ///< of contact updates, of the last search [m]
   int bolt_count_ = 0;
-  bool started_ = false;
+  bool started_ = false, is_loaded_ = false;
 };
 
 template <class Models>
 ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
                                        LawsBySet<JointLaw> joint_laws, const InSitu& in_situ,
-                                       ContactPoints points, const FarField<dim>& far_field)
+                                       const FarField<dim>& far_field)
     : mass_(std::make_shared<RockMass<Geometry>>(std::move(mass))),
       joint_laws_(std::move(joint_laws)),
       in_situ_(in_situ),
       far_field_(far_field),
-      points_(points),
       system_(joint_laws_, joint_laws_.stiffest()) {
   in_situ_.check();
   far_field_.check();
@@ -269,10 +280,9 @@ ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
 
 template <class Models>
 ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
-                                       const InSitu& in_situ, ContactPoints points,
-                                       const Progress& progress, const FarField<dim>& far_field)
-    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points,
-                     far_field) {
+                                       const InSitu& in_situ, const Progress& progress,
+                                       const FarField<dim>& far_field)
+    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, far_field) {
   build(progress);
 }
 
@@ -280,10 +290,9 @@ template <class Models>
 ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
                                        const InSitu& in_situ,
                                        const typename Geometry::Opening& opening,
-                                       double smallest_piece, ContactPoints points,
-                                       const Progress& progress, const FarField<dim>& far_field)
-    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, points,
-                     far_field) {
+                                       double smallest_piece, const Progress& progress,
+                                       const FarField<dim>& far_field)
+    : ComposedSolver(Unbuilt{}, std::move(mass), std::move(joint_laws), in_situ, far_field) {
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   *mass_ = carve(std::move(*mass_), opening, smallest_piece, progress);
   build(progress);
@@ -294,6 +303,10 @@ template <class Models>
 void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
                                       double smallest_piece, const Progress& progress) {
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
+  if (is_loaded_)
+    throw InvalidInput(
+        "excavate: blocks have been loaded or fixed, which the rock that is left after a round "
+        "would not know: excavate first");
   if (started_ || walls_.count() > 0) return excavate_further(opening, smallest_piece, progress);
   check_opening(opening, *mass_);
   // A small mass is copied, and one that may be cut in two: if that is refused the solver stays as
@@ -319,7 +332,7 @@ void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
     detail::LawsAside<SystemType> aside(system_), next_aside(next);
     after = detail::go_on_after_round<Detector>(
         *aside, *next_aside, mass, joint_laws_.of_cuts(*mass), opening, in_situ_, far_field_,
-        points_, update_limit_, walls_, fallen_, progress);
+        update_limit_, walls_, fallen_, progress);
   }
   mass_ = mass;
   measures_ = std::move(after.measures);
@@ -337,8 +350,7 @@ void ComposedSolver<Models>::hold_wall(const BodyMarks* touched) {
   }
   for (int b = 0; touched != nullptr && b < system_.body_count(); ++b)
     if (!is_marked(*touched, b)) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
-  walls_.add(opposite(f));
-  (void)aim_at(std::vector<double>(static_cast<std::size_t>(walls_.count()), 0.0));
+  hold(opposite(f));
 }
 
 template <class Models>
@@ -409,9 +421,15 @@ auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) co
 
 template <class Models>
 void ComposedSolver<Models>::build(const Progress& progress) {
-  detail::LawsAside<SystemType> aside(system_);
-  detail::make_model<Detector>(*aside, mass_, in_situ_, far_field_, points_,
-                               joint_laws_.of_cuts(*mass_), around_, measures_, progress);
+  {
+    detail::LawsAside<SystemType> aside(system_);
+    detail::make_model<Detector>(*aside, mass_, in_situ_, far_field_, joint_laws_.of_cuts(*mass_),
+                                 around_, measures_, progress);
+  }
+  // Nothing carries their weight yet.
+  if (in_situ_.is_laid) hold_wall();
 }
 
 }  // namespace voussoir
+
+#include <voussoir/solver/detail/loads_on_blocks.hpp>

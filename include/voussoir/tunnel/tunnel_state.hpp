@@ -95,10 +95,19 @@ template <class Solver, int Dim = Solver::SystemType::dim>
                  const auto k = static_cast<std::size_t>(&c - first);
                  VOUSSOIR_ASSERT(k < states.size() && point.weight >= 0,
                                  "a contact point stands for a part of its contact");
-                 states[k].measure += point.weight;
+                 states[k].measure += load.weight * load.whole_over_part;
                  wholes[k].add(report_of(joints.law_of(c), load, point.state));
                });
-  for (std::size_t k = 0; k < states.size(); ++k) states[k].report = wholes[k].report();
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    states[k].report = wholes[k].report();
+    const auto& c = joints.contacts()[k];
+    for (int i = c.first; i < c.last(); ++i) {  // of the pressed part alone the report tells above
+      const auto p = joints.points().place(static_cast<std::size_t>(i));
+      const double opening =
+          c.motion(p, c.offset_of(p), system.displacement.data()).opening;
+      states[k].report.opening = std::max(states[k].report.opening, opening);
+    }
+  }
   return states;
 }
 
@@ -113,15 +122,18 @@ template <int Dim, class... Parts>
     const Pose<Dim> a = run.pose(c.a), b = run.pose(c.b);
     JointState<Dim> state{c.a, c.b, zeros<Vec<Dim>>(), column(a.rotation * c.frame, 0), 0, {}};
     detail::WholeContact whole;
+    joints.visit_loads(c, at, [&](std::size_t, const auto& p, const PointLoad<Dim>& load) {
+      whole.add(report_of(joints.law_of(c), load, p.state));
+    });
+    state.report = whole.report();
     for (int k = c.first; k < c.last; ++k) {
       const auto& p = joints.points()[static_cast<std::size_t>(k)];
       VOUSSOIR_ASSERT(p.weight >= 0, "a contact point stands for a part of its contact");
-      whole.add(report_of(joints.law_of(c), p.load(at), p.state));
       state.centre += p.weight * b(p.place);
       state.measure += p.weight;
+      state.report.opening = std::max(state.report.opening, p.motion(at).opening);
     }
     if (state.measure > 0) state.centre /= state.measure;
-    state.report = whole.report();
     states.push_back(state);
   }
   return states;

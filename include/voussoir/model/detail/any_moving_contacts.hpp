@@ -98,6 +98,35 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
                                      State state) const {
     return law_of(c).model().stored_energy(load, memory(state));
   }
+  template <class Visit>
+  void visit_loads(const Contact& c, std::span<const Point> points,
+                   const typename Contact::Place& at, Visit&& visit) const {
+    detail::visit_pressed<Dim>(
+        points.size(), c.outline, [&](std::size_t k) { return points[k]; },
+        [&](const Point& p) { return p.load(at); },
+        [&](std::size_t k, const PointLoad<Dim>& load) {
+          return law_of(c).model().release_opening(load, memory(points[k].state));
+        },
+        visit);
+  }
+  [[nodiscard]] Vec<Dim - 1> shear_of(const Contact& c, std::span<const Point> points,
+                                      const typename Contact::Place& at) const {
+    Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
+    visit_loads(c, points, at, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+      sum += force(c, load, p.state).tangential;
+    });
+    return sum;
+  }
+  [[nodiscard]] double stored_energy(const Contact& c, std::span<const Point> points,
+                                     const typename Contact::Place& at, double way = 0) const {
+    typename Contact::Place there = at;
+    there.base[0] += way;
+    double sum = 0;
+    visit_loads(c, points, there, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+      sum += stored_energy(c, load, p.state);
+    });
+    return sum;
+  }
   [[nodiscard]] AnyState state_of(std::size_t point) const { return states_.value(point); }
   [[nodiscard]] const void* memory_of(std::size_t point) const { return states_.at(point); }
 
@@ -106,10 +135,7 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
     const Contact& c = contacts_[k];
     const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
                             bodies[static_cast<std::size_t>(c.b)].pose);
-    double sum = 0;
-    for (auto i = static_cast<std::size_t>(c.first); i < static_cast<std::size_t>(c.last); ++i)
-      sum += stored_energy(c, points_[i].load(at), points_[i].state);
-    return sum;
+    return stored_energy(c, points_of(c), at);
   }
 
  private:

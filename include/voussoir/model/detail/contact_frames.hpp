@@ -25,6 +25,7 @@ template <int Dim>
   contact.first = c.first;
   contact.last = c.last();
   contact.law = c.law;
+  contact.outline = c.outline;
   return contact;
 }
 
@@ -67,6 +68,7 @@ template <int Dim, class Points, class Take>
   contact.a = c.a;
   contact.b = c.b;
   contact.set_law(c.law);
+  contact.outline = c.outline;
   Vec<Dim> middle = zeros<Vec<Dim>>();
   double whole = 0;
   for (const auto& p : points) {

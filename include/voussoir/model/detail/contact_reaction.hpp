@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/model/detail/impact.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
+#include <voussoir/model/pressed_part.hpp>
 
 namespace voussoir::detail {
 
@@ -31,6 +33,10 @@ struct StatesInColumn {
   }
 };
 
+struct PlanePlace {
+  double normal, tangential;
+};
+
 /// Number by number: small vectors are carried through memory by g++ 12 when they are put
 /// together from parts, which doubles the time. So in 3-D.
 template <class Law, class Point, class States>
@@ -46,29 +52,56 @@ template <class Law, class Point, class States>
   const double dy = b.pose.position.y() - a.pose.position.y();
   const double base_n = nx * dx + ny * dy, base_t = nx * dy - ny * dx;  // tangent (-ny, nx)
   double force_n = 0, force_t = 0, moment = 0;
-  const Point* const end = points + c.last;
-  for (Point* p = points + c.first; p != end; ++p) {
-    auto& state = states.of(*p, p - points);
-    const double px = p->place.x(), py = p->place.y();
-    const double along_n = mx * px + my * py, along_t = mx * py - my * px;
-    PointLoad<2> load{p->weight, p->initial, {base_n + along_n - p->zero[0], {}}};
-    load.motion.slip[0] = base_t + along_t - p->zero[1];
+  // Along normal and tangent from the centre of b.
+  const auto place_of = [&](const Point& p) {
+    const double px = p.place.x(), py = p.place.y();
+    return PlanePlace{mx * px + my * py, mx * py - my * px};
+  };
+  const auto load_of = [&](const Point& p, const PlanePlace& at) {
+    PointLoad<2> load{p.weight, p.initial, {base_n + at.normal - p.zero[0], {}}};
+    load.motion.slip[0] = base_t + at.tangential - p.zero[1];
+    return load;
+  };
+  const auto react = [&](auto& state, const PlanePlace& at, const PointLoad<2>& load) {
     const PointForce<2> f = law.force(load, state);
     lost.friction += law.commit(load, state);
     double normal = f.normal;
     if (c.viscosity > 0 && normal > 0) {
       const double rate = nx * (b.velocity.x() - a.velocity.x()) +
-                          ny * (b.velocity.y() - a.velocity.y()) - b.spin()[0] * along_t +
-                          a.spin()[0] * (base_t + along_t);
-      const double viscous =
-          std::max(-c.viscosity * p->weight * law.joint_normal_stiffness() * rate, -normal);
+                          ny * (b.velocity.y() - a.velocity.y()) - b.spin()[0] * at.tangential +
+                          a.spin()[0] * (base_t + at.tangential);
+      const double viscous = std::max(
+          -c.viscosity * dashpot_of_part(load) * load.weight * law.joint_normal_stiffness() * rate,
+          -normal);
       lost.viscosity -= viscous * rate;
       normal += viscous;
     }
     force_n += normal;
     force_t += f.tangential[0];
     // place x force, both in the contact's frame
-    moment += along_n * f.tangential[0] - along_t * normal;
+    moment += at.normal * f.tangential[0] - at.tangential * normal;
+  };
+  Point* const p = points + c.first;
+  if (c.last - c.first == 2) {
+    Point* const q = p + 1;
+    auto &state_p = states.of(*p, p - points), &state_q = states.of(*q, q - points);
+    PlanePlace at_p = place_of(*p), at_q = place_of(*q);
+    PointLoad<2> loads[2] = {load_of(*p, at_p), load_of(*q, at_q)};
+    const auto part = press<2>(loads, c.outline, [&](std::size_t k, const PointLoad<2>& load) {
+      return release_opening<2>(law, load, k == 0 ? state_p : state_q);
+    });
+    if (!part.is_whole()) {
+      const double first = at_p.tangential, second = at_q.tangential;
+      at_p.tangential = part.at(0, first, second);
+      at_q.tangential = part.at(1, first, second);
+    }
+    react(state_p, at_p, loads[0]);
+    react(state_q, at_q, loads[1]);
+  } else {
+    for (Point* k = p; k != points + c.last; ++k) {
+      const PlanePlace at = place_of(*k);
+      react(states.of(*k, k - points), at, load_of(*k, at));
+    }
   }
   Reaction<2> r;
   const double x = nx * force_n - ny * force_t, y = ny * force_n + nx * force_t;
@@ -105,33 +138,69 @@ template <class Law, class Point, class States>
   const double *n = at.frame_b.data(), *s = n + 3, *t = n + 6, *base = at.base.data();
   double x = 0, y = 0, z = 0;     // force on b, along its axes
   double mx = 0, my = 0, mz = 0;  // moment about its centre
-  const Point* const end = points + c.last;
-  for (Point* p = points + c.first; p != end; ++p) {
-    auto& state = states.of(*p, p - points);
-    const double px = p->place.data()[0], py = p->place.data()[1], pz = p->place.data()[2];
-    PointLoad<3> load;
-    load.weight = p->weight;
-    load.initial.normal = p->initial.normal;
-    for (int k = 0; k < 2; ++k) load.initial.tangential.data()[k] = p->initial.tangential.data()[k];
-    load.motion.opening = base[0] + (n[0] * px + n[1] * py + n[2] * pz) - p->zero.data()[0];
-    load.motion.slip.data()[0] = base[1] + (s[0] * px + s[1] * py + s[2] * pz) - p->zero.data()[1];
-    load.motion.slip.data()[1] = base[2] + (t[0] * px + t[1] * py + t[2] * pz) - p->zero.data()[2];
-    const PointForce<3> f = law.force(load, state);
-    lost.friction += law.commit(load, state);
-    double normal = f.normal;
-    const double along_s = f.tangential.data()[0], along_t = f.tangential.data()[1];
-    if (c.viscosity > 0 && normal > 0)
-      normal += damping_force(p->place, -c.viscosity * p->weight * law.joint_normal_stiffness(), a,
-                              b, column(frame, 0), arm, f.normal, lost);
-    const double fx = n[0] * normal + s[0] * along_s + t[0] * along_t,
-                 fy = n[1] * normal + s[1] * along_s + t[1] * along_t,
-                 fz = n[2] * normal + s[2] * along_s + t[2] * along_t;
+  const auto add = [&](const Vec<3>& place, double fx, double fy, double fz) {
+    const double px = place.data()[0], py = place.data()[1], pz = place.data()[2];
     x += fx;
     y += fy;
     z += fz;
     mx += py * fz - pz * fy;
     my += pz * fx - px * fz;
     mz += px * fy - py * fx;
+  };
+  const auto load_of = [&](const Point& p) {
+    const double px = p.place.data()[0], py = p.place.data()[1], pz = p.place.data()[2];
+    PointLoad<3> load;
+    load.weight = p.weight;
+    load.initial.normal = p.initial.normal;
+    for (int k = 0; k < 2; ++k) load.initial.tangential.data()[k] = p.initial.tangential.data()[k];
+    load.motion.opening = base[0] + (n[0] * px + n[1] * py + n[2] * pz) - p.zero.data()[0];
+    load.motion.slip.data()[0] = base[1] + (s[0] * px + s[1] * py + s[2] * pz) - p.zero.data()[1];
+    load.motion.slip.data()[1] = base[2] + (t[0] * px + t[1] * py + t[2] * pz) - p.zero.data()[2];
+    return load;
+  };
+  const auto react = [&](auto& state, const Vec<3>& place, const Vec<3>& of_shear,
+                         const PointLoad<3>& load) {
+    const PointForce<3> f = law.force(load, state);
+    lost.friction += law.commit(load, state);
+    double normal = f.normal;
+    const double along_s = f.tangential.data()[0], along_t = f.tangential.data()[1];
+    if (c.viscosity > 0 && normal > 0)
+      normal += damping_force(
+          place, -c.viscosity * dashpot_of_part(load) * load.weight * law.joint_normal_stiffness(),
+          a, b, column(frame, 0), arm, f.normal, lost);
+    add(place, n[0] * normal, n[1] * normal, n[2] * normal);
+    add(of_shear, s[0] * along_s + t[0] * along_t, s[1] * along_s + t[1] * along_t,
+        s[2] * along_s + t[2] * along_t);
+  };
+  Point* const first = points + c.first;
+  constexpr std::size_t four = PressedPart<3>::count;
+  bool may_be_cut = c.last - c.first == static_cast<std::ptrdiff_t>(four) && c.outline.radius > 0;
+  if (may_be_cut) {
+    double pressed_in[four];
+    for (std::size_t k = 0; k < four; ++k) {
+      const PointLoad<3> load = load_of(first[k]);
+      pressed_in[k] = release_opening<3>(law, load, states.of(first[k], first + k - points)) -
+                      load.motion.opening;
+    }
+    may_be_cut = PressedPart<3>::may_be_cut(pressed_in, c.outline);
+  }
+  if (may_be_cut) {
+    PointLoad<3> loads[four];
+    for (std::size_t k = 0; k < four; ++k) loads[k] = load_of(first[k]);
+    const auto part = press<3>(loads, c.outline, [&](std::size_t k, const PointLoad<3>& load) {
+      Point& p = first[k];
+      return release_opening<3>(law, load, states.of(p, &p - points));
+    });
+    for (std::size_t k = 0; k < four; ++k) {
+      const Vec<3> place =
+          part.is_whole()
+              ? first[k].place
+              : part.at(k, [&](std::size_t i) -> const Vec<3>& { return first[i].place; });
+      react(states.of(first[k], first + k - points), place, first[k].place, loads[k]);
+    }
+  } else {
+    for (Point* p = first; p != points + c.last; ++p)
+      react(states.of(*p, p - points), p->place, p->place, load_of(*p));
   }
   Reaction<3> r;
   r.force = b.pose.rotation * Vec<3>(x, y, z);

@@ -11,7 +11,6 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/elastic_edge.hpp>
 #include <voussoir/model/joined_contacts.hpp>
 #include <voussoir/model/system.hpp>
@@ -64,12 +63,10 @@ class InitialModel {
 
   /// Rock and model must outlive this, and the far field.
   InitialModel(const RockMass<Geometry>& mass, const InSitu& in_situ,
-               const FarField<dim>& far_field, ContactPoints points, System& system,
-               Progress progress = {})
+               const FarField<dim>& far_field, System& system, Progress progress = {})
       : mass_(mass),
         in_situ_(in_situ),
         far_field_(far_field),
-        kind_(points),
         system_(system),
         progress_(std::move(progress)),
         stop_(progress_) {}
@@ -121,7 +118,7 @@ class InitialModel {
     visit_joined(found, mass_.domain.tolerance(), law_of,
                  [&](int a, int b, const auto& area, int law) {
                    stop_();
-                   place_points_on(area, kind_, points_);
+                   place_points(area);
                    if (system_.joints.contacts().empty())
                      system_.joints.reserve(found.size(), points_.size());
                    system_.joints.add(a, b, area, system_.body(a).centre, system_.body(b).centre,
@@ -135,7 +132,7 @@ class InitialModel {
   void add_edges() {
     visit_joined(boundary_facets(mass_), [&](int body, SideOf<dim> side, const auto& area) {
       stop_();
-      place_points_on(area, kind_, points_);
+      place_points(area);
       const Vec<dim>& centre = system_.body(body).centre;
       const bool is_smooth = far_field_.at(side) == Boundary::rollers;
       if (is_smooth)
@@ -154,7 +151,7 @@ class InitialModel {
     visit_joined(boundary_facets(mass_), [&](int body, SideOf<dim> side, const auto& area) {
       if (far_field_.at(side) != Boundary::elastic) return;
       stop_();
-      place_points_on(area, kind_, points_);
+      place_points(area);
       const Vec<dim>& centre = system_.body(body).centre;
       const Vec<dim> middle = area.centre_from(centre);
       for (const FacetPoint<dim>& p : points_) {
@@ -193,6 +190,12 @@ class InitialModel {
   /// Its number: that of the last body.
   [[nodiscard]] int ground() const { return static_cast<int>(mass_.bodies.size()); }
 
+  template <class Area>
+  void place_points(const Area& area) {
+    const auto points = area.gauss_points();
+    points_.assign(points.begin(), points.end());
+  }
+
   /// What the in-situ stress exerts on a piece of the edge.
   /// @param shear_alone  without what is at right angles to it
   template <class Area>
@@ -213,7 +216,6 @@ class InitialModel {
   const RockMass<Geometry>& mass_;
   const InSitu& in_situ_;
   const FarField<dim>& far_field_;
-  ContactPoints kind_;
   System& system_;
   Progress progress_;
   StopCheck stop_;                       ///< asks the one above
@@ -224,12 +226,12 @@ class InitialModel {
 /// laws, as the one below.
 template <class Detector, class System>
 void make_model(System& system, std::shared_ptr<const RockMass<typename System::GeometryType>> mass,
-                const InSitu& in_situ, const FarField<System::dim>& far_field, ContactPoints points,
+                const InSitu& in_situ, const FarField<System::dim>& far_field,
                 std::vector<int> law_of_cut,
                 std::shared_ptr<const GroundAround<System::dim>> around,
                 std::vector<double>& measures, const Progress& progress) {
   const auto& rock = *mass;
-  InitialModel<Detector, System>(rock, in_situ, far_field, points, system, progress)
+  InitialModel<Detector, System>(rock, in_situ, far_field, system, progress)
       .run(std::move(mass), std::move(law_of_cut), std::move(around), measures);
 }
 

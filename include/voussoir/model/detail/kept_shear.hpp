@@ -47,9 +47,7 @@ void keep_shear(const Group& group, const typename Group::Contact& old,
   const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
     const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
                             bodies[static_cast<std::size_t>(c.b)].pose);
-    Vec<Dim - 1> sum = zeros<Vec<Dim - 1>>();
-    for (const auto& p : of) sum += group.force(c, p.load(at), p.state).tangential;
-    return sum;
+    return group.shear_of(c, of, at);
   };
   Vec<Dim - 1> before = shear_of(old, old_points);
   if (was_common) before *= std::min(1.0, area_of(points) / area_of(old_points));

@@ -89,7 +89,6 @@ class ContactUpdate {
   using Contact = MovingContact<Dim>;
   using Point = MovingContactPoint<Dim, FormerPoint>;
   using Pair = typename Tracker::Pair;
-  static constexpr double gaping = 0.01;  ///< of two bodies against each other [rad], about
 
   using Former = FormerContacts<Dim, FormerPoint>;
 
@@ -248,16 +247,12 @@ void ContactUpdate<Dim, Detector>::renew(const Former& former, const Pair& pair,
   for (const Vec<Dim>& p : found.polygon) middle += p;
   middle /= static_cast<double>(found.polygon.size());
   middle += from;
-  // Where a joint gapes it closes at an edge: only corner points lie there.
-  const Rotation<Dim> turn = transposed(now(a).rotation) * now(b).rotation;
-  const bool gapes = (turn - diagonal_of<Dim>(1)).norm() > gaping;
-  const ContactPoints rule = gapes ? ContactPoints::corners : ContactPoints::gauss;
   const Contact* const old = former.nearest(bodies_, a, b, found.normal, middle);
   std::vector<Point> points;
   using Renewal = ContactRenewal<Dim, FormerPoint>;
-  Contact contact = Renewal(bodies_, former.points())
-                        .run(found, from, tracker_.shapes(), owner, a, b, rule, reach,
-                             Renewal::Gaping::known, old, points, joined);
+  Contact contact =
+      Renewal(bodies_, former.points())
+          .run(found, from, tracker_.shapes(), owner, a, b, false, reach, old, points, joined);
   contact.law = old != nullptr     ? old->law
                 : to.has_many_laws ? law_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal))
                                    : 0;

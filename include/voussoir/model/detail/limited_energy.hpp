@@ -8,6 +8,7 @@
 #include <vector>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
+#include <voussoir/model/pressed_part.hpp>
 
 namespace voussoir::detail {
 
@@ -29,20 +30,13 @@ void limit_energy(const Group& group, typename Group::Contact& contact,
                   std::vector<typename Group::Point>& points, double most) {
   const auto at = contact.place(bodies[static_cast<std::size_t>(contact.a)].pose,
                                 bodies[static_cast<std::size_t>(contact.b)].pose);
-  double deepest = 0;
-  for (const auto& p : points) {
+  for (const auto& p : points)
     if (p.initial.normal != 0) return;
-    deepest = std::max(deepest, -p.motion(at).opening);
-  }
+  const double deepest =
+      std::max(0.0, detail::deepest<Dim>(contact, points.data(), points.size(), at));
   // Of energy the root: where all points are closed it falls in proportion to the way.
   const auto root_after = [&](double way) {
-    double sum = 0;
-    for (const auto& p : points) {
-      auto load = p.load(at);
-      load.motion.opening += way;
-      sum += group.stored_energy(contact, load, p.state);
-    }
-    return std::sqrt(std::max(0.0, sum));
+    return std::sqrt(std::max(0.0, group.stored_energy(contact, points, at, way)));
   };
   const double wanted = std::sqrt(most);
   double low = 0, high = deepest, at_high = 0;

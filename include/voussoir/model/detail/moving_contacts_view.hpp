@@ -75,6 +75,16 @@ class MovingContactsView {
   [[nodiscard]] const std::vector<Contact>& contacts() const { return of_->contacts(); }
   [[nodiscard]] Points points() const { return Points(*of_); }
   [[nodiscard]] std::size_t size() const { return of_->size(); }
+  /// Calls visit(k, point, load) for the points of a contact, on its pressed part.
+  template <class Visit>
+  void visit_loads(const Contact& c, const typename Contact::Place& at, Visit&& visit) const {
+    const auto first = static_cast<std::size_t>(c.first);
+    of_->visit_loads(c, of_->points_of(c), at,
+                     [&](std::size_t k, const auto& p, const PointLoad<Dim>& load) {
+                       const auto* state = static_cast<const State*>(of_->memory_of(first + k));
+                       visit(k, Point{p.place, p.zero, p.weight, p.initial, *state}, load);
+                     });
+  }
 
  private:
   const Group* of_;

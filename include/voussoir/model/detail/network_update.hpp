@@ -152,9 +152,8 @@ bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::renew(
   if (!is_everything_new_) renewal.start_at_rest();
   const bool is_centred =
       known ? old->is_centred : kind == 2 && old != nullptr && old->last - old->first == 1;
-  typename Group::Contact contact = renewal.run(
-      found, from, tracker.shapes(), owner, a, b, is_centred ? ContactPoints::centre : rule_,
-      tracker.reach(), decltype(renewal)::Gaping::facing, old, points, joined);
+  typename Group::Contact contact = renewal.run(found, from, tracker.shapes(), owner, a, b,
+                                                is_centred, tracker.reach(), old, points, joined);
   contact.is_centred = is_centred;
   if (old != nullptr)
     contact.law = old->law;
@@ -166,7 +165,7 @@ bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::renew(
     detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
                             !known, contact, bodies, points);
   if (!points.empty()) {
-    const auto impact = detail::Impact<Dim>::at(contact, points, bodies);
+    const auto impact = detail::Impact<Dim>::at(contact, renewal.meeting_place(), bodies);
     const double per_area = group.law_of(contact).joint_normal_stiffness();
     if (has_started_) {
       contact.least_area = known && held > 0 ? old->least_area : impact.least_area(per_area);

@@ -7,7 +7,6 @@
 #include <vector>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/farfield/far_field.hpp>
-#include <voussoir/model/contact_points.hpp>
 #include <voussoir/model/contact_update.hpp>
 #include <voussoir/model/detail/carry_over.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
@@ -36,11 +35,10 @@ template <class Detector, class System>
     System& system, System& next,
     const std::shared_ptr<const RockMass<typename System::GeometryType>>& mass,
     std::vector<int> law_of_cut, const typename System::GeometryType::Opening& opening,
-    const InSitu& in_situ, const FarField<System::dim>& far_field, ContactPoints points,
-    double update_limit, WallTractions& walls, const std::vector<int>& fallen,
-    const Progress& progress) {
+    const InSitu& in_situ, const FarField<System::dim>& far_field, double update_limit,
+    WallTractions& walls, const std::vector<int>& fallen, const Progress& progress) {
   AfterRound after;
-  InitialModel<Detector, System> model(*mass, in_situ, far_field, points, next, progress);
+  InitialModel<Detector, System> model(*mass, in_situ, far_field, next, progress);
   model.add_bodies(after.measures);
   model.add_contacts(std::move(law_of_cut));
   model.add_edges();

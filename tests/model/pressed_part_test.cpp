@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// A joint that opens from an edge: forces and moments against integrals over the pressed part
+// alone, and the energy of paths of opening, sliding and turning.
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+#include <voussoir/contact/barton_bandis_joint.hpp>
+#include <voussoir/contact/coulomb_joint.hpp>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/core/random.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/model/contact_group.hpp>
+
+#include "support/degree.hpp"
+
+namespace pressed_part_test {
+
+using namespace voussoir;
+using voussoir_test::degree;
+
+namespace {
+
+constexpr double k_n = 5e9;
+
+/// Body 1 on body 0, with one contact between them.
+template <class Geometry, class Law, class Area>
+ContactGroup<Geometry, Law> joint(const Law& law, const Area& area,
+                                  const Vec<Geometry::dim>& centre_a,
+                                  const Vec<Geometry::dim>& centre_b) {
+  ContactGroup<Geometry, Law> group({law});
+  const auto points = area.gauss_points();
+  group.add(0, 1, area, centre_a, centre_b,
+            std::vector<FacetPoint<Geometry::dim>>(points.begin(), points.end()));
+  return group;
+}
+
+/// Force and moment about its centre on body 1 of a contact that carries -k_n times its opening
+/// where that is below zero and nothing elsewhere; no shear.
+/// @param triangles  that make the area up
+template <class Group>
+Fixed<6, 1> by_triangles(const Group& group, const std::vector<std::array<Vec3, 3>>& triangles,
+                         const Vec3& centre_a, const Vec3& centre_b, const Eigen::VectorXd& u) {
+  const auto& c = group.contacts().front();
+  const auto opening = [&](const Vec3& x) {
+    return c.normal.dot(displacement_at<3>(u.data() + 6, x - centre_b) -
+                        displacement_at<3>(u.data(), x - centre_a));
+  };
+  Fixed<6, 1> sum = zeros<Fixed<6, 1>>();
+  for (const auto& t : triangles) {
+    // What of it is pressed, corner by corner.
+    std::vector<Vec3> part;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &from = t[k], &to = t[(k + 1) % 3];
+      const double f = opening(from), g = opening(to);
+      if (f <= 0) part.push_back(from);
+      if ((f < 0) != (g < 0)) part.push_back(from + f / (f - g) * (to - from));
+    }
+    for (std::size_t k = 2; k < part.size(); ++k) {
+      const std::array<Vec3, 3> corner{part[0], part[k - 1], part[k]};
+      const double area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+      // The middles of the edges integrate polynomials of degree 2.
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Vec3 x = 0.5 * (corner[e] + corner[(e + 1) % 3]);
+        add_force_at<3>(sum.data(), x - centre_b, -k_n * area / 3 * opening(x) * c.normal);
+      }
+    }
+  }
+  return sum;
+}
+
+template <class Group>
+Eigen::VectorXd forces_of(Group& group, const Eigen::VectorXd& u) {
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
+  group.template add_forces<Frozen>(u.data(), f.data());
+  return f;
+}
+
+/// Paths of two bodies against each other in which the joint opens, closes, slides and turns: work
+/// by the force at the end of each step, as in contact/dissipation_test.cpp.
+/// @param size  of the steps [m]
+template <class Geometry, class Law, class Area>
+void check_paths(const Law& law, const Area& area, double initial, double size, int seed) {
+  constexpr int dim = Geometry::dim, dof = Geometry::dof;
+  Random random(static_cast<std::uint64_t>(seed), dim);
+  for (int n = 0; n < 60; ++n) {
+    CAPTURE(n);
+    auto group = joint<Geometry>(law, area, Vec<dim>(zeros<Vec<dim>>()), Vec<dim>(area.centre()));
+    group.set_initial([&](const auto&, const Vec<dim>&) -> Stress<dim> {
+      return Stress<dim>(diagonal_of<dim>(initial));
+    });
+    const auto stored = [&](const Eigen::VectorXd& u) {
+      double sum = 0;
+      group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
+        sum += law.stored_energy(load, p.state);
+      });
+      return sum;
+    };
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(2 * dof);
+    double before = stored(u), turned_over = 0, least = 0;
+    for (int k = 0; k < 60; ++k) {
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(2 * dof);
+      for (Eigen::Index i = dof; i < 2 * dof; ++i)
+        step[i] = size * (2 * random.uniform() - 1) - 0.1 * u[i];
+      u += step;
+      const Eigen::VectorXd f = forces_of(group, u);
+      (void)group.commit(u.data());
+      const double now = stored(u), work = -f.dot(step), gained = std::exchange(before, now);
+      turned_over += std::abs(work) + std::abs(now - gained);
+      least = std::min(least, work - (now - gained));
+    }
+    REQUIRE(turned_over > 0);
+    CHECK(least >= -1e-9 * turned_over);
+  }
+}
+
+const Segment line{{0.8, 0.1}, {-0.4, 0.1}};
+const SpatialFacet patch{{Vec3(0, 0, 0.3), Vec3(1.1, 0.1, 0.3), Vec3(1.3, 0.6, 0.3),
+                          Vec3(0.5, 1.2, 0.3), Vec3(-0.1, 0.7, 0.3)}};
+
+template <class Law>
+void check_law(const Law& law, double initial) {
+  for (const double size : {2e-6, 4e-5, 1e-3}) {
+    CAPTURE(size);
+    check_paths<Planar>(law, line, initial, size, 5);
+    check_paths<Spatial>(law, patch, initial, size, 6);
+  }
+}
+
+}  // namespace
+
+TEST_SUITE("model/pressed_part") {
+  TEST_CASE("in 2-D force and moment are those of the pressed length, whatever it is") {
+    // N = k_n theta l^2 / 2 at l / 3 from the pressed end, where the joint opens by theta per
+    // length.
+    const CoulombJoint law({k_n, 1e9, 0.0});
+    const Vec2 centre(0.2, 0.6);
+    auto group = joint<Planar>(law, line, {0.2, -0.5}, centre);
+    const double length = line.length(), middle = 0.2;
+    for (const double turn : {1e-4, -1e-4, 3e-9})
+      for (const double part : {1e-6, 0.01, 0.3, 0.5, 0.9, 0.999999}) {
+        CAPTURE(turn);
+        CAPTURE(part);
+        const double l = part * length, end = turn > 0 ? -1 : 1;  // which end is pressed
+        // Along the joint y opens by turn * (x - middle) + lift.
+        const double lift = std::abs(turn) * (0.5 * length - l);
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+        u[4] = lift;
+        u[5] = turn;
+        const Eigen::VectorXd f = forces_of(group, u);
+        const double force = 0.5 * k_n * std::abs(turn) * l * l,
+                     place = middle + end * (0.5 * length - l / 3);
+        CHECK(f[4] == doctest::Approx(force).epsilon(1e-6));
+        CHECK(f[5] == doctest::Approx(force * (place - centre.x())).epsilon(1e-6));
+      }
+    // Closed: k_n L^3 / 12 against turning.
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+    u[4] = -1e-4;
+    u[5] = 1e-5;
+    const Eigen::VectorXd f = forces_of(group, u);
+    CHECK(f[4] == doctest::Approx(k_n * 1e-4 * length).epsilon(1e-9));
+    CHECK(f[5] == doctest::Approx(-k_n * std::pow(length, 3) / 12 * 1e-5).epsilon(1e-9));
+  }
+
+  TEST_CASE("in 3-D they are those of the pressed polygon") {
+    const CoulombJoint law({k_n, 1e9, 0.0});
+    Random random(3, 3);
+    const Vec3 a(0.3, 0.2, -0.4), b(0.6, 0.5, 0.9);
+    // One facet, and an area of two that make an L.
+    ContactArea<3> corner;
+    corner.add({{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 1, 0), Vec3(0, 1, 0)}});
+    corner.add({{Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(1, 3, 0), Vec3(0, 3, 0)}});
+    const auto fan = [](const SpatialFacet& f) {
+      std::vector<std::array<Vec3, 3>> triangles;
+      for (std::size_t k = 2; k < f.vertices.size(); ++k)
+        triangles.push_back({f.vertices[0], f.vertices[k - 1], f.vertices[k]});
+      return triangles;
+    };
+    std::vector<std::array<Vec3, 3>> of_corner = fan(corner.facets()[0]);
+    for (const auto& t : fan(corner.facets()[1])) of_corner.push_back(t);
+    int cut = 0;
+    const auto check = [&](auto& group, const auto& triangles) {
+      for (int n = 0; n < 300; ++n) {
+        Eigen::VectorXd u(12);
+        for (Eigen::Index k = 0; k < 12; ++k) u[k] = 1e-4 * (2 * random.uniform() - 1);
+        const Eigen::VectorXd f = forces_of(group, u);
+        const Fixed<6, 1> exact = by_triangles(group, triangles, a, b, u);
+        // Rounding of what is integrated, over an area of 4 m^2 and arms of 3 m.
+        for (int k = 0; k < 6; ++k) CHECK(std::abs(f[6 + k] - exact[k]) < 1e-9 * k_n * 1e-4);
+        group.visit(u.data(), [&](const auto&, const auto&, const auto& load, const auto&) {
+          cut += load.whole_over_part > 1 ? 1 : 0;
+        });
+      }
+    };
+    auto one = joint<Spatial>(law, patch, a, b);
+    check(one, fan(patch));
+    auto two = joint<Spatial>(law, corner, a, b);
+    check(two, of_corner);
+    CHECK(cut > 4 * 150);  // most of them are open from an edge
+  }
+
+  TEST_CASE("nothing jumps as a joint opens: neither forces nor their moments") {
+    const CoulombJoint law({k_n, 1e9, 30 * degree});
+    auto plane = joint<Planar>(law, line, {0.2, -0.5}, {0.2, 0.6});
+    auto space = joint<Spatial>(law, patch, {0.3, 0.2, -0.4}, {0.6, 0.5, 0.9});
+    const auto check = [&](auto& group, int dof) {
+      Random random(9, static_cast<std::uint64_t>(dof));
+      for (int n = 0; n < 20; ++n) {
+        Eigen::VectorXd from(2 * dof), way(2 * dof);
+        for (Eigen::Index k = 0; k < 2 * dof; ++k) {
+          from[k] = 1e-4 * (2 * random.uniform() - 1);
+          way[k] = 2e-4 * (2 * random.uniform() - 1);
+        }
+        Eigen::VectorXd before = forces_of(group, from);
+        constexpr int steps = 2000;
+        for (int k = 1; k <= steps; ++k) {
+          const Eigen::VectorXd now = forces_of(group, from + way * (double(k) / steps));
+          // No stiffer than the closed joint: k_n (A + its moments about arms of 2 m).
+          CHECK((now - before).norm() < 10 * k_n * 4 * way.norm() / steps);
+          before = now;
+        }
+      }
+    };
+    check(plane, 3);
+    check(space, 6);
+  }
+
+  TEST_CASE("no path of opening, sliding and turning makes energy") {
+    check_law(CoulombJoint({k_n, 1e9, 35 * degree}), 1e5);
+    check_law(CoulombJoint({k_n, 1e9, 35 * degree}), 0);
+    check_law(MohrCoulombJoint({.joint_normal_stiffness = k_n,
+                                .joint_shear_stiffness = 1e9,
+                                .friction_angle = 35 * degree,
+                                .cohesion = 2e5}),
+              1e5);
+    check_law(BartonBandisJoint({.roughness = 10,
+                                 .wall_strength = 100e6,
+                                 .residual_friction_angle = 28 * degree,
+                                 .initial_stiffness = 20e9,
+                                 .maximum_closure = 2e-4}),
+              1e5);
+  }
+}
+
+}  // namespace pressed_part_test

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Blocks without in-situ stress at the limit of equilibrium, through `Solver` by every procedure:
+// what stands and what does not follows from statics alone where friction does not let go.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/laid_blocks.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/opening.hpp>
+
+#include "support/blocks.hpp"
+#include "support/faults.hpp"
+
+namespace limit_problems_test {
+
+using namespace voussoir;
+using voussoir_test::brick;
+using voussoir_test::degree;
+using voussoir_test::rectangle;
+
+namespace {
+
+using Procedures = std::tuple<TwoLevel, Relaxation, Explicit>;
+
+/// Every block but those that are fixed is pushed along x by a part of its weight.
+/// @param along  unit vector
+template <class Tunnel, int Dim>
+void push(Tunnel& tunnel, double part, const Vec<Dim>& along) {
+  for (int b = 0; b < tunnel.ground(); ++b)
+    if (tunnel.system().body(b).movable)
+      tunnel.add_load(b, {Vec<Dim>(part * tunnel.system().body(b).weight * along)});
+}
+
+/// All of it: rest after blocks have fallen is none.
+template <class Tunnel>
+bool stands(Tunnel& tunnel) {
+  return tunnel.equilibrium().verdict == Verdict::stable && tunnel.fallen().empty();
+}
+
+/// Hinges form inside of the edges by l / 3 of what is pressed there; the stiffness makes that a
+/// per mille of a joint.
+constexpr double stiff = 1e12;
+
+/// A semicircle of equal voussoirs between springings that are fixed, of mean radius 10 m.
+template <class Method>
+bool arch_stands(int voussoirs, double thickness, double sideways) {
+  constexpr double radius = 10;
+  const auto corner = [&](double r, int k) {
+    const double angle = std::numbers::pi * k / voussoirs;
+    // The springings are level to the last bit.
+    return Vec2(r * std::cos(angle), k == 0 || k == voussoirs ? 0.0 : r * std::sin(angle));
+  };
+  const double inner = radius - 0.5 * thickness, outer = radius + 0.5 * thickness;
+  std::vector<ConvexPolygon> blocks{rectangle({-radius, -1}, 3 * thickness, 2),
+                                    rectangle({radius, -1}, 3 * thickness, 2)};
+  for (int k = 0; k < voussoirs; ++k)
+    blocks.push_back(ConvexPolygon(
+        {corner(inner, k), corner(outer, k), corner(outer, k + 1), corner(inner, k + 1)}));
+  Solver<Method> arch(laid_blocks<Planar>(blocks), CoulombJoint({stiff, stiff, 60 * degree}),
+                      {.density = 2000, .is_laid = true});
+  REQUIRE(arch.system().joints.contacts().size() == static_cast<std::size_t>(voussoirs + 1));
+  arch.fix(0);
+  arch.fix(1);
+  if (sideways > 0) push(arch, sideways, Vec2(1, 0));
+  return stands(arch);
+}
+
+/// Equal blocks on each other, pushed.
+template <class Method>
+bool stack_stands(int count, double slenderness, double sideways) {
+  std::vector<ConvexPolygon> blocks{rectangle({0, -0.5}, 4, 1)};
+  const double height = slenderness / count;
+  for (int k = 0; k < count; ++k) blocks.push_back(rectangle({0, (k + 0.5) * height}, 1, height));
+  Solver<Method> stack(laid_blocks<Planar>(blocks), CoulombJoint({stiff, stiff, 60 * degree}),
+                       {.density = 2500, .is_laid = true});
+  stack.fix(0);
+  push(stack, sideways, Vec2(1, 0));
+  return stands(stack);
+}
+
+/// A column of 1 m x 1 m x 3 m, pushed in this direction.
+template <class Method>
+bool column_stands(double direction, double sideways) {
+  Solver<Method, Spatial> column(
+      laid_blocks<Spatial>({brick({0, 0, -0.5}, {3, 3, 1}), brick({0, 0, 1.5}, {1, 1, 3})}),
+      CoulombJoint({stiff, stiff, 60 * degree}), {.density = 2500, .is_laid = true});
+  column.fix(0);
+  push(column, sideways, Vec3(std::cos(direction), std::sin(direction), 0));
+  return stands(column);
+}
+
+}  // namespace
+
+TEST_SUITE("solver/limit_problems") {
+  TEST_CASE_TEMPLATE_DEFINE("arch, stack and column stand up to where statics says", Method,
+                            limits) {
+    // Thickness over radius that 31 voussoirs need: 0.1072 (closed forms f.5); sideways, of 0.15:
+    // 0.1446 of the weight, by a linear programme over the joints.
+    CHECK(arch_stands<Method>(31, 1.5, 0));
+    CHECK(arch_stands<Method>(31, 1.5, 0.9 * 0.1446));
+    CHECK(!arch_stands<Method>(31, 1.5, 1.05 * 0.1446));
+    CHECK(!arch_stands<Method>(31, 1.0, 0));
+    // About the lower edge: b / h.
+    CHECK(stack_stands<Method>(5, 3, 0.97 / 3));
+    CHECK(!stack_stands<Method>(5, 3, 1.03 / 3));
+    CHECK(column_stands<Method>(0, 0.97 / 3));
+    // A state is accepted that is out of balance by 1 % of a weight, 2 % of this moment.
+    CHECK(!column_stands<Method>(0, 1.04 / 3));
+    // About a corner.
+    CHECK(column_stands<Method>(45 * degree, 0.97 * std::sqrt(2) / 3));
+    CHECK(!column_stands<Method>(45 * degree, 1.04 * std::sqrt(2) / 3));
+  }
+  TEST_CASE_TEMPLATE_APPLY(limits, Procedures);
+
+  TEST_CASE("loads and supports that make no sense are refused") {
+    using voussoir_test::says;
+    const auto fault_of = [](auto&& action) -> std::string {
+      try {
+        action();
+      } catch (const InvalidInput& refused) {
+        return refused.what();
+      }
+      return "";
+    };
+    Solver<> wall(laid_blocks<Planar>({rectangle({0, -0.5}, 4, 1), rectangle({0, 0.5}, 1, 1)}),
+                  CoulombJoint({1e10, 1e10, 0.6}), {.density = 2500, .is_laid = true});
+    CHECK(says(fault_of([&] { wall.fix(2); }), "0 to 1"));
+    CHECK(says(fault_of([&] { wall.add_load(-1, {}); }), "0 to 1"));
+    wall.fix(0);
+    CHECK(says(fault_of([&] { wall.add_load(0, {Vec2(1, 0)}); }), "is fixed"));
+    CHECK(says(fault_of([&] { wall.add_load(1, {Vec2(NAN, 0)}); }), "finite"));
+    CHECK(says(fault_of([&] { wall.excavate(circular_opening(1, 12)); }), "excavate first"));
+    CHECK(says(fault_of([] { (void)laid_blocks<Planar>({}); }), "no block"));
+    CHECK(says(fault_of([] { InSitu{.density = 2000, .surcharge = 1e5, .is_laid = true}.check(); }),
+               "laid"));
+  }
+}
+
+}  // namespace limit_problems_test
