@@ -64,10 +64,10 @@ struct Lining {
 
 /// The solution procedure.
 enum class Way {
-  /// The search with an error estimate, two points a contact: what a design should use.
+  /// The search with an error estimate: what a design should use.
   quasi_static,
   /// As near as can be told to how the paper ran it: explicit stepping, all rock taken out at once,
-  /// local damping of 0.1, one point a contact.
+  /// local damping of 0.1.
   as_the_paper,
   /// Explicit stepping that takes the rock out slowly, well damped: to check the search.
   slow_explicit,

@@ -84,8 +84,8 @@ const std::vector<std::string>& assumptions() {
       "Section of 70 m × 60 m, sides and base smooth and fixed after the in-situ state; gravity, "
       "K0 = 1 unless said.",
       "In-situ stress prescribed at the contacts: no generation stage, no friction angle for it.",
-      "Two points a contact, at the Gauss points of the face; blocks are rigid, joints linear with "
-      "Coulomb friction and no dilation.",
+      "Contacts integrated exactly over the part that is pressed; blocks are rigid, joints linear "
+      "with Coulomb friction and no dilation.",
       "Equilibrium by a search without dynamics (TwoLevel), accepted with an estimated error below "
       "0.1 % of the largest displacement and every block out of balance by less than 1 % of its "
       "weight. Support is wished in place before the rock moves.",
@@ -95,8 +95,8 @@ const std::vector<std::string>& assumptions() {
       "Bolts one metre apart along the tunnel, anchors 1.2 diameters from each joint; a lining of 72 "
       "Euler-Bernoulli beams, weightless.",
       "\"As the paper ran it\": explicit stepping with all rock taken out at once, local damping of "
-      "0.1 (the paper prints none), one point a contact; blocks are detached at 50 mm. The second column, "
-      "where the answer depends on it.",
+      "0.1 (the paper prints none); blocks are detached at 50 mm. The second column, where the answer "
+      "depends on it.",
       "The 24 unsupported tunnels move with their true masses and contact updates "
       "(Dynamics), normal dashpots of 0.3 of critical.",
       "Nothing was tuned to agree. Tolerances were proposed before the toolkit was written and are "

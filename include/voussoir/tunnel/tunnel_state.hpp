@@ -103,8 +103,7 @@ template <class Solver, int Dim = Solver::SystemType::dim>
     const auto& c = joints.contacts()[k];
     for (int i = c.first; i < c.last(); ++i) {  // of the pressed part alone the report tells above
       const auto p = joints.points().place(static_cast<std::size_t>(i));
-      const double opening =
-          c.motion(p, c.offset_of(p), system.displacement.data()).opening;
+      const double opening = c.motion(p, c.offset_of(p), system.displacement.data()).opening;
       states[k].report.opening = std::max(states[k].report.opening, opening);
     }
   }
