@@ -15,12 +15,13 @@ namespace voussoir {
 ///
 /// w weight of the point, s slip, q plastic slip. Where the pressed part of the joint gets less, so
 /// does w: what has opened takes its shear with it. Where it gets more, from w_c at the last
-/// commit, what has closed since then has been carried along by half of the way on average:
+/// commit, what has closed since then has slipped half of the increment on average:
 ///
 ///   T = w_c tau + (w - w_c) (tau - tau_c) / 2
 ///
-/// and at the commit this force is spread over all that is closed, which takes energy away and
-/// brings none: no path of opening, slipping and turning makes any (tests/model/pressed_part).
+/// and at the commit this force is spread over all that is closed. That dissipates energy: on the
+/// random paths of tests/model/pressed_part none is made (joints without tensile strength and
+/// dilation).
 template <int Dim>
 struct ShearSpring {
   Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]
@@ -74,7 +75,7 @@ struct ShearSpring {
                         0.5 * (now.squaredNorm() / of_point - shear.squaredNorm() / then);
     if (slips || part < 1) plastic_slip = load.motion.slip + now / of_point - start;
     shear = now;
-    // Shear of less than a slip that nobody sees: there is no spring to be spread.
+    // Elastic slip below 1e-12 m is rounding: there is no spring to be spread.
     pressed = now.squaredNorm() < of_point * of_point * 1e-24
                   ? std::numeric_limits<double>::infinity()
                   : load.weight;

@@ -67,7 +67,7 @@ class ContactKernel {
   struct PlaneSums {
     double normal = 0, tangential = 0, moment = 0;
   };
-  /// A point in the plane: where it is, and its load.
+  /// Place and load of a point in 2-D.
   struct PlanePoint {
     double along, height = 0;
     PointLoad<2> load;
@@ -200,7 +200,7 @@ class ContactKernel {
     return axis[0] * v.data()[0] + axis[1] * v.data()[1] + axis[2] * v.data()[2];
   }
 
-  /// A point in space: where it is along the tangents and the normal, and its load.
+  /// Place along tangents and normal, and load, of a point in 3-D.
   struct SpacePoint {
     double s, t, height = 0;
     PointLoad<3> load;

@@ -132,7 +132,7 @@ class MovingContacts {
         },
         visit);
   }
-  /// The same of a contact that is here.
+  /// Points and loads of a contact of this group, on its pressed part.
   template <class Visit>
   void visit_loads(const Contact& c, const typename Contact::Place& at, Visit&& visit) const {
     visit_loads(c, points_of(c), at, visit);

@@ -23,13 +23,15 @@ namespace voussoir {
 /// k_n L^3 / 12 against turning of a closed joint, and a lever that ends at the edge of one that
 /// turns about it. Both are continuous in the motion, since the points move with the part.
 ///
-/// Every point goes on remembering what it did. What its law holds of shear is that of the part,
-/// which it loses as the part gets less (`held_part`).
+/// Every point keeps its history. The shear spring of its law has the weight of the part
+/// (`ShearSpring`).
 template <int Dim>
 struct PressedPart;
 
 /// In 2-D the part reaches from an end of the joint to where it lets go. Places are told along the
-/// joint, -1 and 1 at Gauss's two points of the whole: its ends are at -sqrt(3) and sqrt(3).
+/// joint, -1 and 1 at Gauss's two points of the whole: its ends are at -sqrt(3) and sqrt(3). A
+/// contact in facets with a gap between them is taken for the one segment that has its second
+/// moment: exact while it is closed, approximate once it opens.
 template <>
 struct PressedPart<2> {
   static constexpr std::size_t count = 2;             ///< of points
@@ -143,7 +145,7 @@ namespace detail {
 VOUSSOIR_INLINE void move_loads(const PressedPart<2>& part, PointLoad<2>* loads);
 VOUSSOIR_INLINE void move_loads(const PressedPart<3>& part, PointLoad<3>* loads);
 
-/// The same of a part that is still to be found.
+/// Finds the pressed part, and moves the loads there.
 /// @param release  release(k, load): opening at which point k lets go [m]
 template <int Dim, class Release>
 [[nodiscard]] PressedPart<Dim> press(PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
