@@ -11,7 +11,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/model/contact_update.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 
 #include "support/bolted_tunnel.hpp"
 #include "support/jointed_mass.hpp"

@@ -120,6 +120,24 @@ void check_paths(const Law& law, const Area& area, double initial, double size, 
   }
 }
 
+/// A joint that breaks in tension alone, and how far it stretches before that.
+constexpr double stretch = 4e-5;
+const MohrCoulombJoint glued({.joint_normal_stiffness = k_n,
+                              .joint_shear_stiffness = 1e9,
+                              .friction_angle = 35 * degree,
+                              .cohesion = 1e6,
+                              .tensile_strength = k_n * stretch});
+
+/// What its points say is left of the bond.
+template <class Group>
+double bond_of(const Group& group, const Eigen::VectorXd& u) {
+  double least = 1;
+  group.visit(u.data(), [&](const auto&, const auto& p, const auto&, const auto&) {
+    least = std::min(least, p.state.bond);
+  });
+  return least;
+}
+
 const Segment line{{0.8, 0.1}, {-0.4, 0.1}};
 const SpatialFacet patch{{Vec3(0, 0, 0.3), Vec3(1.1, 0.1, 0.3), Vec3(1.3, 0.6, 0.3),
                           Vec3(0.5, 1.2, 0.3), Vec3(-0.1, 0.7, 0.3)}};
@@ -231,6 +249,109 @@ TEST_SUITE("model/pressed_part") {
     check(space, 6);
   }
 
+  TEST_CASE("in 2-D a bond that cracks from both ends bears what fibres of it bear") {
+    auto group = joint<Planar>(glued, line, {0.2, -0.5}, Vec2(line.centre()));
+    constexpr int count = 20000;
+    std::vector<char> holds(count, 1);
+    const double length = line.length();
+    Random random(21, 2);
+    int between = 0;
+    for (int n = 0; n < 60; ++n) {
+      CAPTURE(n);
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+      // Cracks begin at 4e-5 m: from closed farther and farther apart, turned either way.
+      u[4] = 1.5e-6 * (n % 20) - 2e-5 * random.uniform();
+      u[5] = 4e-6 * (n % 20) * (2 * random.uniform() - 1);
+      const Eigen::VectorXd f = forces_of(group, u);
+      double force = 0, moment = 0, bonded = 0, largest = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        const double arm = length * ((static_cast<double>(k) + 0.5) / count - 0.5);
+        const double opening = u[4] + u[5] * arm, weight = length / count;
+        if (opening > stretch) holds[k] = 0;
+        bonded += holds[k];
+        if (!holds[k] && opening > 0) continue;
+        force -= k_n * weight * opening;
+        moment -= k_n * weight * opening * arm;
+        largest += k_n * weight * std::abs(opening);
+      }
+      (void)group.commit(u.data());
+      // One fibre, of the greatest stress there is.
+      const double tolerance = 1e-3 * (largest + k_n * stretch * length);
+      CHECK(std::abs(f[4] - force) < tolerance);
+      CHECK(std::abs(f[5] - moment) < tolerance * length);
+      CHECK(bond_of(group, u) == doctest::Approx(bonded / count).epsilon(1e-3));
+      between += bonded > 0 && bonded < count ? 1 : 0;
+    }
+    CHECK(between > 20);
+  }
+
+  TEST_CASE("in 3-D it does so while it cracks from one side, and never holds more than they do") {
+    const Vec3 a(0.3, 0.2, -0.4), b = patch.centre();
+    // Fibres on a grid.
+    struct Fibre {
+      Vec3 place;
+      bool holds;
+    };
+    const double width = 0.004;
+    std::vector<Fibre> fibres;
+    for (double x = -0.1 + width / 2; x < 1.3; x += width)
+      for (double y = width / 2; y < 1.2; y += width) {
+        bool is_inside = true;
+        for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+          const Vec3 &from = patch.vertices[k], &to = patch.vertices[(k + 1) % 5];
+          is_inside =
+              is_inside &&
+              (to.x() - from.x()) * (y - from.y()) - (to.y() - from.y()) * (x - from.x()) > 0;
+        }
+        if (is_inside) fibres.push_back({{x, y, 0.3}, true});
+      }
+    const double area = patch.area_vector().norm(),
+                 weight = area / static_cast<double>(fibres.size());
+    Random random(23, 3);
+    for (const bool from_one_side : {true, false}) {
+      CAPTURE(from_one_side);
+      for (Fibre& fibre : fibres) fibre.holds = true;
+      auto group = joint<Spatial>(glued, patch, a, b);
+      const double side = 2 * random.uniform();
+      int between = 0;
+      for (int n = 0; n < 30; ++n) {
+        CAPTURE(n);
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(12);
+        const double turn = 5e-6 * n * (from_one_side ? 1.0 : random.uniform()),
+                     about = from_one_side ? side : 6.28 * random.uniform();
+        u[8] = -1e-5;
+        u[9] = turn * std::cos(about);
+        u[10] = turn * std::sin(about);
+        const Eigen::VectorXd f = forces_of(group, u);
+        double force = 0, bonded = 0, largest = 0;
+        Vec3 moment = zeros<Vec3>();
+        for (Fibre& fibre : fibres) {
+          const Vec3 arm = fibre.place - b;
+          const double opening = displacement_at<3>(u.data() + 6, arm).z();
+          if (opening > stretch) fibre.holds = false;
+          bonded += fibre.holds ? weight : 0.0;
+          if (!fibre.holds && opening > 0) continue;
+          force -= k_n * weight * opening;
+          moment += arm.cross(Vec3(0, 0, -k_n * weight * opening));
+          largest += k_n * weight * std::abs(opening);
+        }
+        (void)group.commit(u.data());
+        const double left = bond_of(group, u) * area;
+        // Fibres that a straight front cuts in two: some 2 of 300 across.
+        const double tolerance = 8e-3 * (largest + k_n * stretch * area);
+        if (from_one_side) {
+          CHECK(std::abs(f[8] - force) < tolerance);
+          CHECK(std::abs(f[9] - moment.x()) < tolerance);
+          CHECK(std::abs(f[10] - moment.y()) < tolerance);
+          CHECK(std::abs(left - bonded) < 8e-3 * area);
+        }
+        CHECK(left < bonded + 8e-3 * area);
+        between += left > 0.05 * area && left < 0.95 * area ? 1 : 0;
+      }
+      CHECK(between > 3);
+    }
+  }
+
   TEST_CASE("no path of opening, sliding and turning makes energy") {
     check_law(CoulombJoint({k_n, 1e9, 35 * degree}), 1e5);
     check_law(CoulombJoint({k_n, 1e9, 35 * degree}), 0);
@@ -239,6 +360,14 @@ TEST_SUITE("model/pressed_part") {
                                 .friction_angle = 35 * degree,
                                 .cohesion = 2e5}),
               1e5);
+    MohrCoulombJoint::Params bonded{.joint_normal_stiffness = k_n,
+                                    .joint_shear_stiffness = 1e9,
+                                    .friction_angle = 35 * degree,
+                                    .cohesion = 2e5,
+                                    .tensile_strength = 1e5,
+                                    .residual_friction_angle = 30 * degree};
+    check_law(MohrCoulombJoint(bonded), 1e5);
+    check_law(MohrCoulombJoint(bonded), 0);
     check_law(BartonBandisJoint({.roughness = 10,
                                  .wall_strength = 100e6,
                                  .residual_friction_angle = 28 * degree,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <limits>
 #include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
@@ -22,10 +23,44 @@ struct PointForce {
   Vec<Dim - 1> tangential = zeros<Vec<Dim - 1>>();  ///< along the tangents [N]
 };
 
+/// How far the bond of a joint reaches on the side of one of its points: what has cracked from that
+/// side is beyond a straight front.
+///
+/// Places are told along the joint as in `PressedPart`: in radii of gyration from its middle. In
+/// 2-D the front is at `reach` towards the point; in 3-D it is the line n . x = reach whose normal
+/// is turned by the angle `slant` from the axis towards the point.
+template <int Dim>
+struct BondFront {
+  double reach = std::numeric_limits<double>::infinity();  ///< infinity: nothing has cracked [-]
+  double slant = 0;                                        ///< 3-D, -pi/4 to pi/4 [rad]
+};
+template <>
+struct BondFront<2> {
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+/// What holds a joint together against tension, as one of its points has it.
+template <int Dim>
+struct PointBond {
+  double area = 1;  ///< what is left of it over the whole length or area of the joint [-]
+  /// How far it stretches before it breaks, the joint's own over all its points [m].
+  double stretch = std::numeric_limits<double>::infinity();
+  BondFront<Dim> front;
+};
+
+/// What a law with a bond says of the opening of a point, since the in-situ state.
+template <int Dim>
+struct BondRelease {
+  double opening;      ///< at which the normal spring carries nothing [m]
+  double stretch = 0;  ///< by which it may open farther before the bond breaks [m]; 0: no bond
+  double area = 1;     ///< see `PointBond`, at the last commit [-]
+  BondFront<Dim> front;
+};
+
 /// A contact point as a law sees it: the length (2-D) or area (3-D) it stands for [m], [m^2], the
 /// force in the in-situ state, and the motion since.
 ///
-/// Of a joint that is open from an edge on, all this is told of the part that is pressed
+/// Of a joint that is open from an edge on, all this is told of the part that is pressed or bonded
 /// (`PressedPart`): its points stand for that part alone.
 template <int Dim>
 struct PointLoad {
@@ -33,6 +68,8 @@ struct PointLoad {
   PointForce<Dim> initial;
   PointMotion<Dim> motion;
   double whole_over_part = 1;  ///< weight of the whole joint over that of its pressed part [-]
+  /// Of a law that says how far its bond holds: see `release_opening`.
+  PointBond<Dim> bond = {};
 };
 
 /// Two contact points in 2-D side by side, as `PointLoad` and `PointForce` have one.
@@ -99,18 +136,31 @@ concept HasJointStiffness = requires(const Law law) {
   { law.joint_shear_stiffness() } -> std::same_as<double>;
 };
 
-/// Optional: the law says itself at which opening a point lets go, since the in-situ state.
+/// Optional: the law says itself at which opening a point lets go, since the in-situ state; with a
+/// `BondRelease` also how far a bond holds beyond it.
 template <class Law, int Dim>
-concept HasRelease = requires(const Law law, const PointLoad<Dim>& load,
-                              const typename Law::template State<Dim>& state) {
+concept HasBond = requires(const Law law, const PointLoad<Dim>& load,
+                           const typename Law::template State<Dim>& state) {
+  { law.release_opening(load, state) } -> std::same_as<BondRelease<Dim>>;
+};
+template <class Law, int Dim>
+concept HasRelease = HasBond<Law, Dim> || requires(const Law law, const PointLoad<Dim>& load,
+                                                   const typename Law::template State<Dim>& state) {
   { law.release_opening(load, state) } -> std::same_as<double>;
 };
 
-/// The opening at which a point carries nothing any more [m]; infinity where it holds tension. Of a
-/// law that does not say: that of a linear normal spring.
+[[nodiscard]] constexpr double opening_of(double release) { return release; }
+template <int Dim>
+[[nodiscard]] constexpr double opening_of(const BondRelease<Dim>& release) {
+  return release.opening;
+}
+
+/// The opening at which a point carries nothing any more [m]. Of a law that does not say: that of a
+/// linear normal spring.
+/// @return  a number, or a `BondRelease`
 template <int Dim, class Law>
-[[nodiscard]] double release_opening(const Law& law, const PointLoad<Dim>& load,
-                                     const typename Law::template State<Dim>& state) {
+[[nodiscard]] auto release_opening(const Law& law, const PointLoad<Dim>& load,
+                                   const typename Law::template State<Dim>& state) {
   if constexpr (HasRelease<Law, Dim>)
     return law.release_opening(load, state);
   else
@@ -135,7 +185,8 @@ template <int Dim, class Law>
 /// Optional: `ContactReport describe(const PointLoad<Dim>&, const State<Dim>&) const`, for a law
 /// that has damage to tell of, or whose shear stiffness is not one number (see
 /// `report_from_force`); `double release_opening(const PointLoad<Dim>&, const State<Dim>&) const`,
-/// for one whose normal force is not linear, or that holds tension.
+/// for one whose normal force is not linear; the same with a `BondRelease<Dim>` for one that holds
+/// tension: it then finds in `PointLoad::bond` what of the bond is left, and remembers it.
 ///
 /// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
 /// BurgersJoint, SmoothWall (edge of the domain).

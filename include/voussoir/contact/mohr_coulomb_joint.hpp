@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/shear_spring.hpp>
@@ -14,7 +13,7 @@ namespace voussoir {
 
 /// A joint with cohesion and tensile strength that opens as it slips, and weakens when it fails.
 ///
-///   N = N0 - k_n w (g - d),   N >= -sigma_t w, else it fails and N = 0
+///   N = N0 - k_n w (g - d),   N >= -sigma_t w, else it breaks there and N = 0
 ///   |T| <= c w + N tan(phi),  T = T0 - k_s w (s - q)
 ///   d = tan(psi) min(Q, Q_max), Q the length of the path of q
 ///
@@ -23,6 +22,10 @@ namespace voussoir {
 /// continuous function of motion until cohesion or tensile strength is lost. A point that has
 /// reached its strength has failed: from the next commit on cohesion and friction are the residual
 /// ones, and there is no tensile strength. With c = sigma_t = psi = 0 it is a CoulombJoint.
+///
+/// Tension breaks a joint from where it opens most: what has opened by more than the bond stretches
+/// (sigma_t / k_n) has lost tensile strength and cohesion, the rest still bears (`bonded_part`).
+/// What fails in shear lets all of the joint go in tension.
 ///
 /// Weakening changes the force at a commit: a search for equilibrium goes on after it
 /// (`System::commit` counts such points).
@@ -49,8 +52,8 @@ class MohrCoulombJoint {
   template <int Dim>
   struct State : ShearSpring<Dim> {
     double path = 0;  ///< Q [m]
-    /// Least weight that was ever pressed: what has opened has lost its bond [m], [m^2].
-    double bonded = std::numeric_limits<double>::infinity();
+    double bond = 1;  ///< what is left of it, over the whole joint [-]
+    BondFront<Dim> front;
     bool failed = false;
   };
 
@@ -115,10 +118,16 @@ class MohrCoulombJoint {
         state.commit(load, load.initial.tangential, p_.joint_shear_stiffness, now.force.tangential);
     lost -= now.force.normal * (dilation(state.path + now.slip) - dilation(state.path));
     state.path += now.slip;  // what an open joint slips wears no teeth
-    state.bonded = std::min(state.bonded, load.weight);
-    if (now.opens && !state.failed)
+    if (std::isfinite(load.bond.stretch)) {
+      const double torn =
+          load.weight * load.whole_over_part * std::max(0.0, state.bond - load.bond.area);
+      lost += 0.5 * p_.joint_normal_stiffness * load.bond.stretch * load.bond.stretch * torn;
+      state.bond = std::min(state.bond, load.bond.area);
+      state.front = load.bond.front;
+    } else if (now.opens && !state.failed) {
       lost +=
           0.5 * load.weight * p_.tensile_strength * p_.tensile_strength / p_.joint_normal_stiffness;
+    }
     if (state.failed || !(now.opens || now.slip > 0)) return lost;
     state.failed = true;
     // It slips on at once to what it still carries: a spring left at the peak would come back to it
@@ -126,12 +135,15 @@ class MohrCoulombJoint {
     return lost + commit(load, state);
   }
 
-  /// Where the bond holds, no opening; else where the normal spring, lifted by the dilation so far,
-  /// lets go.
+  /// Where the normal spring, lifted by the dilation so far, carries nothing, and how far its bond
+  /// stretches beyond that.
   template <int Dim>
-  [[nodiscard]] double release_opening(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    if (!state.failed && p_.tensile_strength > 0) return std::numeric_limits<double>::infinity();
-    return load.initial.normal / (p_.joint_normal_stiffness * load.weight) + dilation(state.path);
+  [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
+                                                 const State<Dim>& state) const {
+    const double opening =
+        load.initial.normal / (p_.joint_normal_stiffness * load.weight) + dilation(state.path);
+    if (state.failed) return {opening, 0, state.bond, state.front};
+    return {opening, p_.tensile_strength / p_.joint_normal_stiffness, state.bond, state.front};
   }
 
   /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
@@ -151,7 +163,7 @@ class MohrCoulombJoint {
     if (tan_dilation_ > 0) report.damage = std::min(1.0, state.path / p_.dilation_limit);
     const bool weakens = p_.tensile_strength > 0 || p_.residual_cohesion < p_.cohesion ||
                          p_.residual_friction_angle < p_.friction_angle;
-    if (state.failed && weakens) report.damage = 1;
+    if (weakens) report.damage = std::max(report.damage, state.failed ? 1.0 : 1 - state.bond);
     return report;
   }
 
@@ -180,18 +192,27 @@ class MohrCoulombJoint {
                 p_.joint_normal_stiffness * w * (load.motion.opening - dilation(state.path)),
             state.force(load, load.initial.tangential, p_.joint_shear_stiffness)};
   }
-  [[nodiscard]] double tensile_strength(double weight, bool failed) const {
-    return failed ? 0.0 : weight * p_.tensile_strength;
+  /// Part of what carries the point's load that is bonded, 0 to 1.
+  template <int Dim>
+  [[nodiscard]] static double bonded(const PointLoad<Dim>& load, const State<Dim>& state) {
+    if (state.failed) return 0;
+    return std::min(1.0, std::min(load.bond.area, state.bond) * load.whole_over_part);
+  }
+  /// Of a point [N].
+  template <int Dim>
+  [[nodiscard]] double tensile_strength(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    if (!(bonded(load, state) > 0)) return 0;
+    return load.weight *
+           std::min(p_.tensile_strength, p_.joint_normal_stiffness * load.bond.stretch);
   }
   [[nodiscard]] double friction_coefficient(bool failed) const {
     return failed ? residual_friction_coefficient_ : friction_coefficient_;
   }
-  /// Of the bond, as far as the joint has never been open, and of what is left of it elsewhere [N].
+  /// Of the bond, as far as it holds, and of what is left of it elsewhere [N].
   template <int Dim>
   [[nodiscard]] double cohesion(const PointLoad<Dim>& load, const State<Dim>& state) const {
-    if (state.failed) return load.weight * p_.residual_cohesion;
-    const double bonded = std::min(1.0, state.bonded / load.weight);
-    return load.weight * (bonded * p_.cohesion + (1 - bonded) * p_.residual_cohesion);
+    const double part = bonded(load, state);
+    return load.weight * (part * p_.cohesion + (1 - part) * p_.residual_cohesion);
   }
   /// True where a force is within both strengths: nearly everywhere, and without a root.
   template <int Dim>
@@ -199,7 +220,7 @@ class MohrCoulombJoint {
                            const State<Dim>& state) const {
     const double strength =
         std::max(0.0, cohesion(load, state) + friction_coefficient(state.failed) * force.normal);
-    return force.normal >= -tensile_strength(load.weight, state.failed) &&
+    return force.normal >= -tensile_strength(load, state) &&
            force.tangential.squaredNorm() <= strength * strength;
   }
 
@@ -208,7 +229,7 @@ class MohrCoulombJoint {
     const double w = load.weight, kn = p_.joint_normal_stiffness * w,
                  ks = p_.joint_shear_stiffness * w, mu = friction_coefficient(state.failed),
                  cohesion = this->cohesion(load, state),
-                 least_normal = -tensile_strength(w, state.failed);
+                 least_normal = -tensile_strength(load, state);
     Response<Dim> r;
     r.force = elastic_force(load, state);
     const double shear = r.force.tangential.norm();

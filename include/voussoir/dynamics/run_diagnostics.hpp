@@ -10,7 +10,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/model/moving_bodies.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 
 namespace voussoir::detail {
 

@@ -147,8 +147,8 @@ class LawModel {
   virtual double commit(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual double stored_energy(const PointLoad<Dim>& load,
                                              const void* state) const = 0;
-  [[nodiscard]] virtual double release_opening(const PointLoad<Dim>& load,
-                                               const void* state) const = 0;
+  [[nodiscard]] virtual BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
+                                                         const void* state) const = 0;
   /// See `detail::commit_point` and `detail::tangent_at`.
   virtual bool commit_point(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual Stress<Dim> tangent_at(const PointLoad<Dim>& load,
@@ -213,7 +213,8 @@ class AnyLaw {
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const AnyState& state) const {
     return model_->stored_energy(load, state.of(model_->states()));
   }
-  [[nodiscard]] double release_opening(const PointLoad<Dim>& load, const AnyState& state) const {
+  [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
+                                                 const AnyState& state) const {
     return model_->release_opening(load, state.of(model_->states()));
   }
   [[nodiscard]] double joint_normal_stiffness() const { return normal_stiffness_; }

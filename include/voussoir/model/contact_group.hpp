@@ -16,8 +16,9 @@
 #include <voussoir/model/any_law.hpp>
 #include <voussoir/model/contact_arrays.hpp>
 #include <voussoir/model/contact_kernel.hpp>
+#include <voussoir/model/detail/difference_forces.hpp>
 #include <voussoir/model/detail/law_steps.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
@@ -209,7 +210,9 @@ class ContactGroup {
             ba -= sb * transposed(a);
             bb += sb * transposed(b);
           });
-      if (!is_whole) difference(c, u, aa, ab, ba, bb);
+      if (!is_whole)
+        detail::difference_forces(
+            c, u, [&](detail::ForceTask<dim>& task) { add_forces_of(task); }, aa, ab, ba, bb);
       sink(c.a, c.b, aa, ab, ba, bb);
     }
   }
@@ -277,14 +280,15 @@ class ContactGroup {
     task.contacts = contacts_.data();
     task.which = which;
     task.count = count;
-    task.records = points_.records();
-    task.shifts = points_.shifts();
-    task.states = points_.states().data();
     task.u = u;
     task.f = f;
-    add_forces(task);
+    add_forces_of(task);
   }
-  void add_forces(detail::ForceTask<dim>& task) const {
+  void add_forces_of(detail::ForceTask<dim>& task) const {
+    task.records = points_.records();
+    task.shifts = points_.shifts();
+    // Written if the task brings the history up to date, and then asked for by who may.
+    task.states = const_cast<void*>(static_cast<const void*>(points_.states().data()));
     if constexpr (is_any_law<Law>) {
       task.laws = laws_.data();
       laws_.front().model().add_forces(task);
@@ -302,8 +306,7 @@ class ContactGroup {
                                                   const double* u) {
     return c.motion(p, c.offset_of(p), u);
   }
-  [[nodiscard]] double release_of(const Contact& c, std::size_t k,
-                                  const PointLoad<dim>& load) const {
+  [[nodiscard]] auto release_of(const Contact& c, std::size_t k, const PointLoad<dim>& load) const {
     if constexpr (is_any_law<Law>)
       return law_of(c).model().release_opening(load, points_.states().at(k));
     else
@@ -324,12 +327,6 @@ class ContactGroup {
           visit(first + k, p, c.offset_of(p), load);
         });
   }
-  /// The tangent of a contact that is open from one edge on, where the part that is pressed changes
-  /// with the motion: by differences of all its forces.
-  template <class Block>
-  void difference(const Contact& c, const double* u, Block& aa, Block& ab, Block& ba,
-                  Block& bb) const;
-
   /// Calls visit(contact, number of the point, point, offset) for every point.
   template <class Visit>
   void for_each_point(Visit&& visit) {
@@ -394,55 +391,33 @@ void ContactGroup<Geometry, Law>::take_contacts(ContactGroup<Geometry, Other>& f
 template <class Geometry, class Law>
 int ContactGroup<Geometry, Law>::commit(const double* u) {
   int weakened = 0;
-  for (const Contact& c : contacts_)
-    visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
-      if constexpr (is_any_law<Law>)
-        weakened += law_of(c).model().commit_point(load, points_.states().at(k)) ? 1 : 0;
-      else
-        weakened += detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]) ? 1 : 0;
-    });
-  return weakened;
-}
-
-template <class Geometry, class Law>
-template <class Block>
-void ContactGroup<Geometry, Law>::difference(const Contact& c, const double* u, Block& aa,
-                                             Block& ab, Block& ba, Block& bb) const {
-  Contact alone = c;
-  alone.a = 0;
-  alone.b = 1;
-  std::array<double, 2 * dof> at;
-  std::copy_n(u + dof * c.a, dof, at.begin());
-  std::copy_n(u + dof * c.b, dof, at.begin() + dof);
-  detail::ForceTask<dim> task;
-  task.contacts = &alone;
-  task.count = 1;
-  task.records = points_.records();
-  task.shifts = points_.shifts();
-  // The task has room for a history that is brought up to date, too; this one reads.
-  task.states = const_cast<void*>(static_cast<const void*>(points_.states().data()));
-  task.u = at.data();
-  const auto forces = [&] {
-    std::array<double, 2 * dof> f{};
-    task.f = f.data();
-    add_forces(task);
-    return f;
+  const auto commit_point = [&](const Contact& c, std::size_t k, const PointLoad<dim>& load) {
+    if constexpr (is_any_law<Law>)
+      return law_of(c).model().commit_point(load, points_.states().at(k));
+    else
+      return detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]);
   };
-  const double arm = std::max(c.arm_a.norm(), c.arm_b.norm());
-  for (int col = 0; col < 2 * dof; ++col) {
-    double& entry = at[static_cast<std::size_t>(col)];
-    const double step = col % dof < dim ? 1e-12 : 1e-12 / arm, before = entry;
-    entry = before + step;
-    const auto up = forces();
-    entry = before - step;
-    const auto down = forces();
-    entry = before;
-    for (int row = 0; row < 2 * dof; ++row) {
-      Block& block = row < dof ? (col < dof ? aa : ab) : (col < dof ? ba : bb);
-      const auto r = static_cast<std::size_t>(row);
-      block(row % dof, col % dof) = (down[r] - up[r]) / (2 * step);
-    }
+  for (const Contact& c : contacts_) {
+    std::array<PointLoad<dim>, PressedPart<dim>::count> loads;
+    const auto first = static_cast<std::size_t>(c.first);
+    visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
+      weakened += commit_point(c, k, load) ? 1 : 0;
+      if (k - first < loads.size()) loads[k - first] = load;
+    });
+    if (c.count != loads.size()) continue;
+    (void)detail::let_go_of_bond<dim>(
+        loads.data(), c.outline,
+        [&](std::size_t k) {
+          const ReferencePoint<dim> p = points_.place(first + k);
+          return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
+        },
+        [&](std::size_t k, const PointLoad<dim>& load) { return release_of(c, first + k, load); },
+        [&](std::size_t k, const PointLoad<dim>& load) {
+          weakened += commit_point(c, first + k, load) ? 1 : 0;
+          return 0.0;
+        });
   }
+  return weakened;
 }
 
 }  // namespace voussoir

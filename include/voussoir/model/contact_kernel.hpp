@@ -8,7 +8,7 @@
 #include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/contact_arrays.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 #include <voussoir/model/reference_contact.hpp>
 #include <voussoir/model/small_displacement.hpp>
 
@@ -102,9 +102,10 @@ class ContactKernel {
       requires(Dim == 2) {
     const PlanePoint p = plane_point(k, motion), q = plane_point(k + 1, motion);
     PointLoad<2> loads[2] = {p.load, q.load};
-    const auto part = press<2>(loads, {}, [&](std::size_t i, const PointLoad<2>& load) {
+    const auto release = [&](std::size_t i, const PointLoad<2>& load) {
       return release_opening<2>(law, load, states_[k + i]);
-    });
+    };
+    const auto part = press<2>(loads, {}, release);
     if (part.is_whole()) {
       add_point(law, k, p.along, p.height, loads[0], sums);
       add_point(law, k + 1, q.along, q.height, loads[1], sums);
@@ -112,6 +113,12 @@ class ContactKernel {
       add_point(law, k, part.at(0, p.along, q.along), p.height, loads[0], sums);
       add_point(law, k + 1, part.at(1, p.along, q.along), q.height, loads[1], sums);
     }
+    if constexpr (std::is_same_v<History, Committing>)
+      let_go_of_bond<2>(
+          loads, {}, [&](std::size_t i) { return i == 0 ? p.load : q.load; }, release,
+          [&](std::size_t i, const PointLoad<2>& load) {
+            return law.commit(load, states_[k + i]);
+          });
   }
 
   /// Both points of a contact that has two.
@@ -246,16 +253,16 @@ class ContactKernel {
                   Sums& sums) const requires(Dim == 3) {
     const auto first = static_cast<std::size_t>(c.first);
     constexpr std::size_t four = PressedPart<3>::count;
-    bool may_be_cut = c.count == four && c.outline.radius > 0;
-    if (may_be_cut) {
-      double pressed_in[four];
-      for (std::size_t k = 0; k < four; ++k) {
-        const SpacePoint p = space_point(first + k, jump, spin);
-        pressed_in[k] = release_opening<3>(law, p.load, states_[first + k]) - p.load.motion.opening;
-      }
-      may_be_cut = PressedPart<3>::may_be_cut(pressed_in, c.outline);
-    }
-    if (!may_be_cut) {
+    if (c.count != four || c.outline.radius == 0 ||
+        !may_be_cut(
+            c.outline,
+            [&](std::size_t k) {
+              return release_opening<3>(law, space_point(first + k, jump, spin).load,
+                                        states_[first + k]);
+            },
+            [&](std::size_t k) {
+              return space_point(first + k, jump, spin).load.motion.opening;
+            })) {
       for (std::size_t k = first; k < first + c.count; ++k) {
         const SpacePoint p = space_point(k, jump, spin);
         add_point(law, k, p, p.s, p.t, p.load, sums);
@@ -268,9 +275,10 @@ class ContactKernel {
       points[k] = space_point(first + k, jump, spin);
       loads[k] = points[k].load;
     }
-    const auto part = press<3>(loads, c.outline, [&](std::size_t k, const PointLoad<3>& load) {
+    const auto release = [&](std::size_t k, const PointLoad<3>& load) {
       return release_opening<3>(law, load, states_[first + k]);
-    });
+    };
+    const auto part = press<3>(loads, c.outline, release);
     for (std::size_t k = 0; k < four; ++k) {
       const SpacePoint& p = points[k];
       if (part.is_whole())
@@ -279,6 +287,12 @@ class ContactKernel {
         add_point(law, first + k, p, part.at(k, [&](std::size_t i) { return points[i].s; }),
                   part.at(k, [&](std::size_t i) { return points[i].t; }), loads[k], sums);
     }
+    if constexpr (std::is_same_v<History, Committing>)
+      let_go_of_bond<3>(
+          loads, c.outline, [&](std::size_t k) { return points[k].load; }, release,
+          [&](std::size_t k, const PointLoad<3>& load) {
+            return law.commit(load, states_[first + k]);
+          });
   }
 
   /// In the axes of the contact, normal and tangents: only what is the same for all its points is

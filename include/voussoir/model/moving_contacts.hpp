@@ -12,7 +12,7 @@
 #include <voussoir/model/detail/contact_reaction.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 
 namespace voussoir {
 

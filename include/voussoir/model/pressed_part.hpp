@@ -6,12 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/contact_outline.hpp>
-#include <voussoir/model/moving_contact.hpp>
-#include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
 
@@ -62,6 +59,13 @@ struct PressedPart<2> {
     const double share = 0.5 * (steep + mean) / steep;
     const double middle = std::copysign(root * (1 - share), at_end);
     return {share, {middle - share, middle + share}};
+  }
+  /// The part with these moments.
+  /// @param length  > 0;  @param first, second  moments of place [-]
+  [[nodiscard]] static PressedPart with_moments(double length, double first, double second) {
+    const double middle = first / length,
+                 radius = std::sqrt(std::max(0.0, second / length - middle * middle));
+    return {std::min(1.0, length / (2 * root)), {middle - radius, middle + radius}};
   }
   [[nodiscard]] static PressedPart of(const double* pressed_in, const detail::KeptOutline<2>&) {
     return of(pressed_in[0], pressed_in[1]);
@@ -121,14 +125,22 @@ struct PressedPart<3> {
     return most;
   }
 
- private:
-  static constexpr double root = 1.4142135623730951;  ///< of 2
-
+  /// The part with these moments of the coordinates of `ContactOutline`, turned by an angle.
+  /// @param e           cosine and sine of the angle
+  /// @param u, v        of the centroid
+  /// @param uu, uv, vv  second moments over the area, about the centroid
+  [[nodiscard]] VOUSSOIR_INLINE static PressedPart with_moments(double area_share, const double* e,
+                                                                double u, double v, double uu,
+                                                                double uv, double vv);
   /// mean, x and y of what is mean + x s + y t, s and t the coordinates of `ContactOutline`.
   [[nodiscard]] static std::array<double, 3> plane_through(const double* at) {
     return {0.25 * ((at[0] + at[1]) + (at[2] + at[3])), 0.5 / root * (at[0] - at[1]),
             0.5 / root * (at[2] - at[3])};
   }
+
+ private:
+  static constexpr double root = 1.4142135623730951;  ///< of 2
+
   [[nodiscard]] static bool may_be_cut(double mean, double x, double y,
                                        const detail::KeptOutline<3>& outline) {
     return mean * mean < outline.radius * outline.radius * (x * x + y * y);
@@ -138,116 +150,7 @@ struct PressedPart<3> {
                                                        const ContactOutline& outline);
 };
 
-namespace detail {
-
-/// Moves the loads of the points of a contact to its pressed part. Normal stress and opening are
-/// those there; shear stress and slip go with the point.
-VOUSSOIR_INLINE void move_loads(const PressedPart<2>& part, PointLoad<2>* loads);
-VOUSSOIR_INLINE void move_loads(const PressedPart<3>& part, PointLoad<3>* loads);
-
-/// Finds the pressed part, and moves the loads there.
-/// @param release  release(k, load): opening at which point k lets go [m]
-template <int Dim, class Release>
-[[nodiscard]] PressedPart<Dim> press(PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
-                                     const Release& release) {
-  double pressed_in[PressedPart<Dim>::count];
-  for (std::size_t k = 0; k < PressedPart<Dim>::count; ++k)
-    pressed_in[k] = release(k, loads[k]) - loads[k].motion.opening;
-  const PressedPart<Dim> part = PressedPart<Dim>::of(pressed_in, outline);
-  if (!part.is_whole()) move_loads(part, loads);
-  return part;
-}
-
-/// How far the faces of a contact in motion overlap where that is most [m].
-template <int Dim, class State>
-[[nodiscard]] double deepest(const MovingContact<Dim>& c,
-                             const MovingContactPoint<Dim, State>* points, std::size_t count,
-                             const typename MovingContact<Dim>::Place& at) {
-  double pressed_in[PressedPart<Dim>::count], most = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < count; ++k) {
-    const double one = -points[k].motion(at).opening;
-    most = std::max(most, one);
-    if (k < PressedPart<Dim>::count) pressed_in[k] = one;
-  }
-  return count == PressedPart<Dim>::count ? PressedPart<Dim>::deepest(pressed_in, c.outline) : most;
-}
-
-/// The place of a contact point, to be moved along the joint.
-template <int Dim>
-[[nodiscard]] Vec<Dim>& place_in(ReferencePoint<Dim>& p) {
-  return p.offset;
-}
-template <int Dim, class State>
-[[nodiscard]] Vec<Dim>& place_in(MovingContactPoint<Dim, State>& p) {
-  return p.place;
-}
-
-/// Calls visit(k, point, load) for the points of a contact, on its pressed part.
-/// @param point_at  point_at(k) is point k as a value;  @param load_of  load_of(point)
-/// @param release   see `press`
-template <int Dim, class PointAt, class LoadOf, class Release, class Visit>
-void visit_pressed(std::size_t count, const KeptOutline<Dim>& outline, const PointAt& point_at,
-                   const LoadOf& load_of, const Release& release, Visit&& visit) {
-  using Part = PressedPart<Dim>;
-  if (count != Part::count) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto p = point_at(k);
-      visit(k, p, load_of(p));
-    }
-    return;
-  }
-  using Point = std::decay_t<decltype(point_at(std::size_t{0}))>;
-  std::array<Point, Part::count> points;
-  std::array<PointLoad<Dim>, Part::count> loads;
-  for (std::size_t k = 0; k < count; ++k) {
-    points[k] = point_at(k);
-    loads[k] = load_of(points[k]);
-  }
-  const Part part = press<Dim>(loads.data(), outline, release);
-  std::array<Vec<Dim>, Part::count> places;
-  for (std::size_t k = 0; k < count; ++k) places[k] = place_in(points[k]);
-  for (std::size_t k = 0; k < count; ++k) {
-    Point& p = points[k];
-    if (!part.is_whole()) {
-      place_in(p) = part.at(k, [&](std::size_t i) -> const Vec<Dim>& { return places[i]; });
-      p.weight = loads[k].weight;
-      p.initial = loads[k].initial;
-    }
-    visit(k, p, loads[k]);
-  }
-}
-
-}  // namespace detail
-
 #if VOUSSOIR_BODIES
-
-namespace detail {
-
-template <int Dim>
-void move_to(const PressedPart<Dim>& part, PointLoad<Dim>* loads) {
-  constexpr std::size_t count = PressedPart<Dim>::count;
-  double opening[count], stress[count];
-  for (std::size_t k = 0; k < count; ++k) {
-    opening[k] = loads[k].motion.opening;
-    stress[k] = loads[k].initial.normal / loads[k].weight;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    PointLoad<Dim>& load = loads[k];
-    load.motion.opening = part.at(k, [&](std::size_t i) { return opening[i]; });
-    load.weight *= part.share;
-    load.initial.normal = load.weight * part.at(k, [&](std::size_t i) { return stress[i]; });
-    for (int m = 0; m < Dim - 1; ++m) load.initial.tangential.data()[m] *= part.share;
-    load.whole_over_part = 1 / part.share;
-  }
-}
-VOUSSOIR_INLINE void move_loads(const PressedPart<2>& part, PointLoad<2>* loads) {
-  move_to<2>(part, loads);
-}
-VOUSSOIR_INLINE void move_loads(const PressedPart<3>& part, PointLoad<3>* loads) {
-  move_to<3>(part, loads);
-}
-
-}  // namespace detail
 
 VOUSSOIR_INLINE PressedPart<3> PressedPart<3>::cut(double mean, double x, double y,
                                                    const ContactOutline& outline) {
@@ -284,15 +187,20 @@ VOUSSOIR_INLINE PressedPart<3> PressedPart<3>::cut(double mean, double x, double
   uu = std::max(0.0, uu / (6 * area) - u * u);
   vv = std::max(0.0, vv / (6 * area) - v * v);
   uv = uv / (12 * area) - u * v;
+  return with_moments(0.5 * area / outline.area, e, u - from_line, v, uu, uv, vv);
+}
+
+VOUSSOIR_INLINE PressedPart<3> PressedPart<3>::with_moments(double area_share, const double* e,
+                                                            double u, double v, double uu,
+                                                            double uv, double vv) {
   // The root of a symmetric matrix of two rows: (M + sqrt(det M)) / sqrt(trace M + 2 sqrt(det M)).
   const double det = std::sqrt(std::max(0.0, uu * vv - uv * uv)),
                scale = 1 / std::sqrt(std::max(uu + vv + 2 * det, 1e-300));
   const double su = scale * (uu + det), sv = scale * (vv + det), mixed = scale * uv;
   PressedPart part;
-  part.share = std::min(1.0, 0.5 * area / outline.area);
-  const double from_centre = u - from_line;
-  part.middle[0] = e[0] * from_centre - e[1] * v;
-  part.middle[1] = e[1] * from_centre + e[0] * v;
+  part.share = std::min(1.0, area_share);
+  part.middle[0] = e[0] * u - e[1] * v;
+  part.middle[1] = e[1] * u + e[0] * v;
   part.stretch[0] = e[0] * e[0] * su - 2 * e[0] * e[1] * mixed + e[1] * e[1] * sv;
   part.stretch[1] = e[0] * e[1] * (su - sv) + (e[0] * e[0] - e[1] * e[1]) * mixed;
   part.stretch[2] = e[1] * e[1] * su + 2 * e[0] * e[1] * mixed + e[0] * e[0] * sv;

@@ -7,7 +7,7 @@
 #include <voussoir/model/detail/impact.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 
 namespace voussoir::detail {
 
@@ -86,10 +86,12 @@ template <class Law, class Point, class States>
     Point* const q = p + 1;
     auto &state_p = states.of(*p, p - points), &state_q = states.of(*q, q - points);
     PlanePlace at_p = place_of(*p), at_q = place_of(*q);
-    PointLoad<2> loads[2] = {load_of(*p, at_p), load_of(*q, at_q)};
-    const auto part = press<2>(loads, c.outline, [&](std::size_t k, const PointLoad<2>& load) {
+    const PointLoad<2> of_whole[2] = {load_of(*p, at_p), load_of(*q, at_q)};
+    PointLoad<2> loads[2] = {of_whole[0], of_whole[1]};
+    const auto release_of = [&](std::size_t k, const PointLoad<2>& load) {
       return release_opening<2>(law, load, k == 0 ? state_p : state_q);
-    });
+    };
+    const auto part = press<2>(loads, c.outline, release_of);
     if (!part.is_whole()) {
       const double first = at_p.tangential, second = at_q.tangential;
       at_p.tangential = part.at(0, first, second);
@@ -97,6 +99,11 @@ template <class Law, class Point, class States>
     }
     react(state_p, at_p, loads[0]);
     react(state_q, at_q, loads[1]);
+    lost.friction += let_go_of_bond<2>(
+        loads, c.outline, [&](std::size_t k) { return of_whole[k]; }, release_of,
+        [&](std::size_t k, const PointLoad<2>& load) {
+          return law.commit(load, k == 0 ? state_p : state_q);
+        });
   } else {
     for (Point* k = p; k != points + c.last; ++k) {
       const PlanePlace at = place_of(*k);
@@ -174,23 +181,19 @@ template <class Law, class Point, class States>
   };
   Point* const first = points + c.first;
   constexpr std::size_t four = PressedPart<3>::count;
-  bool may_be_cut = c.last - c.first == static_cast<std::ptrdiff_t>(four) && c.outline.radius > 0;
-  if (may_be_cut) {
-    double pressed_in[four];
-    for (std::size_t k = 0; k < four; ++k) {
-      const PointLoad<3> load = load_of(first[k]);
-      pressed_in[k] = release_opening<3>(law, load, states.of(first[k], first + k - points)) -
-                      load.motion.opening;
-    }
-    may_be_cut = PressedPart<3>::may_be_cut(pressed_in, c.outline);
-  }
-  if (may_be_cut) {
+  const auto release_of = [&](std::size_t k, const PointLoad<3>& load) {
+    Point& p = first[k];
+    return release_opening<3>(law, load, states.of(p, &p - points));
+  };
+  const bool is_cut =
+      c.last - c.first == static_cast<std::ptrdiff_t>(four) && c.outline.radius > 0 &&
+      may_be_cut(
+          c.outline, [&](std::size_t k) { return release_of(k, load_of(first[k])); },
+          [&](std::size_t k) { return load_of(first[k]).motion.opening; });
+  if (is_cut) {
     PointLoad<3> loads[four];
     for (std::size_t k = 0; k < four; ++k) loads[k] = load_of(first[k]);
-    const auto part = press<3>(loads, c.outline, [&](std::size_t k, const PointLoad<3>& load) {
-      Point& p = first[k];
-      return release_opening<3>(law, load, states.of(p, &p - points));
-    });
+    const auto part = press<3>(loads, c.outline, release_of);
     for (std::size_t k = 0; k < four; ++k) {
       const Vec<3> place =
           part.is_whole()
@@ -198,6 +201,11 @@ template <class Law, class Point, class States>
               : part.at(k, [&](std::size_t i) -> const Vec<3>& { return first[i].place; });
       react(states.of(first[k], first + k - points), place, first[k].place, loads[k]);
     }
+    lost.friction += let_go_of_bond<3>(
+        loads, c.outline, [&](std::size_t k) { return load_of(first[k]); }, release_of,
+        [&](std::size_t k, const PointLoad<3>& load) {
+          return law.commit(load, states.of(first[k], first + k - points));
+        });
   } else {
     for (Point* p = first; p != points + c.last; ++p)
       react(states.of(*p, p - points), p->place, p->place, load_of(*p));

@@ -36,9 +36,12 @@ class LawModelOf final : public LawModel<Dim> {
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const void* state) const override {
     return law_.stored_energy(load, as_state(state));
   }
-  [[nodiscard]] double release_opening(const PointLoad<Dim>& load,
-                                       const void* state) const override {
-    return voussoir::release_opening<Dim>(law_, load, as_state(state));
+  [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
+                                                 const void* state) const override {
+    if constexpr (HasBond<Law, Dim>)
+      return law_.release_opening(load, as_state(state));
+    else
+      return {voussoir::release_opening<Dim>(law_, load, as_state(state)), 0, 0, {}};
   }
   bool commit_point(const PointLoad<Dim>& load, void* state) const override {
     return detail::commit_point<Dim>(law_, load, *static_cast<State*>(state));

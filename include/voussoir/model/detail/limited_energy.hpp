@@ -8,7 +8,7 @@
 #include <vector>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contacts.hpp>
-#include <voussoir/model/pressed_part.hpp>
+#include <voussoir/model/point_loads.hpp>
 
 namespace voussoir::detail {
 
