@@ -121,6 +121,19 @@ TEST_SUITE("solver/limit_problems") {
   }
   TEST_CASE_TEMPLATE_APPLY(limits, Procedures);
 
+  TEST_CASE_TEMPLATE_DEFINE("a block that nothing carries falls, and lands on nothing", Method,
+                            falls_freely) {
+    // Between two walls of its own height: where the blocks end there is no floor.
+    Solver<Method> gap(laid_blocks<Planar>({rectangle({-1, 0}, 2, 1), rectangle({2, 0}, 2, 1),
+                                            rectangle({0.5, 0}, 1, 1)}),
+                       CoulombJoint({3e9, 3e9, 1 * degree}), {.density = 2500, .is_laid = true});
+    gap.fix(0);
+    gap.fix(1);
+    (void)gap.equilibrium();
+    CHECK(gap.fallen() == std::vector<int>{2});
+  }
+  TEST_CASE_TEMPLATE_APPLY(falls_freely, Procedures);
+
   TEST_CASE("loads and supports that make no sense are refused") {
     using voussoir_test::says;
     const auto fault_of = [](auto&& action) -> std::string {
