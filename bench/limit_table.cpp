@@ -60,6 +60,8 @@ void let_go_slowly(auto& run) {
     run.advance_steps(100);
   }
 }
+/// Near the limit blocks sway about hinges for long: not at rest after a million steps counts as
+/// not standing, which is safe by some per cent.
 bool stands_in_motion(const LaidProblem& problem, double stiffness, double tan_friction) {
   auto run = problem.run(CoulombJoint({stiffness, stiffness, std::atan(tan_friction)}),
                          {.local_damping = 0.7});
