@@ -38,8 +38,9 @@ template <class Geometry>
       low = smaller_of(low, v);
       high = larger_of(high, v);
     }
-  // No face lies on the edge of the domain: that is not where blocks end.
-  const Vec<dim> margin = 0.1 * (high - low);
+  // Nothing is there where the domain ends, and a block that falls must come off before it lands on
+  // that: the edge is farther away than any block goes while it counts as one that stands.
+  const Vec<dim> margin = all_entries<dim>(Domain<dim>{low, high}.diameter());
   mass.domain = {Vec<dim>(low - margin), Vec<dim>(high + margin)};
   mass.domain.check();
   const double tolerance = mass.domain.tolerance();
