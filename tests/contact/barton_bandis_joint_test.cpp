@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 #include <voussoir/contact/barton_bandis_joint.hpp>
+#include <voussoir/core/random.hpp>
 
 namespace barton_bandis_joint_test {
 
@@ -319,6 +320,34 @@ TEST_SUITE("contact/barton_bandis_joint") {
     const double stored = law.stored_energy(point<2>(1e6, 0, 4 * law.peak_slip()), state) -
                           law.stored_energy(point<2>(1e6, 0, 0), {});
     CHECK(lost == doctest::Approx(work - stored).epsilon(1e-6));
+  }
+
+  TEST_CASE_TEMPLATE("mirrored, its forces and its history are mirrored to the last bit", D,
+                     Dimension<2>, Dimension<3>) {
+    constexpr int dim = D::value;
+    const BartonBandisJoint law(params);
+    Random random(11, dim);
+    BartonBandisJoint::State<dim> state, mirrored;
+    int slipped = 0;
+    for (int k = 0; k < 500; ++k) {
+      auto load = point<dim>(1e6, state.dilation + 4e-5 * (2 * random.uniform() - 1), 0);
+      load.initial.tangential[0] = 2e5 * w;
+      for (int m = 0; m < dim - 1; ++m) load.motion.slip[m] = 2e-3 * (2 * random.uniform() - 1);
+      auto other = load;
+      other.initial.tangential[0] *= -1;
+      other.motion.slip[0] *= -1;
+      auto force = law.force(load, state);
+      const auto of_other = law.force(other, mirrored);
+      force.tangential[0] *= -1;
+      CHECK(force.normal == of_other.normal);
+      CHECK(force.tangential == of_other.tangential);
+      const double before = state.displacement;
+      CHECK(law.commit(load, state) == law.commit(other, mirrored));
+      CHECK(state.displacement == mirrored.displacement);
+      CHECK(state.dilation == mirrored.dilation);
+      slipped += state.displacement > before;
+    }
+    CHECK(slipped > 100);
   }
 
   TEST_CASE("damage is the roughness that is worn since the peak") {

@@ -40,10 +40,10 @@ namespace voussoir {
 /// k_s is the steepest rise of the curve at the largest stress that the point has borne; on the way
 /// to phi_r, below which nothing slips, mostly that of the curve's beginning, tan(phi_r) sigma_n /
 /// (0.3 delta_p). Closure and elastic slip each have a potential of their own, k_s only grows,
-/// under an unchanged force, and what dilation lifts, the friction pays: no path gains energy
-/// (docs/theory.md#rough-joints). The source's stiffness follows the stress of the moment; with
-/// that a joint sheared under low stress, pressed, sheared back and unloaded gives 271 J/m2 where
-/// 109 were stored.
+/// under an unchanged force, and what dilation lifts, the friction pays: no path of a point gains
+/// energy (docs/theory.md#rough-joints; a joint that lifts and is open from an edge still does).
+/// The source's stiffness follows the stress of the moment; with that a joint sheared under low
+/// stress, pressed, sheared back and unloaded gives 271 J/m2 where 109 were stored.
 ///
 /// Source: Barton & Choubey (1977), Rock Mech. 10, 1-54; Barton & Bandis (1982), 23rd US Symp. Rock
 /// Mech., 739-760; Bandis, Lumsden & Barton (1983), Int. J. Rock Mech. Min. Sci. 20, 249-268;

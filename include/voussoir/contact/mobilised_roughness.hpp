@@ -12,7 +12,8 @@ namespace voussoir::detail {
 ///   0.3  0.6   1  2     4     10    25    100
 ///   0    0.75  1  0.85  0.70  0.50  0.40  0
 ///
-/// Below 0.3 friction is mobilised and roughness is not; beyond 100 it is worn.
+/// Below 0.3 friction is mobilised and roughness is not; beyond 100 it is worn. Where the table is
+/// quoted without its value at 25, that is 0.42.
 ///
 /// Source: Barton (1982), in Barton, Bandis & Bakhtar (1985), Int. J. Rock Mech. Min. Sci. 22,
 /// 121-140.
