@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
@@ -77,17 +78,17 @@ Vec<Dim - 1> drawn(Random& random, double size) {
   return v;
 }
 
-/// 500 random paths of 60 steps, from random in-situ forces, of steps from a hundredth of a closure
-/// to many times it, opening and closing on the way.
+/// 500 random paths of 60 steps, from random in-situ forces that the law must bear, of steps from a
+/// hundredth of a closure to many times it, opening and closing on the way.
 template <class Law, int Dim>
-void check_random_paths(const Law& law, double closure) {
+void check_random_paths(const Law& law, double closure, double friction) {
   Random random(77, Dim);
   for (int n = 0; n < 500; ++n) {
     CAPTURE(n);
     const double weight = 0.1 + random.uniform(),
                  size = closure * std::pow(10, -2 + 3 * random.uniform());
     const double normal = 1e6 * weight * random.uniform();
-    Path<Law, Dim> path(law, weight, normal, drawn<Dim>(random, 0.3 * normal));
+    Path<Law, Dim> path(law, weight, normal, drawn<Dim>(random, friction * normal));
     double opening = 0;
     Vec<Dim - 1> slip = zeros<Vec<Dim - 1>>();
     for (int k = 0; k < 60; ++k) {
@@ -102,16 +103,17 @@ void check_random_paths(const Law& law, double closure) {
 }
 
 template <class Law>
-void check_in_both(const Law& law, double closure) {
-  check_random_paths<Law, 2>(law, closure);
-  check_random_paths<Law, 3>(law, closure);
+void check_in_both(const Law& law, double closure, double friction = 0.3) {
+  check_random_paths<Law, 2>(law, closure, friction);
+  check_random_paths<Law, 3>(law, closure, friction);
 }
 
-const BartonBandisJoint rough({.roughness = 10,
-                               .wall_strength = 100e6,
-                               .residual_friction_angle = 28 * degree,
-                               .initial_stiffness = 20e9,
-                               .maximum_closure = 2e-4});
+constexpr BartonBandisJoint::Params rough_joint{.roughness = 10,
+                                                .wall_strength = 100e6,
+                                                .residual_friction_angle = 28 * degree,
+                                                .initial_stiffness = 20e9,
+                                                .maximum_closure = 2e-4};
+const BartonBandisJoint rough(rough_joint);
 
 }  // namespace
 
@@ -153,10 +155,29 @@ TEST_SUITE("contact/dissipation") {
                   2e-4);
   }
 
-  TEST_CASE("sheared, pressed, sheared back, let go: a rough joint returns what it stored") {
+  TEST_CASE("a rough joint makes no energy as it lifts, wears and stiffens") {
+    // Steps of 2 um to 2 mm and 0.05 to 50 mm; the peak is at 0.5 to 1.2 mm. Steep teeth on hardly
+    // any friction: there the lift takes all that the friction gives.
+    for (const double roughness : {0.0, 3.0, 20.0})
+      for (const double friction : {3.0, 28.0})
+        for (const double damage : {1.0, 2.0, std::numeric_limits<double>::infinity()}) {
+          CAPTURE(roughness);
+          CAPTURE(friction);
+          CAPTURE(damage);
+          auto joint = rough_joint;
+          joint.roughness = roughness;
+          joint.residual_friction_angle = friction * degree;
+          joint.damage_coefficient = damage;
+          for (const double size : {2e-4, 5e-3})
+            check_in_both(BartonBandisJoint(joint), size,
+                          0.6 * std::tan(joint.residual_friction_angle));
+        }
+  }
+
+  TEST_CASE("a rough joint sheared, pressed, sheared back and let go gives nothing") {
     // In fine steps, of which the work of the end force is off by their length.
     constexpr int steps = 20000;
-    const double slip = 0.8 * rough.peak_slip(), press = rough.closure(5e6) - rough.closure(5e5);
+    const double slip = 0.2 * rough.peak_slip(), press = rough.closure(5e6) - rough.closure(5e5);
     Path<BartonBandisJoint, 2> path(rough, 1, 5e5, Vec<1>(0.0));
     const double before = path.stored();
     const auto go = [&](double from_opening, double from_slip, double to_opening, double to_slip) {
@@ -167,15 +188,19 @@ TEST_SUITE("contact/dissipation") {
       }
     };
     go(0, 0, 0, slip);
-    const double sheared = path.stored() - before;
+    const double sheared = path.stored() - before, work = path.work();
+    CHECK(work == doctest::Approx(sheared).epsilon(1e-3));  // it has not slipped
+    CHECK(sheared > 15);
     go(0, slip, -press, slip);
+    // Pressed it is stiffer, and holds less with the same shear.
+    const double pressed =
+        rough.stored_energy<2>({1, {5e5, Vec<1>(0.0)}, {-press, Vec<1>(0.0)}}, {});
+    CHECK(path.stored() - pressed < 0.5 * sheared);
     go(-press, slip, -press, 0);
     go(-press, 0, 0, 0);
-    CHECK(path.stored() == doctest::Approx(before).epsilon(1e-9));
-    // It was 271 J/m2 gained where 109 were stored.
-    CHECK(sheared > 50);
-    CHECK(path.work() >= -1e-9 * path.turned_over());
-    CHECK(path.work() <= 1e-3 * path.turned_over());
+    // With a stiffness that follows the stress it was 271 J/m2 gained where 109 were stored.
+    CHECK(path.work() >= path.stored() - before);
+    CHECK(path.work() > 0);
   }
 
   TEST_CASE("a dilation that would make energy, or never end, is refused") {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
@@ -372,7 +373,8 @@ TEST_SUITE("model/pressed_part") {
                                  .wall_strength = 100e6,
                                  .residual_friction_angle = 28 * degree,
                                  .initial_stiffness = 20e9,
-                                 .maximum_closure = 2e-4}),
+                                 .maximum_closure = 2e-4,
+                                 .damage_coefficient = std::numeric_limits<double>::infinity()}),
               1e5);
   }
 }
