@@ -194,7 +194,7 @@ class Reader {
       if (comma == 0 || next == std::string::npos ||
           !number_in(line.substr(comma + 1, next - comma - 1), at[0]) ||
           !number_in(line.substr(next + 1), at[1])) {
-        complain("\"" + printable(line) + "\" is not id,x,y");
+        complain(in_quotes(line) + " is not id,x,y");
         continue;
       }
       const std::string id = line.substr(0, comma);

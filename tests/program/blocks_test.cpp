@@ -153,7 +153,8 @@ TEST_SUITE("program/blocks") {
   TEST_CASE("pushed in steps: the part of the loading up to which it stands") {
     // A column of 1 m x 2 m topples about its edge at kh = 1 / 2; it slides at 0.7.
     const Results r = results_of(stack, {"--set", "seismic.kh=1", "--set", "loading.steps=50"});
-    CHECK(r.outcome.status == 7);
+    // The upper block comes off; without it the lower one stands up to kh = 0.7.
+    CHECK(r.outcome.status == 6);
     CHECK(r.json.at("stands_up_to_part_of_loading").get<double>() ==
           doctest::Approx(0.49).epsilon(0.03));  // a step is 0.02
   }
@@ -183,7 +184,7 @@ TEST_SUITE("program/blocks") {
         {"\"2 kN/m\"", "\"2 kN\"", {"load[0].force[0]", "not a force per metre", "kN/m"}},
         {"moment = \"1 kN m/m\"", "kind = \"dead\"", {"load[1].force is missing"}},
         {"[rock]", "[tunnel]\nshape = \"circle\"\n[rock]", {"tunnel stands beside blocks"}},
-        {"kh = \"5 %\"", "kh = 20", {"seismic.kh = 20", "from -10 to 10"}},
+        {"kh = \"5 %\"", "kh = 20", {"seismic.kh = 20", "from -1000 % to 1000 %"}},
         {"steps = 4", "steps = 0", {"loading.steps = 0"}},
         {"[[load]]\nblock = 2", "[[load]]\nblock = 9", {"load[1].block = 9", "names no block"}},
     };
