@@ -152,6 +152,11 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   require(p.realisations >= 1 && p.realisations <= most_realisations, "--realisations",
           p.realisations, "1 to 10000");
   input_ = read_input_text(p.text, p.file, p.directory, p.overrides);
+  if (input_.laid)
+    throw InvalidInput(p.file +
+                       ": diagram, realisations and sweep are of tunnels, and this is a model of "
+                       "blocks that are laid\n   = accepted: voussoir run, with --set for each "
+                       "value");
   if (p.verb == PlanVerb::diagram && !input_.diagram)
     throw InvalidInput(
         "no [diagram] in " + p.file +

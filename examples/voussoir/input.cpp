@@ -9,6 +9,7 @@
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
 
+#include "blocks_input.hpp"
 #include "input_document.hpp"
 #include "input_section.hpp"
 
@@ -28,7 +29,6 @@ Range angle_below_90() { return {.low = 0, .high = degrees(90), .high_included =
 constexpr Range per_area_range{.low = 1e3, .high = 1e12};       // joints, interface [Pa/m]
 constexpr Range bolt_range{.low = 1e3, .high = 1e12};           // of one bolt [N/m]
 constexpr Range modulus_range{.low = 1e6, .high = 1e12};        // of a lining [Pa]
-constexpr Range gravity_range{.low = 1, .high = 1000};          // [m/s^2]; a centrifuge has 1000
 constexpr Range density_range{.low = 1, .high = 1e5};           // [kg/m^3]
 constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};      // below it rounding decides
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};  // [m]
@@ -458,11 +458,21 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   int schema = 1;
   file.integer("schema", schema, 1, 1);
   file.text("title", input.title);
+  const auto rock = [&] {
+    file.table("rock", [&](Section& s) {
+      s.quantity("density", input.rock.density, dimension::density, density_range, Need::required);
+    });
+    file.table("joint", [&](Section& s) { read_joint(s, input.joint); });
+    file.table("run", [&](Section& s) { read_run(s, input.run); });
+  };
+  if (has_laid_blocks(file)) {
+    rock();
+    read_laid_blocks(file, input, directory);
+    return file.finish();
+  }
   file.table("model", [&](Section& s) { read_model(s, input.model); });
   file.table("tunnel", [&](Section& s) { read_tunnel(s, input.tunnel); });
-  file.table("rock", [&](Section& s) {
-    s.quantity("density", input.rock.density, dimension::density, density_range, Need::required);
-  });
+  rock();
   file.table("stress", [&](Section& s) {
     s.number("K0", input.stress.K0, between(0, 10), Need::required);
     s.quantity("surcharge", input.stress.surcharge, dimension::pressure, surcharge_range,
@@ -486,7 +496,6 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     // A path in the file is UTF-8 whatever the system's own encoding.
     input.joints_file = directory / utf8_path(*text);
   });
-  file.table("joint", [&](Section& s) { read_joint(s, input.joint); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
     support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
@@ -497,7 +506,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     stage.name = "stage " + std::to_string(i + 1);
     read_stage(s, stage);
   });
-  file.table("run", [&](Section& s) { read_run(s, input.run); });
+  refuse_loads_on_blocks(file);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
   file.finish();
 }
@@ -739,6 +748,11 @@ Input read_input_text(std::string_view text, const std::string& name,
   Input input;
   Section file(checker, &document.root, "");
   read_all(file, input, directory);
+  if (input.laid) {
+    checker.finish();
+    input.content = canonical_lines(document);
+    return input;
+  }
   check_opening(checker, input);
   check_boundary(checker, input);
   check_size(checker, input);

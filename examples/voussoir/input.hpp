@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -103,6 +104,47 @@ struct BlocksInput {
   double min_inscribed_radius = 0;                                  ///< [m], > 0
   double max_elongation = std::numeric_limits<double>::infinity();  ///< length / width, >= 2
   double min_wall_area = 0.074;  ///< pieces cut by the opening's wall below this are left out [m^2]
+};
+
+/// [[block]], or one of [blocks] file: a block that is laid.
+struct LaidBlockInput {
+  std::string name;                  ///< default "1", "2", ...
+  std::vector<Point> vertices = {};  ///< convex, anticlockwise whatever the file's order [m]
+  bool fixed = false;
+};
+
+/// [[load]] on a laid block. Per metre out of plane.
+struct BlockLoadInput {
+  int block = -1;
+  Point force = {0.0, 0.0};     ///< [N/m]
+  std::optional<Point> at;      ///< where it acts; none: in the centroid [m]
+  double moment = 0;            ///< anticlockwise [N]
+  bool is_proportional = true;  ///< comes on with the loading; false: with the weight
+};
+
+/// [[displacement]] of a fixed block.
+struct BlockDisplacementInput {
+  int block = -1;
+  Point by = {0.0, 0.0};  ///< of its centroid [m]
+  double rotation = 0;    ///< about it, anticlockwise [rad]
+};
+
+/// A model of blocks that are laid one by one, in place of rock around a tunnel.
+struct LaidInput {
+  std::vector<LaidBlockInput> blocks;  ///< those of [[block]] first
+  std::filesystem::path file;          ///< [blocks] file, resolved; empty: none
+  std::vector<BlockLoadInput> loads;
+  std::vector<BlockDisplacementInput> displacements;
+  double kh = 0, kv = 0;  ///< [seismic] forces to the right and up, over the weight [-], -10 to 10
+  int steps = 10;         ///< [loading] in which it comes on, 1 to 10000
+  std::vector<std::string> warnings;
+
+  /// Whether anything comes on after the weight.
+  [[nodiscard]] bool has_loading() const {
+    return kh != 0 || kv != 0 || !displacements.empty() ||
+           std::any_of(loads.begin(), loads.end(),
+                       [](const BlockLoadInput& load) { return load.is_proportional; });
+  }
 };
 
 /// Distance between bolts along the wall: an angle at the tunnel centre or a length, as given.
@@ -214,6 +256,8 @@ struct Input {
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   RunInput run;
   std::optional<DiagramInput> diagram;
+  /// Blocks in place of a tunnel: of the others model.gravity, rock, joint and run are then given.
+  std::optional<LaidInput> laid;
   /// Every key with its value, `stress.K0 = 1`, overrides included, sorted: for the run id.
   std::vector<std::string> content;
 

@@ -170,8 +170,11 @@ Node convert(const toml::node& source, const std::vector<std::string>& lines) {
   } else if (const auto* real = source.as_floating_point()) {
     node.kind = Node::Kind::real;
     node.real = real->get();
+  } else if (const auto* flag = source.as_boolean()) {
+    node.kind = Node::Kind::boolean;
+    node.text = flag->get() ? "true" : "false";
   } else {
-    node.kind = source.is_boolean() ? Node::Kind::boolean : Node::Kind::date;
+    node.kind = Node::Kind::date;
   }
   return node;
 }
@@ -364,6 +367,8 @@ void append_lines(const Node& node, const std::string& key, std::vector<std::str
       line(shortest_text(node.real));
       break;
     case Node::Kind::boolean:
+      line(node.text);
+      break;
     case Node::Kind::date:  // no key takes one
       line(node.written);
       break;

@@ -27,7 +27,7 @@ struct Entry;
 struct Node {
   enum class Kind { table, array, text, integer, real, boolean, date };
   Kind kind = Kind::table;
-  std::string text;          ///< of Kind::text
+  std::string text;          ///< of Kind::text; "true" or "false" of Kind::boolean
   std::int64_t integer = 0;  ///< of Kind::integer
   double real = 0;           ///< of Kind::real, and Kind::integer as a double
   std::vector<Entry> table;  ///< of Kind::table

@@ -257,6 +257,12 @@ std::optional<std::string> Value::as_text() const {
   return std::nullopt;
 }
 
+std::optional<bool> Value::as_flag() const {
+  if (node_->kind == Node::Kind::boolean) return node_->text == "true";
+  refuse("is " + kind_name(node_->kind) + ", not true or false", "true or false, without quotes");
+  return std::nullopt;
+}
+
 std::optional<std::size_t> Value::as_word(const std::vector<std::string>& words) const {
   const std::string accepted = words_form(words);
   if (node_->kind != Node::Kind::text) {
@@ -342,6 +348,10 @@ void Section::number(std::string_view key, double& out, const Range& range, Need
 
 void Section::text(std::string_view key, std::string& out) {
   if (const auto value = find(key, Need::optional)) out = value->as_text().value_or(out);
+}
+
+void Section::flag(std::string_view key, bool& out) {
+  if (const auto value = find(key, Need::optional)) out = value->as_flag().value_or(out);
 }
 
 void Section::in_mode(Mode mode, const std::string& condition,

@@ -41,6 +41,7 @@ struct Range {
 };
 
 inline constexpr Range any_value{};
+inline constexpr Range gravity_range{.low = 1, .high = 1000};  // [m/s^2]; a centrifuge has 1000
 inline Range above(double low) { return {.low = low, .low_included = false}; }
 inline Range at_least(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }
@@ -109,6 +110,7 @@ class Value {
   std::optional<double> as_number(const Range& range) const;
   std::optional<std::int64_t> as_integer(std::int64_t low, std::int64_t high) const;
   std::optional<std::string> as_text() const;
+  std::optional<bool> as_flag() const;
   /// @return  place of the word in `words`
   std::optional<std::size_t> as_word(const std::vector<std::string>& words) const;
   /// @param form  what the list looks like, for the message
@@ -159,6 +161,7 @@ class Section {
                 const Range& range);
   void number(std::string_view key, double& out, const Range& range, Need need);
   void text(std::string_view key, std::string& out);
+  void flag(std::string_view key, bool& out);
   template <class Integer>
   void integer(std::string_view key, Integer& out, std::int64_t low, std::int64_t high) {
     if (const auto value = find(key, Need::optional))

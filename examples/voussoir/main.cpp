@@ -23,6 +23,8 @@
 #include <voussoir/io/operating_system.hpp>
 
 #include "analysis.hpp"
+#include "blocks_analysis.hpp"
+#include "blocks_outputs.hpp"
 #include "case_plan.hpp"
 #include "input_document.hpp"
 #include "outputs.hpp"
@@ -70,9 +72,40 @@ ExitStatus status_of(const RunResult& run) {
   return not_decided;
 }
 
+/// Blocks that are laid.
+int run_blocks_verb(const Options& options, const Input& input) {
+  RunFolder outputs(options.folder);
+  ProgressLine line(options.quiet);
+  work.remedy = "fewer blocks";
+  const BlocksRun run = run_blocks(input, [&](const std::string& what, double fraction) {
+    work.doing = "computing the stage " + what;
+    return line.show(what, fraction);
+  });
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  work.doing = "writing the results";
+  const std::string id = RunId("blocks").add(input).text();
+  outputs.add("run.json", blocks_run_json(input, run), id);
+  outputs.add("blocks.csv", blocks_csv(input, run), id);
+  outputs.add("contacts.csv", contacts_csv(input, run), id);
+  outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
+  if (!options.quiet) std::cout << blocks_summary(input, run);
+  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
+  switch (run.last().verdict) {
+    case voussoir::Verdict::undecided:
+      return not_decided;
+    case voussoir::Verdict::collapse:
+      return collapsed;
+    case voussoir::Verdict::stable:
+      return run.last().fallen.empty() ? finished : stands_after_rockfall;
+  }
+  return not_decided;
+}
+
 int run_verb(const Options& options) {
   work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
+  if (input.laid) return run_blocks_verb(options, input);
   RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;

@@ -16,6 +16,8 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "report_json.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -45,6 +47,8 @@ double opening_diameter(const RunResult& run) {
   return high - low;
 }
 
+}  // namespace
+
 nlohmann::json report_json(const EquilibriumReport& report) {
   return {{"verdict", to_string(report)},
           {"reason", report.reason},
@@ -64,6 +68,8 @@ nlohmann::json report_json(const EquilibriumReport& report) {
           {"detached_area_m2", report.fallen_measure},
           {"broken_bolt_springs", report.broken_bolts}};
 }
+
+namespace {
 
 /// Where at the opening a block was.
 const char* place_of(const RunResult& run, const Vec2& centre) {

@@ -26,12 +26,20 @@ RunId& RunId::add(std::string_view part) {
 
 RunId& RunId::add(double part) { return add(shortest_text(part)); }
 
-RunId& RunId::add(const Input& input) { return add_keys(input).add(joints_hash(input)); }
+RunId& RunId::add(const Input& input) {
+  add_keys(input).add(joints_hash(input));
+  if (input.laid)  // what a file of blocks holds, too
+    for (const LaidBlockInput& block : input.laid->blocks) {
+      add(block.name);
+      for (const Point& p : block.vertices) add(p[0]).add(p[1]);
+    }
+  return *this;
+}
 
 RunId& RunId::add_keys(const Input& input) {
   // Mapped joints are what they are wherever their file lies.
   for (const std::string& line : input.content)
-    if (!line.starts_with("joints.file = ")) add(line);
+    if (!line.starts_with("joints.file = ") && !line.starts_with("blocks.file = ")) add(line);
   return add(std::to_string(input.model.seed));
 }
 

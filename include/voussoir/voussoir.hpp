@@ -44,6 +44,7 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 #include <voussoir/solver/creep.hpp>
+#include <voussoir/solver/load_in_steps.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/theory/bolts_and_lining.hpp>
 #include <voussoir/theory/circular_opening.hpp>

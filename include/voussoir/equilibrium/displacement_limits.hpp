@@ -80,7 +80,9 @@ template <class System, class Solve>
       throw NumericalFault("elastic step to the end of the stage: displacements are not finite");
     u += system.displacement;
     outlook.far = far_displacement(system, u, tuning.far_blocks);
-    if (limit == by_the_rock || std::abs(outlook.far - tuning.far_limit * limit) > error) break;
+    if (limit == by_the_rock ||
+        std::abs(outlook.far - context.carried - tuning.far_limit * limit) > error)
+      break;
   }
   return outlook;
 }
@@ -100,6 +102,7 @@ template <class System>
   constexpr double update_block_share = 0.04, update_elastic_movements = 2;
   SearchContext chosen = context;
   const double edge = mean_block_edge(system, context.measures);
+  far = std::max(far - context.carried, 0.0);
   chosen.seldom_moved = std::max({update_block_share * edge, update_elastic_movements * far, 1e-9});
   Acceptance& limits = chosen.acceptance;
   if (limits.displacement_limit == by_the_rock)
@@ -108,6 +111,7 @@ template <class System>
   // Who gives a longer limit expects that blocks go further.
   chosen.seldom_moved =
       std::max(chosen.seldom_moved, update_block_share / block_share * limits.displacement_limit);
+  limits.displacement_limit += context.carried;
   return chosen;
 }
 
@@ -118,7 +122,8 @@ template <class System>
 template <class System>
 [[nodiscard]] bool moves_too_far(const System& system, const SearchContext& context, double far,
                                  EquilibriumReport& report, const DetachmentTuning& tuning = {}) {
-  const double limit = context.acceptance.displacement_limit;
+  const double limit = context.acceptance.displacement_limit - context.carried;
+  far -= context.carried;
   if (!(far > tuning.far_limit * limit)) return false;
   const std::string moved = message_number(1e3 * far, 3), most = message_number(1e3 * limit, 3),
                     least = message_number(1e3 * far / tuning.far_limit, 2);

@@ -122,6 +122,9 @@ struct SearchContext {
   /// overlooked [m].
   double open_length = 1;
   double gravity = 9.81;  ///< of the weights of bodies [m/s^2]
+  /// How far fixed blocks that have been displaced have carried the others [m]: limits count what
+  /// blocks move beyond that.
+  double carried = 0;
   /// What a block seldom moves in a stage that stands: a search in one step gives up where one
   /// moves further. Set by the stage [m].
   double seldom_moved = std::numeric_limits<double>::infinity();

@@ -111,6 +111,7 @@ class UnloadingInMotion {
         context_(context),
         tuning_(tuning),
         limit_(context.acceptance.displacement_limit),
+        reach_(limit_ - context.carried),
         run_(set_in_motion(system, {.gravity = context.gravity,
                                     .local_damping = tuning.local_damping,
                                     .safety = tuning.safety,
@@ -118,7 +119,7 @@ class UnloadingInMotion {
                                     .check_every = sound_every,
                                     .goes_back = false,
                                     .threads = tuning.threads})) {
-    duration_ = tuning.ramp * std::sqrt(2 * limit_ / context.gravity);
+    duration_ = tuning.ramp * std::sqrt(2 * reach_ / context.gravity);
     run_.add_inertia(tuning.inert_share);
     if (tuning.rings >= 0) rest_of_rock_.emplace(start_, context);
     way_.limit = limit_;
@@ -171,8 +172,8 @@ class UnloadingInMotion {
       range.high = std::max(range.high, varied.fallen_measure);
       range.has_other_verdict = range.has_other_verdict || varied.verdict != report.verdict;
     };
-    vary(half_, 0.5 * limit_, 1);
-    vary(twice_, 2 * limit_, 1);
+    vary(half_, context_.carried + 0.5 * reach_, 1);
+    vary(twice_, context_.carried + 2 * reach_, 1);
     vary(slow_, limit_, 2);
     return range;
   }
@@ -240,7 +241,7 @@ class UnloadingInMotion {
   }
   /// Faster is fast [m/s].
   [[nodiscard]] double quiet_speed() const {
-    return tuning_.quiet_speed * limit_ / tuning_.patience;
+    return tuning_.quiet_speed * reach_ / tuning_.patience;
   }
   [[nodiscard]] bool is_fast(int b) const { return run_.velocity(b).norm() > quiet_speed(); }
   [[nodiscard]] bool is_restless(int b) {
@@ -307,7 +308,7 @@ class UnloadingInMotion {
 
   /// Takes out what has come off: blocks, and linings.
   void take_out(EquilibriumReport& report) {
-    if (comes_off(0.5 * limit_)) fork(half_, report);
+    if (comes_off(context_.carried + 0.5 * reach_)) fork(half_, report);
     if (!comes_off(way_.limit)) return;
     fork(twice_, report);
     std::vector<int> off;
@@ -361,7 +362,7 @@ class UnloadingInMotion {
 
   [[nodiscard]] bool rests(EquilibriumReport& report) {
     const auto rests = [this](int b) {
-      return run_.velocity(b).norm() * tuning_.patience <= limit_ &&
+      return run_.velocity(b).norm() * tuning_.patience <= reach_ &&
              run_.unbalance_of(b) < tuning_.rest_ratio;
     };
     if (rest_of_rock_) {
@@ -391,6 +392,7 @@ class UnloadingInMotion {
   const SearchContext& context_;
   const MotionTuning& tuning_;
   double limit_;         ///< [m]
+  double reach_;         ///< of which a block moves itself, beyond what it is carried [m]
   double duration_ = 0;  ///< of the ramp [s]
   Run run_;
   std::optional<ElasticBalance<System>> rest_of_rock_;

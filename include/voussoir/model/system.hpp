@@ -112,6 +112,10 @@ class System : public SystemState<Geometry> {
   /// @throws Stopped
   [[nodiscard]] Matrix elastic_stiffness(const Progress& progress = {}) const;
 
+  /// Forces on bodies that can move, where those that cannot are displaced so far: all contacts
+  /// closed and sticking, no other body moved.
+  [[nodiscard]] Eigen::VectorXd forces_of_displaced(const Eigen::VectorXd& fixed) const;
+
   /// Solves with that stiffness. @throws FreeBody, NotEnoughMemory, Stopped
   [[nodiscard]] ElasticSolver<dof> elastic_solver(const LinearSettings& settings,
                                                   const Progress& progress = {}) const {
@@ -130,6 +134,17 @@ class System : public SystemState<Geometry> {
   [[nodiscard]] std::vector<int> unsupported() const;
 
  private:
+  /// sink(a, b, aa, ab, bb) of every contact and support, all closed and sticking.
+  template <class Sink>
+  void visit_stiffness(const Sink& sink) const {
+    joints.add_stiffness(sink);
+    boundary.add_stiffness(sink);
+    interface.add_stiffness(sink);
+    for (const auto& support : supports)
+      support->add_stiffness([&](int a, int b, const auto& aa, const auto& ab, const auto&,
+                                 const auto& bb) { sink(a, b, aa, ab, bb); });
+  }
+
   using Base::bodies_;
 };
 
@@ -152,23 +167,32 @@ auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::elastic_stiffness(
     const Progress& progress) const -> Matrix {
   StopCheck stop(progress);
   Matrix k(this->body_count());
-  const auto sink = [&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
+  visit_stiffness([&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
     stop();
     const bool a_moves = this->body(a).movable, b_moves = this->body(b).movable;
     if (a_moves) k.add(a, aa);
     if (b_moves) k.add(b, bb);
     if (a_moves && b_moves) k.add(a, b, ab);
-  };
-  joints.add_stiffness(sink);
-  boundary.add_stiffness(sink);
-  interface.add_stiffness(sink);
-  for (const auto& support : supports)
-    support->add_stiffness([&](int a, int b, const auto& aa, const auto& ab, const auto&,
-                               const auto& bb) { sink(a, b, aa, ab, bb); });
+  });
   for (int b = 0; b < this->body_count(); ++b)
     if (!this->body(b).movable) k.add(b, diagonal_of<dof>(1));
   k.compress();
   return k;
+}
+
+template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+Eigen::VectorXd System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces_of_displaced(
+    const Eigen::VectorXd& fixed) const {
+  Eigen::VectorXd f = zeros(fixed.size());
+  using Part = Fixed<dof, 1>;
+  visit_stiffness([&](int a, int b, const auto&, const auto& ab, const auto&) {
+    const bool a_moves = this->body(a).movable, b_moves = this->body(b).movable;
+    if (a_moves && !b_moves)
+      add_at<dof>(f.data() + dof * a, Part(-(ab * part<dof>(fixed, dof * b))));
+    if (b_moves && !a_moves)
+      add_at<dof>(f.data() + dof * b, Part(-transposed_product(ab, part<dof>(fixed, dof * a))));
+  });
+  return f;
 }
 
 template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>

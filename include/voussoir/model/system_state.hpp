@@ -53,7 +53,7 @@ class SystemState {
   /// For every label of their faces the index of the joint law; null: the first for all.
   std::shared_ptr<const std::vector<int>> law_of_cut;
 
-  /// From now on the body stays where it is.
+  /// From now on the body stays where it is, but for what is prescribed.
   void fix(int b) { bodies_[static_cast<std::size_t>(b)].movable = false; }
 
   int add_body(const Body& body) { return add_bodies({&body, 1}); }
@@ -174,11 +174,12 @@ class SystemState {
     return (std::sqrt(squared) + inexact) / std::max(largest_translation(u), 1e-9);
   }
 
-  /// Largest translation of a block [m].
+  /// Largest translation of a block that can move [m].
   [[nodiscard]] double largest_translation(const Eigen::VectorXd& u) const {
     double squared = 0;
     for (int b = 0; b < body_count(); ++b)
-      if (body(b).is_block) squared = std::max(squared, part<dim>(u, dof * b).squaredNorm());
+      if (body(b).is_block && body(b).movable)
+        squared = std::max(squared, part<dim>(u, dof * b).squaredNorm());
     return std::sqrt(squared);
   }
 
@@ -244,7 +245,7 @@ int SystemState<Geometry>::add_bodies(std::span<const Body> bodies) {
 template <class Geometry>
 auto SystemState<Geometry>::pose(int b) const -> Pose<dim> {
   Pose<dim> at = pose_at_update(b);
-  if (!body(b).movable) return at;
+  if (body(b).is_gone) return at;
   at.position = body(b).centre + part<dim>(displacement, dof * b);
   Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
   if (has_updated_contacts()) turn -= part<dof - dim>(updated_at_, dof * b + dim);
@@ -267,7 +268,7 @@ template <class Geometry>
 double SystemState<Geometry>::moved_since_update() const {
   double farthest = 0;
   for (int b = 0; b < body_count(); ++b) {
-    if (!body(b).movable || !body(b).is_block) continue;
+    if (body(b).is_gone || !body(b).is_block) continue;
     Fixed<dof, 1> u = part<dof>(displacement, dof * b);
     if (has_updated_contacts()) u -= part<dof>(updated_at_, dof * b);
     farthest = std::max(farthest,

@@ -55,7 +55,7 @@ template <class Geometry>
     mass.cuts.push_back({Cut::Kind::joint, 0});
     return static_cast<int>(planes.size()) - 1;
   };
-  mass.joints.emplace_back().set = -1;
+  mass.joints.emplace_back().set = -1;  // it has no trace
   for (auto& block : blocks) {
     for (std::size_t k = 0; k < block.size(); ++k)
       block.set_cut(k, plane_of(block.half_space(k), block.face(k).centre()));

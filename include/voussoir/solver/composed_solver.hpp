@@ -27,6 +27,7 @@
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/detail/next_round.hpp>
 #include <voussoir/model/lining_members.hpp>
+#include <voussoir/model/prescribed_displacement.hpp>
 #include <voussoir/model/support.hpp>
 #include <voussoir/model/system.hpp>
 #include <voussoir/model/wall_tractions.hpp>
@@ -170,10 +171,19 @@ class ComposedSolver {
   /// @throws InvalidInput  there is no such block, it has fallen or is fixed, or the load is not
   ///                       finite
   void add_load(int block, const Load<dim>& load);
+  /// The same on every block that can move now: this part of its weight, as a pseudo-static
+  /// earthquake load.
+  void add_body_force(const Vec<dim>& over_weight);
 
   /// Holds a block where it is from now on: an abutment, a base.
   /// @throws InvalidInput  there is no such block, or it has fallen
   void fix(int block);
+
+  /// Displaces fixed blocks: abutments that yield. What rests on them begins the next stage
+  /// where it would be carried elastically; long ways go in steps (`load_in_steps`).
+  /// @throws InvalidInput  there is no such block, it has fallen or is free, or not finite: nothing
+  ///                       has moved
+  void displace(const std::vector<PrescribedDisplacement<dim>>& motions);
 
   /// Lets joints creep under the forces that they carry now; `creep` finds the equilibria.
   /// @param time  [s]
@@ -259,6 +269,7 @@ class ComposedSolver {
   std::vector<double> measures_;
   std::vector<int> fallen_;
   double update_limit_ = 0.02;  ///< of contact updates, of the last search [m]
+  double carried_ = 0;          ///< see `SearchContext` [m]
   int bolt_count_ = 0;
   bool started_ = false, is_loaded_ = false;
 };
@@ -400,8 +411,8 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   acceptance.check();
   const double to = aim_at(wall_fractions);
   started_ = true;
-  const SearchContext context{acceptance, &measures_,          to,
-                              progress,   open_length(*mass_), in_situ_.gravity};
+  const SearchContext context{acceptance,          &measures_,       to,      progress,
+                              open_length(*mass_), in_situ_.gravity, carried_};
   EquilibriumReport report = method.find(system_, context);
   if (report.contact_update_limit > 0) update_limit_ = report.contact_update_limit;
   walls_.reach(system_.wall_fraction);
