@@ -211,7 +211,8 @@ VOUSSOIR_INLINE PressedPart<3> bonded_part(const double* pressed_in, const KeptO
                                            const BondRelease<3>* of, PointBond<3>* now) {
   const PointBond<3> bond = common_bond(of, now);
   if (outline.edges == nullptr) return {};
-  const auto [mean, x, y] = PressedPart<3>::plane_through(pressed_in);
+  const std::array<double, 3> plane = PressedPart<3>::plane_through(pressed_in);
+  const double mean = plane[0], x = plane[1], y = plane[2];
   const double steep = std::sqrt(x * x + y * y);
   if (mean >= outline.radius * steep) return {};
   if (bond.area == 0) return PressedPart<3>::of(pressed_in, outline);
