@@ -40,6 +40,10 @@ namespace voussoir::detail {
 
 #if VOUSSOIR_BODIES
 
+/// A bond over less than this part of a joint is lost [-]: its moments would be differences of
+/// others' to 12 digits, and the points be anywhere.
+constexpr double least_bond = 1e-4;
+
 /// What all points together say of the bond: it is one over the joint. One that has failed in shear
 /// lets all of it go in tension.
 template <int Dim>
@@ -90,19 +94,15 @@ VOUSSOIR_INLINE PressedPart<2> bonded_part(const double* pressed_in, const KeptO
   double pressed_from = -end, pressed_to = end, held_from = from, held_to = to;
   above(0, pressed_from, pressed_to);
   above(-bond.stretch, held_from, held_to);
-  const double held = std::max(0.0, held_to - held_from);
-  now[0].area = now[1].area = std::min(bond.area, held / (2 * end));
-  if (held > 0) {
-    if (held_from > from) now[0].front.reach = -held_from;
-    if (held_to < to) now[1].front.reach = held_to;
-  } else {
-    now[0].area = now[1].area = 0;
-  }
+  const double area = std::min(bond.area, (held_to - held_from) / (2 * end));
+  now[0].area = now[1].area = area > least_bond ? area : 0;
+  if (now[0].area == 0) return PressedPart<2>::of(pressed_in[0], pressed_in[1]);
+  if (held_from > from) now[0].front.reach = -held_from;
+  if (held_to < to) now[1].front.reach = held_to;
   LengthMoments sum;
   sum.add(pressed_from, pressed_to);
   sum.add(held_from, held_to);
   sum.add(std::max(held_from, pressed_from), std::min(held_to, pressed_to), -1);
-  if (!(sum.length > 0)) return {};
   return PressedPart<2>::with_moments(sum.length, sum.first, sum.second);
 }
 
@@ -245,13 +245,13 @@ VOUSSOIR_INLINE PressedPart<3> bonded_part(const double* pressed_in, const KeptO
   }
   AreaMoments bonded, sum;
   bonded.add(held);
-  const double area = std::max(0.0, bonded.area) / outline.edges->area;
+  const double area = std::min(bond.area, bonded.area / outline.edges->area);
   for (std::size_t k = 0; k < PressedPart<3>::count; ++k)
-    now[k].area = area > 1e-12 ? std::min(bond.area, area) : 0;
+    now[k].area = area > least_bond ? area : 0;
+  if (now[0].area == 0) return PressedPart<3>::of(pressed_in, outline);
   sum.add(within(all, released));
   sum.add(held);
   sum.add(within(held, released), -1);
-  if (!(sum.area > 1e-14 * outline.edges->area)) return {};
   // In axes along e, about the centroid: a part that is thin along it keeps its width.
   const double u = sum.u / sum.area, v = sum.v / sum.area;
   const double xx = sum.uu / sum.area - u * u, xy = sum.uv / sum.area - u * v,
