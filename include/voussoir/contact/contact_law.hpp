@@ -167,6 +167,17 @@ template <int Dim, class Law>
     return load.initial.normal / (law.joint_normal_stiffness() * load.weight);
 }
 
+/// Whether a point that nothing presses in situ carries tension.
+template <int Dim, class Law>
+[[nodiscard]] bool holds_tension(const Law& law) {
+  const auto release =
+      release_opening<Dim>(law, PointLoad<Dim>{1.0, {}, {}}, typename Law::template State<Dim>{});
+  if constexpr (std::same_as<decltype(release), const double>)
+    return release > 0;
+  else
+    return release.opening > 0 || release.stretch > 0;
+}
+
 /// Turns the motion at one contact point into a force. Reading and remembering are separate.
 ///
 /// What the compiler cannot check, and a law must still honour:

@@ -6,8 +6,10 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
@@ -140,10 +142,12 @@ class LiningAssembly {
     system_.supports.add(std::make_shared<LiningFeet<dim>>(bearing, std::move(springs)));
   }
 
-  /// What rock touches: here at a point for every piece of wall, in motion the surface.
+  /// What rock touches: here at a point for every piece of wall, at two (in 3-D four) where the
+  /// interface holds tension; in motion the surface.
   void add_surface(const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
                    const InterfaceLaw& interface_law) {
     const int law = system_.interface.add_law(interface_law);
+    const bool is_bonded = holds_tension<dim>(interface_law);
     double thickness = 0;
     for (const LiningSection& section : sections)
       thickness = std::max(thickness, section.thickness());
@@ -157,13 +161,22 @@ class LiningAssembly {
          })) {
       const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
       if (!system_.body(c.body).movable) continue;  // that block is detached
-      const FacetPoint<dim> point{zeros<Vec<dim>>(), c.facet.measure()};
       const int node = first_node_ + c.node;
-      // A pin is pushed in its middle, wherever on its stretch the rock touches it.
-      Vec<dim> centre = system_.body(node).centre;
-      if constexpr (is_pinned_lining<Lining>()) centre = c.facet.centre();
-      system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, {&point, 1},
-                            law);
+      const auto touch = [&](const Vec<dim>& centre, std::span<const FacetPoint<dim>> points) {
+        system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, points,
+                              law);
+      };
+      const FacetPoint<dim> middle{zeros<Vec<dim>>(), c.facet.measure()};
+      if constexpr (is_pinned_lining<Lining>()) {
+        // A pin is pushed in its middle, wherever on its stretch the rock touches it.
+        touch(c.facet.centre(), {&middle, 1});
+      } else if (is_bonded) {
+        // Bond fails at the edge of a block: the stress must be linear along the piece of wall.
+        const auto points = c.facet.gauss_points();
+        touch(system_.body(node).centre, points);
+      } else {
+        touch(system_.body(node).centre, {&middle, 1});
+      }
     }
     system_.interface.touch_at(system_.displacement.data(), before);
   }
