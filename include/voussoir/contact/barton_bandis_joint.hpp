@@ -41,7 +41,7 @@ namespace voussoir {
 /// to phi_r, below which nothing slips, mostly that of the curve's beginning, tan(phi_r) sigma_n /
 /// (0.3 delta_p). Closure and elastic slip each have a potential of their own, k_s only grows,
 /// under an unchanged force, and what dilation lifts, the friction pays: no path of a point gains
-/// energy (docs/theory.md#rough-joints; a joint that lifts and is open from an edge still does).
+/// energy (docs/theory.md, "Rough joints"; a joint that lifts and is open from an edge still does).
 /// The source's stiffness follows the stress of the moment; with that a joint sheared under low
 /// stress, pressed, sheared back and unloaded gives 271 J/m2 where 109 were stored.
 ///
