@@ -59,15 +59,15 @@ void now_doing(const std::string& what, const std::string& otherwise) {
 }
 
 /// One for every verdict, so that a script reads it as a person does.
-ExitStatus status_of(const RunResult& run) {
-  switch (run.verdict()) {
+/// @param has_lost  blocks or lining have come off
+ExitStatus status_of(voussoir::Verdict verdict, bool has_lost) {
+  switch (verdict) {
     case voussoir::Verdict::undecided:
       return not_decided;
     case voussoir::Verdict::collapse:
       return collapsed;
     case voussoir::Verdict::stable:
-      return run.fallen_measure() > 0 || run.built.has_lost_lining() ? stands_after_rockfall
-                                                                     : finished;
+      return has_lost ? stands_after_rockfall : finished;
   }
   return not_decided;
 }
@@ -91,15 +91,7 @@ int run_blocks_verb(const Options& options, const Input& input) {
   outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
   if (!options.quiet) std::cout << blocks_summary(input, run);
   publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
-  switch (run.last().verdict) {
-    case voussoir::Verdict::undecided:
-      return not_decided;
-    case voussoir::Verdict::collapse:
-      return collapsed;
-    case voussoir::Verdict::stable:
-      return run.last().fallen.empty() ? finished : stands_after_rockfall;
-  }
-  return not_decided;
+  return status_of(run.last().verdict, !run.last().fallen.empty());
 }
 
 int run_verb(const Options& options) {
@@ -123,7 +115,7 @@ int run_verb(const Options& options) {
   outputs.add("blocks.svg", blocks_svg(input, run), id);
   if (!options.quiet) std::cout << run_summary(input, run);
   publish(outputs, options, "run.json, bolts.csv, lining.csv, blocks.svg");
-  return status_of(run);
+  return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
 }
 
 /// Which cases, and how many rock masses of each.

@@ -286,6 +286,39 @@ TEST_SUITE("model/pressed_part") {
     CHECK(between > 20);
   }
 
+  TEST_CASE("a bond that is torn off uses up what its fibres hold as they break") {
+    // sigma_t^2 / (2 k_n) over the whole length, whichever way it opens: by the work on it less
+    // what it holds, and by what the law says.
+    auto group = joint<Planar>(glued, line, {0.2, -0.5}, Vec2(line.centre()));
+    const double surface = 0.5 * k_n * stretch * stretch * line.length();
+    constexpr int steps = 4000;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+    u[4] = -stretch;
+    double work = 0, lost = 0, held = 0;
+    group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
+      held += glued.stored_energy(load, p.state);
+    });
+    Eigen::VectorXd before = forces_of(group, u);
+    for (int k = 1; k <= steps; ++k) {
+      const Eigen::VectorXd from = u;
+      // It opens from the right end to the left one, which is pressed at first.
+      u[4] = stretch * (5.0 * k / steps - 1);
+      u[5] = 4 * stretch * k / steps;
+      const Eigen::VectorXd now = forces_of(group, u);
+      work -= 0.5 * (before + now).dot(u - from);
+      group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
+        auto state = p.state;
+        lost += glued.commit(load, state);
+      });
+      (void)group.commit(u.data());
+      before = now;
+    }
+    CHECK(before.norm() == 0);
+    // By the stretch of a step over that of the bond: some 1e-3.
+    CHECK(work + held == doctest::Approx(surface).epsilon(2e-3));
+    CHECK(lost == doctest::Approx(surface).epsilon(2e-3));
+  }
+
   TEST_CASE("in 3-D it does so while it cracks from one side, and never holds more than they do") {
     const Vec3 a(0.3, 0.2, -0.4), b = patch.centre();
     // Fibres on a grid.

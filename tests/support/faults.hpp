@@ -18,6 +18,17 @@ template <class Action>
   return "";
 }
 
+/// The message with which an action is refused; "" if it is not.
+template <class Action>
+[[nodiscard]] std::string refusal_of(Action&& action) {
+  try {
+    action();
+  } catch (const voussoir::InvalidInput& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
 [[nodiscard]] inline bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }

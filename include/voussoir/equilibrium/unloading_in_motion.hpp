@@ -222,8 +222,8 @@ class UnloadingInMotion {
       if (way_.done >= 1 && rests(report)) return true;
     }
     report.reason =
-        message({"rock was still moving ", tuning_.longest,
-                 " s after the walls were unloaded: it neither comes off nor comes to rest"});
+        message({"blocks were still moving ", tuning_.longest,
+                 " s after the change of load: they neither come off nor come to rest"});
     return false;
   }
 

@@ -27,7 +27,7 @@ namespace voussoir::detail {
 ///
 /// @param pressed_in  by points of the whole: how far the joint is closed, < 0: open [m]
 /// @param of          what the law says of these points
-/// @param now         of these points, the bond as it is then; read and written by nobody else
+/// @param now         is written: the bond of these points as it is then
 /// @return  whole also where nothing is pressed or bonded: laws know from the bond
 [[nodiscard]] VOUSSOIR_INLINE PressedPart<2> bonded_part(const double* pressed_in,
                                                          const KeptOutline<2>& outline,
