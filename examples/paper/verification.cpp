@@ -137,8 +137,8 @@ void blocks_in_motion(std::vector<Check>& checks) {
 /// A wedge in the roof between two abutments under a total load: whether it stays.
 bool wedge_stays(double load) {
   const double alpha = 20 * degree, thrust = 1e6;
-  System<Planar, CoulombJoint> system(CoulombJoint({5e9, 5e8, 35 * degree}), 1,
-                                      CoulombJoint({1, 1, 0}, any_units));
+  System<Planar> system(CoulombJoint({5e9, 5e8, 35 * degree}), 1,
+                        CoulombJoint({1, 1, 0}, any_units));
   const Vec2 apex(0, std::cos(alpha)), toe(std::sin(alpha), 0);
   system.add_body({Vec2(-1, 0.5), 1, 1, false});
   system.add_body({Vec2(1, 0.5), 1, 1, false});

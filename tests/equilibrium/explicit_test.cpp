@@ -17,7 +17,7 @@ using namespace voussoir;
 
 namespace {
 
-using Masses = System<Planar, CoulombJoint>;
+using Masses = System<Planar>;
 
 constexpr double stiffness = 3e6;
 

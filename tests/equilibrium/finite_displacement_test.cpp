@@ -30,7 +30,7 @@ using voussoir_test::degree;
 
 namespace {
 
-using Plane = System<Planar, CoulombJoint>;
+using Plane = System<Planar>;
 
 constexpr double kn = 5e9, ks = 5e8, density = 2700, gravity = 9.81;
 

@@ -27,13 +27,13 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A law as a user may write it: its own state, which owns memory, and nothing that is optional.
+/// A law as a user may write it: its own state, and nothing that is optional.
 struct CountingSpring {
   using role = roles::ContactLaw;
   static constexpr const char* name = "CountingSpring";
   template <int Dim>
   struct State {
-    std::vector<int> commits;
+    int commits = 0;
     Vec<Dim - 1> last = zeros<Vec<Dim - 1>>();
   };
   template <int Dim>
@@ -43,7 +43,7 @@ struct CountingSpring {
   }
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
-    state.commits.push_back(1);
+    ++state.commits;
     state.last = load.motion.slip;
     return 0;
   }
@@ -93,9 +93,9 @@ constexpr int body_count = 23;
 
 /// Contacts of one to five points, half of them pressed so little that they open or slip.
 template <class Geometry, class Law>
-ContactGroup<Geometry, Law> random_contacts(bool shifted) {
+ContactGroup<Geometry> random_contacts(bool shifted) {
   constexpr int dim = Geometry::dim;
-  using Group = ContactGroup<Geometry, Law>;
+  using Group = ContactGroup<Geometry>;
   Numbers number;
   Group group({law_of<Law>()});
   for (int k = 0; k < 200; ++k) {
@@ -255,16 +255,22 @@ TEST_SUITE("model/contact_arrays") {
   TEST_CASE_TEMPLATE("points come back bit for bit, whenever the first of them is shifted", T,
                      std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
     constexpr int dim = T::value;
-    using Arrays = ContactArrays<dim, CountingSpring::State<dim>>;
+    using Arrays = ContactArrays<dim>;
+    const auto& model = detail::StateModelOf<CountingSpring::State<dim>>::one();
+    const auto commits_of = [](const auto& p) {
+      return p.template history<CountingSpring>().commits;
+    };
     Numbers number;
     std::vector<typename Arrays::Point> given(40);
     Arrays arrays;
+    arrays.states().set_model(model);
     for (std::size_t k = 0; k < given.size(); ++k) {
       auto& p = given[k];
       p.offset = number.vector<dim>();
       p.weight = number();
       p.initial = {number(), number.vector<dim - 1>()};
-      p.state.commits.assign(k, 7);
+      const CountingSpring::State<dim> state{static_cast<int>(k), {}};
+      p.state = AnyState(model, &state);
       if (k < 17) p.offset[0] = 0;
       if (k >= 17) p.start = number.vector<dim>();
       arrays.push_back(p);
@@ -274,7 +280,7 @@ TEST_SUITE("model/contact_arrays") {
     std::size_t seen = 0;
     for (const auto& p : arrays) {
       check_same(p, given[seen]);
-      CHECK(p.state.commits == given[seen++].state.commits);
+      CHECK(commits_of(p) == commits_of(given[seen++]));
     }
     CHECK(seen == given.size());
     // Points 30, ..., 33 move to 2, ..., 5; the rest goes.
@@ -284,10 +290,12 @@ TEST_SUITE("model/contact_arrays") {
     check_same(arrays[1], given[1]);
     for (std::size_t k = 2; k < 6; ++k) {
       check_same(arrays[k], given[k + 28]);
-      CHECK(arrays[k].state.commits == given[k + 28].state.commits);
+      CHECK(commits_of(arrays[k]) == static_cast<int>(k) + 28);
     }
     arrays.set(0, given[39]);
     check_same(arrays[0], given[39]);
+    CHECK(commits_of(arrays[0]) == 39);
+    CHECK_THROWS_AS((void)arrays[0].template history<CoulombJoint>(), InvalidInput);
   }
 
   TEST_CASE("a contact and its points take few bytes") {

@@ -180,7 +180,7 @@ TEST_SUITE("model/contact_group") {
         const auto& was = before.points()[static_cast<std::size_t>(c.first + k)];
         const auto& is = system.joints.points()[static_cast<std::size_t>(now.first + k)];
         CHECK(is.offset == was.offset);
-        CHECK(is.state.plastic_slip == was.state.plastic_slip);
+        CHECK(is.history<CoulombJoint>().plastic_slip == was.history<CoulombJoint>().plastic_slip);
       }
     }
     CHECK(left == system.joints.contacts().size());

@@ -156,8 +156,7 @@ TEST_SUITE("model/contact_renewal") {
       }
       const std::vector<BodyRole> roles(bodies.size(), BodyRole::block);
       const auto law_of = [](std::size_t, const Vec<dim>&) { return 0; };
-      ContactNetwork<dim, CoulombJoint> network({CoulombJoint({5e9, 5e8, 35 * degree})}, 5e9, {},
-                                                {}, 0);
+      ContactNetwork<dim> network({CoulombJoint({5e9, 5e8, 35 * degree})}, 5e9, {}, {}, 0);
       double gained = 0;
       (void)network.find(tracker, bodies, nullptr, roles, law_of, gained);
       network.prescribe(

@@ -32,10 +32,9 @@ constexpr double k_n = 5e9;
 
 /// Body 1 on body 0, with one contact between them.
 template <class Geometry, class Law, class Area>
-ContactGroup<Geometry, Law> joint(const Law& law, const Area& area,
-                                  const Vec<Geometry::dim>& centre_a,
-                                  const Vec<Geometry::dim>& centre_b) {
-  ContactGroup<Geometry, Law> group({law});
+ContactGroup<Geometry> joint(const Law& law, const Area& area, const Vec<Geometry::dim>& centre_a,
+                             const Vec<Geometry::dim>& centre_b) {
+  ContactGroup<Geometry> group({law});
   const auto points = area.gauss_points();
   group.add(0, 1, area, centre_a, centre_b,
             std::vector<FacetPoint<Geometry::dim>>(points.begin(), points.end()));
@@ -99,7 +98,7 @@ void check_paths(const Law& law, const Area& area, double initial, double size, 
     const auto stored = [&](const Eigen::VectorXd& u) {
       double sum = 0;
       group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
-        sum += law.stored_energy(load, p.state);
+        sum += law.stored_energy(load, p.template history<Law>());
       });
       return sum;
     };
@@ -134,7 +133,7 @@ template <class Group>
 double bond_of(const Group& group, const Eigen::VectorXd& u) {
   double least = 1;
   group.visit(u.data(), [&](const auto&, const auto& p, const auto&, const auto&) {
-    least = std::min(least, p.state.bond);
+    least = std::min(least, p.template history<MohrCoulombJoint>().bond);
   });
   return least;
 }
@@ -296,7 +295,7 @@ TEST_SUITE("model/pressed_part") {
     u[4] = -stretch;
     double work = 0, lost = 0, held = 0;
     group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
-      held += glued.stored_energy(load, p.state);
+      held += glued.stored_energy(load, p.template history<MohrCoulombJoint>());
     });
     Eigen::VectorXd before = forces_of(group, u);
     for (int k = 1; k <= steps; ++k) {
@@ -307,7 +306,7 @@ TEST_SUITE("model/pressed_part") {
       const Eigen::VectorXd now = forces_of(group, u);
       work -= 0.5 * (before + now).dot(u - from);
       group.visit(u.data(), [&](const auto&, const auto& p, const auto& load, const auto&) {
-        auto state = p.state;
+        auto state = p.template history<MohrCoulombJoint>();
         lost += glued.commit(load, state);
       });
       (void)group.commit(u.data());

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-using PlaneSystem = System<Planar, CoulombJoint>;
+using PlaneSystem = System<Planar>;
 
 Stress<2> turn_by(double angle) {
   Stress<2> turn;
@@ -143,8 +143,10 @@ AxialBolt bar() { return AxialBolt({.axial_stiffness = 2e8, .carries_compression
 template <class SystemType>
 std::vector<double> history(const SystemType& system) {
   std::vector<double> slips;
-  for (const auto& p : system.joints.points()) slips.push_back(p.state.plastic_slip[0]);
-  for (const auto& p : system.interface.points()) slips.push_back(p.state.plastic_slip[0]);
+  for (const auto& p : system.joints.points())
+    slips.push_back(p.history<CoulombJoint>().plastic_slip[0]);
+  for (const auto& p : system.interface.points())
+    slips.push_back(p.history<CoulombJoint>().plastic_slip[0]);
   for (const auto& b : system.supports.template first<BoltSet<2, AxialBolt>>()->springs())
     slips.push_back(b.state.plastic_extension);
   return slips;

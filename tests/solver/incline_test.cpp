@@ -26,7 +26,7 @@ using voussoir_test::reference;
 
 namespace {
 
-using Incline = System<Planar, CoulombJoint>;
+using Incline = System<Planar>;
 
 constexpr double degree = std::numbers::pi / 180, gravity = 9.81;
 constexpr double kn = 5e9, ks = 5e8, width = 1.0, height = 0.2, weight = 2700 * gravity * 0.2;

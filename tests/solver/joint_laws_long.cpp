@@ -99,7 +99,8 @@ TEST_SUITE("solver/joint_laws_long") {
       const auto report = tunnel.equilibrium();
       CHECK(report.verdict == Verdict::stable);
       int failed = 0;
-      for (const auto& p : tunnel.system().joints.points()) failed += p.state.failed;
+      for (const auto& p : tunnel.system().joints.points())
+        failed += p.history<MohrCoulombJoint>().failed;
       return std::pair{crown(tunnel), failed};
     };
     auto plain = tunnel_with<Solver<>>(CoulombJoint({5e9, 5e8, 30 * degree}));

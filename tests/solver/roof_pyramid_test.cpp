@@ -64,10 +64,9 @@ struct Pyramid {
     return (stress * s * c + shear_stiffness * drop() * c) / (left * stress * c * c);
   }
 
-  [[nodiscard]] System<Spatial, CoulombJoint> system(double tan_friction) const {
-    System<Spatial, CoulombJoint> made(
-        CoulombJoint({normal_stiffness, shear_stiffness, std::atan(tan_friction)}), 1,
-        CoulombJoint({1, 1, 0}, any_units));
+  [[nodiscard]] System<Spatial> system(double tan_friction) const {
+    System<Spatial> made(CoulombJoint({normal_stiffness, shear_stiffness, std::atan(tan_friction)}),
+                         1, CoulombJoint({1, 1, 0}, any_units));
     const auto rock = sides();
     for (const SpatialFacet& side : rock) made.add_body({1.5 * side.centre(), 1, 1, false});
     const int block = made.add_body({Vec3(0, 0, 0.25 * height), weight(), 0.3 * height, true});

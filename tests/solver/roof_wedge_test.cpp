@@ -35,9 +35,9 @@ struct Case {
 };
 
 /// Faces of 1 m between two fixed abutments (0, 1) and the wedge (2), under a total load P.
-System<Planar, CoulombJoint> wedge(const Case& c, double load) {
-  System<Planar, CoulombJoint> system(CoulombJoint({c.normal, c.shear, c.friction * degree}), 1,
-                                      CoulombJoint({1, 1, 0}, any_units));
+System<Planar> wedge(const Case& c, double load) {
+  System<Planar> system(CoulombJoint({c.normal, c.shear, c.friction * degree}), 1,
+                        CoulombJoint({1, 1, 0}, any_units));
   const double a = c.semi_apical * degree;
   const Vec2 apex(0, std::cos(a)), toe(std::sin(a), 0);
   system.add_body({Vec2(-1, 0.5), 1, 1, false});

@@ -29,7 +29,7 @@ constexpr double half = pi / count;  // half the angle of a chord
 /// A ring of frame elements alone, in the place of a solver: what the measurements ask of one.
 struct RingAlone {
   static constexpr int dim = 2;
-  using SystemType = System<Planar, CoulombJoint>;
+  using SystemType = System<Planar>;
   using LiningType = LiningMembers<Planar>;
 
   explicit RingAlone(const LiningSection& given) : section(given) {
@@ -146,8 +146,8 @@ TEST_SUITE("tunnel/measurements") {
     //   P = K_L l (u0 - u),  N = P / (2 sin(pi/n)),  u = N R cos(pi/n) / (E A)
     const double modulus = 1e9, came_in = 2e-3;
     const LiningSection section = shotcrete();
-    System<Planar, CoulombJoint> system(CoulombJoint({1, 1, 0}, any_units), 1,
-                                        CoulombJoint({modulus, modulus, 30 * degree}));
+    System<Planar> system(CoulombJoint({1, 1, 0}, any_units), 1,
+                          CoulombJoint({modulus, modulus, 30 * degree}));
     const auto vertex = [](int k) { return RingAlone::position(k); };
     for (int k = 0; k < count; ++k)
       system.add_body({0.5 * (vertex(k) + vertex(k + 1)), 0, 1, true});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -13,26 +12,15 @@
 
 namespace voussoir {
 
-namespace detail {
-
-/// What is compiled for a run: for laws that can be known at run time once for all.
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-using MotionFor = std::conditional_t<hides_laws<JointLaw, InterfaceLaw, Dim>,
-                                     Motion<Dim, AnyLaw<Dim>, AnyLaw<Dim>, Detector>,
-                                     Motion<Dim, JointLaw, InterfaceLaw, Detector>>;
-
-}  // namespace detail
-
 /// Blocks that move, their contacts by laws of these types: see `Motion`.
 /// @tparam Detector  the narrow phase by which contacts are updated
 template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
-class Dynamics : public detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector> {
+class Dynamics : public Motion<Dim, Detector> {
   static_assert(explain_contact_law<JointLaw, Dim>());
   static_assert(explain_contact_law<InterfaceLaw, Dim>());
-  static constexpr bool is_hidden = detail::hides_laws<JointLaw, InterfaceLaw, Dim>;
 
  public:
-  using Base = detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector>;
+  using Base = Motion<Dim, Detector>;
 
   /// @throws InvalidInput  a setting out of range
   explicit Dynamics(const JointLaw& law, const DynamicsSettings& settings = {})
@@ -47,8 +35,8 @@ class Dynamics : public detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector>
   Dynamics(const std::vector<JointLaw>& laws, double wall_stiffness,
            const std::vector<InterfaceLaw>& interface_laws, std::vector<int> law_of_cut,
            const DynamicsSettings& settings)
-      : Base(as_compiled(laws), wall_stiffness, as_compiled(interface_laws), std::move(law_of_cut),
-             settings) {}
+      : Base(detail::any_laws<Dim>(laws), wall_stiffness, detail::any_laws<Dim>(interface_laws),
+             std::move(law_of_cut), settings) {}
   /// A run as it is, whose laws are of these types.
   explicit Dynamics(Base&& run) : Base(std::move(run)) {}
 
@@ -56,34 +44,19 @@ class Dynamics : public detail::MotionFor<Dim, JointLaw, InterfaceLaw, Detector>
   /// @param interface_law  rock on lining
   int add_lining_nodes(const std::vector<LiningNode<Dim>>& nodes,
                        const InterfaceLaw& interface_law) {
-    return Base::add_lining_nodes(
-        nodes, this->network_.add_interface_law(as_compiled(std::vector{interface_law}).front()));
+    return Base::add_lining_nodes(nodes, this->network_.add_interface_law(interface_law));
   }
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
-  void set_laws(const LawsBySet<JointLaw>& laws) { Base::set_laws(as_compiled(laws.all())); }
+  void set_laws(const LawsBySet<JointLaw>& laws) {
+    Base::set_laws(detail::any_laws<Dim>(laws.all()));
+  }
 
   /// Contacts, with their laws as types.
-  [[nodiscard]] decltype(auto) joints() const { return of_type<JointLaw>(Base::joints()); }
-  [[nodiscard]] decltype(auto) walls() const { return of_type<SmoothWall>(Base::walls()); }
-  [[nodiscard]] decltype(auto) interface() const {
-    return of_type<InterfaceLaw>(Base::interface());
-  }
-
- private:
-  template <class Law>
-  [[nodiscard]] static auto as_compiled(const std::vector<Law>& laws) {
-    if constexpr (is_hidden)
-      return detail::any_laws<Dim>(laws);
-    else
-      return laws;
-  }
-  template <class Law, class Group>
-  [[nodiscard]] static decltype(auto) of_type(const Group& group) {
-    if constexpr (is_hidden)
-      return MovingContactsView<Dim, Law>(group);
-    else
-      return (group);
+  [[nodiscard]] auto joints() const { return MovingContactsView<Dim, JointLaw>(Base::joints()); }
+  [[nodiscard]] auto walls() const { return MovingContactsView<Dim, SmoothWall>(Base::walls()); }
+  [[nodiscard]] auto interface() const {
+    return MovingContactsView<Dim, InterfaceLaw>(Base::interface());
   }
 };
 

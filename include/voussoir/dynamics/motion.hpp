@@ -42,7 +42,7 @@ namespace voussoir {
 /// Local damping is evaluated with the velocity at half steps. Source: Cundall (1987); velocity
 /// Verlet: Swope et al. (1982), J. Chem. Phys. 76, 637.
 /// @tparam Detector  the narrow phase by which contacts are updated
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+template <int Dim, class Detector = FaceContacts>
 class Motion : public MovingBodies<Dim> {
   using Base = MovingBodies<Dim>;
   using MovingPart = detail::MovingPart;
@@ -50,15 +50,15 @@ class Motion : public MovingBodies<Dim> {
  public:
   using typename Base::Body;
   using typename Base::Shape;
-  using Network = ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>;
+  using Network = ContactNetwork<Dim, Detector>;
   using State = detail::RunState<Dim, Network, ContactTracker<Dim, Detector>>;
 
   /// @param wall_stiffness  of smooth walls [Pa/m]
   /// @param interface_laws  of linings
   /// @param law_of_cut      for every label of the blocks' faces the index of its law
   /// @throws InvalidInput  a setting out of range
-  Motion(std::vector<JointLaw> laws, double wall_stiffness,
-         std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
+  Motion(std::vector<AnyLaw<Dim>> laws, double wall_stiffness,
+         std::vector<AnyLaw<Dim>> interface_laws, std::vector<int> law_of_cut,
          const DynamicsSettings& settings)
       : settings_(settings),
         network_(std::move(laws), wall_stiffness, std::move(interface_laws), std::move(law_of_cut),
@@ -106,9 +106,8 @@ class Motion : public MovingBodies<Dim> {
   }
   /// Contacts of a model that is set in motion, before anything is computed (see
   /// `ContactNetwork::carry_on`).
-  void carry_on(typename Network::template Former<JointLaw> joints,
-                typename Network::template Former<typename Network::WallLaw> walls,
-                typename Network::template Former<InterfaceLaw> interface) {
+  void carry_on(typename Network::Former joints, typename Network::Former walls,
+                typename Network::Former interface) {
     network_.carry_on(std::move(joints), std::move(walls), std::move(interface));
   }
   /// Holds a block where it is from now on.
@@ -122,7 +121,7 @@ class Motion : public MovingBodies<Dim> {
   void add_inertia(double share);
   /// Other joint laws from now on, as many as there are; what the springs then hold differently is
   /// no work of the run.
-  void set_laws(std::vector<JointLaw> laws) {
+  void set_laws(std::vector<AnyLaw<Dim>> laws) {
     begin();
     const double before = network_.stored_energy(bodies_);
     network_.set_laws(std::move(laws));

@@ -43,16 +43,13 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
   in_situ.check();
   far_field.check();
   settings.gravity = in_situ.gravity;
-  System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type> system(
-      laws, laws.stiffest());
+  using Narrow = typename NarrowPhaseOf<Detector>::type;
+  System<Geometry, Narrow> system(detail::any_laws<Geometry::dim>(laws.all()), laws.stiffest());
   std::vector<double> measures;
   const auto around = ground_around<Geometry::dim>(mass.domain, far_field);
-  {
-    detail::LawsAside<decltype(system)> aside(system);
-    detail::make_model<Detector>(*aside, std::make_shared<const RockMass<Geometry>>(mass), in_situ,
-                                 far_field, laws.of_cuts(mass), around, measures, {});
-  }
-  auto run = set_in_motion(system, settings);
+  detail::make_model<Detector>(system, std::make_shared<const RockMass<Geometry>>(mass), in_situ,
+                               far_field, laws.of_cuts(mass), around, measures, {});
+  Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Narrow> run(set_in_motion(system, settings));
   run.hold();
   return run;
 }

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/detail/contact_frames.hpp>
 #include <voussoir/model/detail/former_contacts.hpp>
 #include <voussoir/model/elastic_edge.hpp>
@@ -18,23 +16,12 @@
 
 namespace voussoir {
 
-/// The run that a model at rest belongs to.
-template <class System>
-struct MotionOf;
-template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
-struct MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>> {
-  using type = Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>;
-};
-template <class Geometry, int Dim, class Detector>
-struct MotionOf<System<Geometry, AnyLaw<Dim>, AnyLaw<Dim>, Detector>> {
-  using type = Motion<Dim, AnyLaw<Dim>, AnyLaw<Dim>, Detector>;
-};
-
 /// The run of a solver: composed of the same policies, in any order.
 ///
 ///   RunOf<Solver<Spatial, MohrCoulombJoint, AnalyticCentre>> run = set_in_motion(tunnel);
 template <class Solver>
-using RunOf = typename MotionOf<typename Solver::SystemType>::type;
+using RunOf = Dynamics<Solver::dim, typename Solver::JointLaw, typename Solver::InterfaceLaw,
+                       typename Solver::SystemType::Detector>;
 
 namespace detail {
 
@@ -43,7 +30,7 @@ template <class System>
 class Handover {
  public:
   static constexpr int dim = System::dim, dof = System::dof;
-  using Run = typename MotionOf<System>::type;
+  using Run = Motion<dim, typename System::Detector>;
 
   explicit Handover(const System& system) : system_(system) {
     if (system.shapes == nullptr)
@@ -128,16 +115,9 @@ class Handover {
   void carry_contacts(Run& run) const {
     const std::vector<Pose<dim>> frames = frames_of(run);
     const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
-    const auto former = [&](const auto& group) {
-      using State = typename std::decay_t<decltype(group)>::State;
-      if constexpr (std::is_same_v<State, AnyState>)
-        return FormerOfAnyLaw<dim>(group.contacts(), group.points(), frames, u);
-      else
-        return FormerContacts<dim, State>(group.contacts(), group.points(), frames, u, [&](int k) {
-          return group.points()[static_cast<std::size_t>(k)].state;
-        });
-    };
-    run.carry_on(former(system_.joints), former(system_.boundary), former(system_.interface));
+    using Former = FormerContacts<dim>;
+    run.carry_on(Former(system_.joints, frames, u), Former(system_.boundary, frames, u),
+                 Former(system_.interface, frames, u));
   }
 
   void carry_supports(Run& run) const {
@@ -189,12 +169,11 @@ class Handover {
     return frames;
   }
 
-  template <class Moving, class Group>
-  static void take(const Moving& moving, const std::vector<Pose<dim>>& frames,
-                   const Eigen::VectorXd& u, Group& group) {
-    using Point = typename Group::Point;
+  static void take(const MovingContacts<dim>& moving, const std::vector<Pose<dim>>& frames,
+                   const Eigen::VectorXd& u, typename System::Contacts& group) {
+    using Point = typename System::Contacts::Point;
     const auto at = [](auto i) { return static_cast<std::size_t>(i); };
-    Group next(group.laws());
+    typename System::Contacts next(group.laws());
     std::vector<Point> points;
     for (const int n : order_by_bodies(
              moving.contacts(), [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
@@ -218,11 +197,11 @@ class Handover {
 
 /// See `set_in_motion`.
 template <class System>
-[[nodiscard]] typename MotionOf<System>::type run_of(const System& system,
-                                                     const DynamicsSettings& settings) {
+[[nodiscard]] typename Handover<System>::Run run_of(const System& system,
+                                                    const DynamicsSettings& settings) {
   const Handover<System> handover(system);
   const auto& laws = system.joints.laws();
-  typename MotionOf<System>::type run(
+  typename Handover<System>::Run run(
       laws, system.boundary.laws().front().joint_normal_stiffness(), system.interface.laws(),
       laws.size() > 1 && system.law_of_cut != nullptr ? *system.law_of_cut : std::vector<int>{},
       settings);
@@ -234,7 +213,7 @@ template <class System>
 }
 /// See `bring_to_rest`.
 template <class System>
-void take_from_run(typename MotionOf<System>::type& run, System& system,
+void take_from_run(typename Handover<System>::Run& run, System& system,
                    const std::vector<int>& gone) {
   require(run.body_count() == system.body_count(), "bodies of the run", run.body_count(),
           "those of the model");
@@ -254,18 +233,10 @@ void take_from_run(typename MotionOf<System>::type& run, System& system,
 /// at rest, to second order of the displacements since contacts were last updated.
 /// @param settings  gravity as that of the weights
 /// @throws InvalidInput  a body without shape; a lining without mass or thickness
-template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
-[[nodiscard]] auto set_in_motion(const System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
-                                 const DynamicsSettings& settings) ->
-    typename MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>>::type {
-  if constexpr (detail::hides_laws<JointLaw, InterfaceLaw, Geometry::dim>) {
-    System<Geometry, JointLaw, InterfaceLaw, Detector> copy(system);
-    detail::LawsAside<decltype(copy)> aside(copy);
-    return Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>(
-        detail::run_of(*aside, settings));
-  } else {
-    return detail::run_of(system, settings);
-  }
+template <class Geometry, class Detector>
+[[nodiscard]] Motion<Geometry::dim, Detector> set_in_motion(
+    const System<Geometry, Detector>& system, const DynamicsSettings& settings) {
+  return detail::run_of(system, settings);
 }
 
 /// The tunnel of a solver set in motion. Of several rounds those that are still held are let go
@@ -273,21 +244,19 @@ template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 /// @param settings  gravity is that of the solver
 template <class Solver>
 requires requires(const Solver& solver) { solver.in_situ().gravity; }
-[[nodiscard]] auto set_in_motion(const Solver& solver, DynamicsSettings settings = {}) {
+[[nodiscard]] RunOf<Solver> set_in_motion(const Solver& solver, DynamicsSettings settings = {}) {
   settings.gravity = solver.in_situ().gravity;
-  return set_in_motion(solver.system(), settings);
+  return RunOf<Solver>(set_in_motion(solver.system(), settings));
 }
 
 /// Takes a model back from the run in which it was set, to go on at rest from where its bodies are:
 /// what moves is stopped, and displacements go on counting from the in-situ state.
 /// @param system  from which the run was made
 /// @param gone    bodies that are taken out of it now: those that have fallen
-template <class Geometry, class JointLaw, class InterfaceLaw, class Detector>
-void bring_to_rest(typename MotionOf<System<Geometry, JointLaw, InterfaceLaw, Detector>>::type& run,
-                   System<Geometry, JointLaw, InterfaceLaw, Detector>& system,
+template <class Geometry, class Detector>
+void bring_to_rest(Motion<Geometry::dim, Detector>& run, System<Geometry, Detector>& system,
                    const std::vector<int>& gone = {}) {
-  detail::LawsAside<System<Geometry, JointLaw, InterfaceLaw, Detector>> aside(system);
-  detail::take_from_run(run, *aside, gone);
+  detail::take_from_run(run, system, gone);
 }
 
 }  // namespace voussoir

@@ -12,7 +12,6 @@
 #include <voussoir/equilibrium/fire.hpp>
 #include <voussoir/equilibrium/update_when_due.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/contact_group.hpp>
 
 namespace voussoir {
@@ -59,10 +58,7 @@ class Explicit {
   /// Accepts on the same three tests as `TwoLevel`; a factor is made for the estimate alone, when
   /// the out-of-balance test has passed.
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    detail::LawsAside<System> aside(system);
-    return find_in(*aside, context);
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
   /// The largest stable time step of the undamped system with these masses, from Gershgorin's bound
   /// on every row: 2 / omega, omega^2 <= row sum / mass [s].
@@ -73,9 +69,6 @@ class Explicit {
   }
 
  private:
-  template <class System>
-  [[nodiscard]] EquilibriumReport find_in(System& system, const SearchContext& context) const;
-
   template <class System>
   [[nodiscard]] double stable_step(const System& system, const Eigen::VectorXd& mass) const {
     return params_.safety * critical_step(system, mass) / std::sqrt(1 + params_.damping);
@@ -95,7 +88,7 @@ class Explicit {
 };
 
 template <class System>
-EquilibriumReport Explicit::find_in(System& system, const SearchContext& context) const {
+EquilibriumReport Explicit::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);

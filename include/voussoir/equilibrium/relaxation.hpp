@@ -14,7 +14,6 @@
 #include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/equilibrium/update_when_due.hpp>
 #include <voussoir/linear/elastic_solver.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/contact_group.hpp>
 
 namespace voussoir {
@@ -65,10 +64,7 @@ class Relaxation {
   /// Accepts when the out-of-balance test has passed and no block is beyond the displacement limit;
   /// no error estimate, because the slip made on the way is not in it.
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    detail::LawsAside<System> aside(system);
-    return find_in(*aside, context);
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
   /// The same of a stage that has begun and whose limits are numbers; blocks that come off are
   /// taken out on the way. Adds to what is in the report.
@@ -76,9 +72,6 @@ class Relaxation {
   void follow(System& system, const SearchContext& context, EquilibriumReport& report) const;
 
  private:
-  template <class System>
-  [[nodiscard]] EquilibriumReport find_in(System& system, const SearchContext& context) const;
-
   template <class System>
   [[nodiscard]] detail::SearchEnd step_on(System& system, const SearchContext& context,
                                           detail::AtAFall at_a_fall,
@@ -90,7 +83,7 @@ class Relaxation {
 };
 
 template <class System>
-EquilibriumReport Relaxation::find_in(System& system, const SearchContext& context) const {
+EquilibriumReport Relaxation::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {
     return detail::solve_elastically(system, context, params_.linear, tolerance, f, report);

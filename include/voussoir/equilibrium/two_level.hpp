@@ -16,7 +16,6 @@
 #include <voussoir/equilibrium/relaxation.hpp>
 #include <voussoir/equilibrium/search_tuning.hpp>
 #include <voussoir/linear/linear_method.hpp>
-#include <voussoir/model/any_system.hpp>
 
 namespace voussoir {
 
@@ -86,15 +85,9 @@ class TwoLevel {
   }
 
   template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    detail::LawsAside<System> aside(system);
-    return find_in(*aside, context);
-  }
+  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const;
 
  private:
-  template <class System>
-  [[nodiscard]] EquilibriumReport find_in(System& system, const SearchContext& context) const;
-
   /// One search; without an end where something falls. Where much of the movement is slip and
   /// opening, or one step finds no end though nothing falls, the unloading is followed in
   /// increments: friction remembers the path, and the elastic start of one large step breaks and
@@ -307,7 +300,7 @@ class TwoLevel {
 };
 
 template <class System>
-EquilibriumReport TwoLevel::find_in(System& system, const SearchContext& context) const {
+EquilibriumReport TwoLevel::find(System& system, const SearchContext& context) const {
   EquilibriumReport report;
   detail::ElasticCorrections<System> elastic;
   const auto solve = [&](Eigen::VectorXd& f, const SolveTolerance& tolerance) {

@@ -100,7 +100,7 @@ template <class System>
 class UnloadingInMotion {
  public:
   static constexpr int dim = System::dim, dof = System::dof;
-  using Run = typename MotionOf<System>::type;
+  using Run = Motion<System::dim, typename System::Detector>;
 
   /// @param start    what the system is now, and stays
   /// @param context  its displacement limit is a number

@@ -33,13 +33,14 @@ class StrainedMass {
   static constexpr double glue_over_joints = 0.1;
 
   StrainedMass(const RockMass<Geometry>& mass, const LawsBySet<JointLaw>& laws)
-      : system_(laws, laws.stiffest(), glue(glue_over_joints * laws.stiffest())),
+      : system_(any_laws<dim>(laws.all()), laws.stiffest(),
+                {glue(glue_over_joints * laws.stiffest())}),
         stiffness_(glue_over_joints * laws.stiffest()),
         volume_(mass.domain.measure()) {
     const InSitu unstressed{.density = 1};
     const FarField<dim> rollers;
     std::vector<double> measures;
-    InitialModel<CutContacts, System<Geometry, JointLaw>> model(mass, unstressed, rollers, system_);
+    InitialModel<CutContacts, System<Geometry>> model(mass, unstressed, rollers, system_);
     model.add_bodies(measures);
     model.add_contacts(laws.of_cuts(mass));
     const int ground = system_.body_count() - 1;
@@ -100,7 +101,7 @@ class StrainedMass {
       }
   }
 
-  System<Geometry, JointLaw> system_;
+  System<Geometry> system_;
   double stiffness_, volume_;
 };
 

@@ -47,8 +47,8 @@ template <class Geometry, class JointLaw>
 struct Press {
   static constexpr int dim = Geometry::dim, dof = Geometry::dof;
 
-  System<Geometry, JointLaw> system;  // there are no supports
-  std::vector<double> measures;       ///< of the bodies [m^2], [m^3]
+  System<Geometry> system;       // there are no supports
+  std::vector<double> measures;  ///< of the bodies [m^2], [m^3]
   int platen = -1;
   Vec<dim> outward = zeros<Vec<dim>>();  ///< of the loaded side
   double platen_area = 0, lateral_area = 0, length = 0, wall_stiffness;
@@ -62,7 +62,7 @@ struct Press {
     // compared with, that of the stresses that are meant.
     const InSitu meant{.density = 1e4, .gravity = 1};
     const FarField<dim> rollers;
-    InitialModel<Detector, System<Geometry, JointLaw>> model(mass, meant, rollers, system);
+    InitialModel<Detector, System<Geometry>> model(mass, meant, rollers, system);
     model.add_bodies(measures);
     model.add_contacts(LawsBySet<JointLaw>(joint_law).of_cuts(mass));
     std::fill(system.load.data(), system.load.data() + system.load.size(), 0.0);

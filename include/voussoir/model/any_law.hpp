@@ -9,21 +9,21 @@
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
-#include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
 
-/// What a law remembers of a point, where the law is known at run time only: the searches for
-/// equilibrium and the motion of blocks are compiled once for all laws, not once for each.
+// Contacts know their laws at run time only: all that works on a model is compiled once for all
+// laws. A law is compiled into its kernels of forces and into what it remembers of a point, alone.
+
 namespace detail {
 
 /// Makes and copies what a law remembers. There is one for every type, which outlives all of them.
 class StateModel {
  public:
-  static constexpr std::size_t most_bytes = 80, alignment = 16;
+  static constexpr std::size_t most_bytes = 128, alignment = 16;
 
   explicit StateModel(std::size_t size) : size_(size) {}
   StateModel(const StateModel&) = delete;
@@ -44,7 +44,8 @@ class StateModel {
 
 }  // namespace detail
 
-/// One such memory, as a value. A new one is that of a point to which nothing has happened.
+/// What a contact law remembers of a point, as a value. A new one is that of a point to which
+/// nothing has happened.
 class AnyState {
  public:
   AnyState() = default;
@@ -61,6 +62,11 @@ class AnyState {
     return *this;
   }
   ~AnyState() = default;
+
+  /// As the law's own type.
+  /// @throws InvalidInput  another law remembers this
+  template <class State>
+  [[nodiscard]] const State& as() const;
 
   /// @param model  of the law that asks
   [[nodiscard]] const void* of(const detail::StateModel& model) const {
@@ -145,6 +151,9 @@ class LawModel {
   [[nodiscard]] virtual PointForce<Dim> force(const PointLoad<Dim>& load,
                                               const void* state) const = 0;
   virtual double commit(const PointLoad<Dim>& load, void* state) const = 0;
+  /// See `report_of`.
+  [[nodiscard]] virtual ContactReport describe(const PointLoad<Dim>& load,
+                                               const void* state) const = 0;
   [[nodiscard]] virtual double stored_energy(const PointLoad<Dim>& load,
                                              const void* state) const = 0;
   [[nodiscard]] virtual BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
@@ -183,16 +192,12 @@ class StateModelOf final : public StateModel {
   State fresh_{};
 };
 
-/// Whether a law can stand behind `AnyLaw`: what it remembers owns nothing and is small.
-template <class Law, int Dim>
-inline constexpr bool is_any_law_of =
-    sizeof(typename Law::template State<Dim>) <= StateModel::most_bytes &&
-    alignof(typename Law::template State<Dim>) <=
-        StateModel::alignment&& std::is_trivially_destructible_v<typename Law::template State<Dim>>;
-
 }  // namespace detail
 
-/// A contact law of any type. Copies share it: laws do not change.
+/// A contact law of any type, known at run time. Copies share it: laws do not change.
+///
+/// What the law remembers of a point lies in the arrays of its contacts, moved and copied with
+/// them: it owns nothing and has 128 bytes at most.
 template <int Dim>
 class AnyLaw {
  public:
@@ -201,8 +206,13 @@ class AnyLaw {
   template <int>
   using State = AnyState;
 
-  AnyLaw(std::shared_ptr<const detail::LawModel<Dim>> model, double normal, double shear)
-      : model_(std::move(model)), normal_stiffness_(normal), shear_stiffness_(shear) {}
+  template <class Law>
+  requires(Fills<Law, roles::ContactLaw> && !std::is_same_v<Law, AnyLaw>)
+      AnyLaw(const Law& law);  // NOLINT(google-explicit-constructor): any law is one
+
+  /// The law as its type; null if it is of another.
+  template <class Law>
+  [[nodiscard]] const Law* as() const;
 
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const AnyState& state) const {
     return model_->force(load, state.of(model_->states()));
@@ -212,6 +222,9 @@ class AnyLaw {
   }
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const AnyState& state) const {
     return model_->stored_energy(load, state.of(model_->states()));
+  }
+  [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load, const AnyState& state) const {
+    return model_->describe(load, state.of(model_->states()));
   }
   [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
                                                  const AnyState& state) const {
@@ -227,48 +240,10 @@ class AnyLaw {
   double normal_stiffness_, shear_stiffness_;
 };
 
-static_assert(ContactLaw<AnyLaw<2>, 2> && ContactLaw<AnyLaw<3>, 3>);
-
-template <class Law>
-inline constexpr bool is_any_law = false;
-template <int Dim>
-inline constexpr bool is_any_law<AnyLaw<Dim>> = true;
-
 namespace detail {
 
-/// Whether laws of these types are to be known at run time alone.
-template <class JointLaw, class InterfaceLaw, int Dim>
-inline constexpr bool hides_laws = !is_any_law<JointLaw> && !is_any_law<InterfaceLaw> &&
-                                   is_any_law_of<JointLaw, Dim> && is_any_law_of<InterfaceLaw, Dim>;
-
-}  // namespace detail
-
-namespace detail {
-
-/// What points remember, one behind the other, as the law's own type.
-template <class State>
+/// What points remember, one behind the other, as tight as the law's own type.
 class StateColumn {
- public:
-  [[nodiscard]] State value(std::size_t k) const { return states_[k]; }
-  void set(std::size_t k, const State& state) { states_[k] = state; }
-  void push_back(const State& state) { states_.push_back(state); }
-  void reserve(std::size_t count) { states_.reserve(count); }
-  void truncate(std::size_t count) {
-    states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(count), states_.end());
-  }
-  void move_down(std::size_t from, std::size_t to, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) states_[to + k] = std::move(states_[from + k]);
-  }
-  [[nodiscard]] const State* data() const { return states_.data(); }
-  [[nodiscard]] State* data() { return states_.data(); }
-
- private:
-  std::vector<State> states_;
-};
-
-/// The same of a law known at run time: as tight as the law's own type.
-template <>
-class StateColumn<AnyState> {
  public:
   StateColumn() = default;
   StateColumn(const StateColumn& other) : model_(other.model_), count_(other.count_) {
@@ -328,5 +303,13 @@ class StateColumn<AnyState> {
 };
 
 }  // namespace detail
+
+template <class State>
+const State& AnyState::as() const {
+  const detail::StateModel& model = detail::StateModelOf<State>::one();
+  if (model_ != nullptr && model_ != &model)
+    throw InvalidInput("what a contact point remembers: it is that of another law");
+  return *static_cast<const State*>(of(model));
+}
 
 }  // namespace voussoir

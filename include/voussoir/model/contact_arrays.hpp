@@ -34,15 +34,21 @@ struct PointShift {
 ///
 /// Bytes a point, of a `CoulombJoint` in 2-D and 3-D: 32 and 48, history 16 and 32, shifts 24 and
 /// 32 where there are any; a struct of all of it had 80 and 112.
-/// @tparam State  what the contact law remembers of a point
-template <int Dim, class State>
+template <int Dim>
 class ContactArrays {
  public:
   using Record = PointRecord<Dim>;
   using Shift = PointShift<Dim>;
   /// A point put together from the arrays, as a value.
   struct Point : ReferencePoint<Dim> {
-    [[no_unique_address]] State state{};
+    AnyState state{};  ///< what the contact law remembers of it
+
+    /// That, as the law's own type.
+    /// @throws InvalidInput  the point follows another law
+    template <class Law>
+    [[nodiscard]] const typename Law::template State<Dim>& history() const {
+      return state.as<typename Law::template State<Dim>>();
+    }
   };
 
   /// Goes through the points; what it points to is a value.
@@ -123,14 +129,6 @@ class ContactArrays {
     if (!shifts_.empty()) shifts_.emplace_back();
     set_place(size() - 1, p);
   }
-  /// Becomes these points but for their states, which are to follow: as many.
-  template <class Other>
-  void take_places(ContactArrays<Dim, Other>& of) {
-    records_ = std::move(of.records_);
-    shifts_ = std::move(of.shifts_);
-    of.records_.clear();
-    of.shifts_.clear();
-  }
   void reserve(std::size_t count) {
     records_.reserve(count);
     states_.reserve(count);
@@ -161,15 +159,12 @@ class ContactArrays {
   // The arrays themselves, for the kernel of forces.
   [[nodiscard]] const Record* records() const { return records_.data(); }
   [[nodiscard]] const Shift* shifts() const { return shifts_.data(); }  ///< null: none is shifted
-  [[nodiscard]] const detail::StateColumn<State>& states() const { return states_; }
-  [[nodiscard]] detail::StateColumn<State>& states() { return states_; }
+  [[nodiscard]] const detail::StateColumn& states() const { return states_; }
+  [[nodiscard]] detail::StateColumn& states() { return states_; }
 
  private:
-  template <int, class>
-  friend class ContactArrays;
-
   std::vector<Record> records_;
-  detail::StateColumn<State> states_;
+  detail::StateColumn states_;
   std::vector<Shift> shifts_;  ///< empty: all are zero
 };
 

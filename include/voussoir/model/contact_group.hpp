@@ -15,28 +15,26 @@
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/model/any_law.hpp>
 #include <voussoir/model/contact_arrays.hpp>
-#include <voussoir/model/contact_kernel.hpp>
 #include <voussoir/model/detail/difference_forces.hpp>
-#include <voussoir/model/detail/law_steps.hpp>
+#include <voussoir/model/detail/law_model.hpp>
 #include <voussoir/model/point_loads.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
 namespace voussoir {
 
-/// All contacts that follow laws of one kind, with their points and history.
+/// All contacts of one kind, with their points and history. Their laws are of one type, known at
+/// run time: everything but the kernels of forces is compiled once for all of them.
 ///
 /// Points lie in flat arrays (`ContactArrays`), of which forces read what they need. To everybody
 /// else a point is a value, put together when asked for and stored back when changed.
-template <class Geometry, class Law>
+template <class Geometry>
 class ContactGroup {
  public:
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
-  using LawType = Law;
-  using State = typename Law::template State<dim>;
-
+  using Law = AnyLaw<dim>;
   using Contact = ReferenceContact<dim>;
-  using Points = ContactArrays<dim, State>;
+  using Points = ContactArrays<dim>;
   using Point = typename Points::Point;
 
   explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
@@ -60,11 +58,6 @@ class ContactGroup {
     for (int k = c.first; k < c.last(); ++k) points.push_back(points_[static_cast<std::size_t>(k)]);
     return points;
   }
-
-  /// Takes the contacts of another group, whose laws are the same but known in another way: by
-  /// their type, or at run time. The other one is left without contacts.
-  template <class Other>
-  void take_contacts(ContactGroup<Geometry, Other>& from);
 
   /// Makes room for more contacts of so many points each.
   void reserve(std::size_t contacts, std::size_t points_each) {
@@ -143,14 +136,15 @@ class ContactGroup {
   /// @return  points whose force changed by that: joints that failed, and are weaker now
   int commit(const double* u);
 
-  /// Lets joints creep for a time [s] at displacement `u`. (A template, since clang++ 14 makes a
-  /// plain member with an explicit instance of the class even where the law does not creep.)
-  template <class CreepLaw = Law>
-  requires CreepingLaw<CreepLaw, dim>
+  /// Lets joints creep for a time [s] at displacement `u`.
+  /// @tparam Creeping  the type of their laws
+  template <CreepingLaw<dim> Creeping>
   void creep(const double* u, double time) {
+    using State = typename Creeping::template State<dim>;
     for (const Contact& c : contacts_)
       visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
-        law_of(c).creep(load, points_.states().data()[k], time);
+        law_of(c).template as<Creeping>()->creep(load, *static_cast<State*>(points_.states().at(k)),
+                                                 time);
       });
   }
 
@@ -197,7 +191,7 @@ class ContactGroup {
             is_whole = is_whole && load.whole_over_part == 1;
             if (!is_whole) return;
             const Stress<dim> stiffness =
-                detail::tangent_at<dim>(law_of(c), load, points_.states().value(k));
+                law_of(c).model().tangent_at(load, points_.states().at(k));
             Rows a, b;
             for (int l = 0; l < dim; ++l) {
               const Vec<dim> axis = l == 0 ? c.normal : column(c.tangents(), l - 1);
@@ -268,9 +262,6 @@ class ContactGroup {
   }
 
  private:
-  template <class, class>
-  friend class ContactGroup;
-
   /// @param which  null: the first `count`
   template <class History>
   void add_forces(const int* which, std::size_t count, const double* u, double* f) {
@@ -289,17 +280,12 @@ class ContactGroup {
     task.shifts = points_.shifts();
     // Written if the task brings the history up to date, and then asked for by who may.
     task.states = const_cast<void*>(static_cast<const void*>(points_.states().data()));
-    if constexpr (is_any_law<Law>) {
-      task.laws = laws_.data();
-      laws_.front().model().add_forces(task);
-    } else {
-      detail::add_forces<dim, Law>(task, [&](std::size_t law) -> const Law& { return laws_[law]; });
-    }
+    task.laws = laws_.data();
+    laws_.front().model().add_forces(task);
   }
   /// After a law has come.
   void prepare() {
-    if constexpr (is_any_law<Law>)
-      if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
+    if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
   }
 
   [[nodiscard]] static PointMotion<dim> motion_of(const Contact& c, const ReferencePoint<dim>& p,
@@ -307,10 +293,7 @@ class ContactGroup {
     return c.motion(p, c.offset_of(p), u);
   }
   [[nodiscard]] auto release_of(const Contact& c, std::size_t k, const PointLoad<dim>& load) const {
-    if constexpr (is_any_law<Law>)
-      return law_of(c).model().release_opening(load, points_.states().at(k));
-    else
-      return release_opening<dim>(law_of(c), load, points_.states().data()[k]);
+    return law_of(c).model().release_opening(load, points_.states().at(k));
   }
   /// Calls visit(number of the point, point, offset, load) for the points of a contact at
   /// displacement `u`, on its pressed part.
@@ -343,11 +326,11 @@ class ContactGroup {
   Points points_;
 };
 
-template <class Geometry, class Law>
+template <class Geometry>
 template <class Area>
-void ContactGroup<Geometry, Law>::add(int a, int b, const Area& area, const Vec<dim>& centre_a,
-                                      const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at,
-                                      int law) {
+void ContactGroup<Geometry>::add(int a, int b, const Area& area, const Vec<dim>& centre_a,
+                                 const Vec<dim>& centre_b, std::span<const FacetPoint<dim>> at,
+                                 int law) {
   Contact contact;
   contact.set_law(law);
   const Vec<dim> normal = area.area_vector().normalized();
@@ -368,34 +351,11 @@ void ContactGroup<Geometry, Law>::add(int a, int b, const Area& area, const Vec<
   contacts_.push_back(contact);
 }
 
-template <class Geometry, class Law>
-template <class Other>
-void ContactGroup<Geometry, Law>::take_contacts(ContactGroup<Geometry, Other>& from) {
-  static_assert(is_any_law<Law> != is_any_law<Other>);
-  auto& states = points_.states();
-  const std::size_t count = from.points_.size();
-  states.truncate(0);
-  states.reserve(count);
-  if constexpr (is_any_law<Law>) {
-    if (count > 0) states.append(from.points_.states().data(), count);
-  } else {
-    const auto* state = static_cast<const State*>(from.points_.states().data());
-    for (std::size_t k = 0; k < count; ++k) states.push_back(state[k]);
-  }
-  points_.take_places(from.points_);
-  from.points_.states().truncate(0);
-  contacts_ = std::move(from.contacts_);
-  from.contacts_.clear();
-}
-
-template <class Geometry, class Law>
-int ContactGroup<Geometry, Law>::commit(const double* u) {
+template <class Geometry>
+int ContactGroup<Geometry>::commit(const double* u) {
   int weakened = 0;
   const auto commit_point = [&](const Contact& c, std::size_t k, const PointLoad<dim>& load) {
-    if constexpr (is_any_law<Law>)
-      return law_of(c).model().commit_point(load, points_.states().at(k));
-    else
-      return detail::commit_point<dim>(law_of(c), load, points_.states().data()[k]);
+    return law_of(c).model().commit_point(load, points_.states().at(k));
   };
   for (const Contact& c : contacts_) {
     std::array<PointLoad<dim>, PressedPart<dim>::count> loads;

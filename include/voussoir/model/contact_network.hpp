@@ -2,19 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
-#include <voussoir/contact/coulomb_joint.hpp>
-#include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/model/contact_tracker.hpp>
-#include <voussoir/model/detail/any_moving_contacts.hpp>
 #include <voussoir/model/detail/body_rates.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
 #include <voussoir/model/detail/contact_springs.hpp>
@@ -36,57 +32,50 @@ enum class ContactChange { none, in_place, renumbered };
 /// Contacts are numbered in one row, group after group. Every body has the list of its contacts, in
 /// which their forces are summed: always in the same order.
 /// @tparam Detector  the narrow phase
-template <int Dim, class JointLaw, class InterfaceLaw = CoulombJoint, class Detector = FaceContacts>
+template <int Dim, class Detector = FaceContacts>
 class ContactNetwork {
  public:
   using Body = MovingBody<Dim>;
   using Bodies = std::vector<Body>;
-  using Joints = MovingContacts<Dim, JointLaw>;
-  using WallLaw = detail::WallLaw<Dim, JointLaw>;
-  using Walls = MovingContacts<Dim, WallLaw>;
-  using Interface = MovingContacts<Dim, InterfaceLaw>;
+  using Group = MovingContacts<Dim>;
+  using Law = AnyLaw<Dim>;
   using Tracker = ContactTracker<Dim, Detector>;
-
-  template <class Law>
-  using Former = typename detail::FormerOfLaw<Dim, Law>::type;
+  using Former = detail::FormerContacts<Dim>;
 
   /// @param laws  of the joints;  @param wall_stiffness  of the walls [Pa/m]
   /// @param interface_laws  of linings that there are already
   /// @param law_of_cut  for every label of the blocks' faces the index of its law; empty: the first
   /// @param viscous_damping  ratio to critical of the dashpots [-]
-  ContactNetwork(std::vector<JointLaw> laws, double wall_stiffness,
-                 std::vector<InterfaceLaw> interface_laws, std::vector<int> law_of_cut,
-                 double viscous_damping)
-      : groups_(Joints(std::move(laws)), Walls(detail::wall_laws<Dim, JointLaw>(wall_stiffness)),
-                Interface(std::move(interface_laws))),
+  ContactNetwork(std::vector<Law> laws, double wall_stiffness, std::vector<Law> interface_laws,
+                 std::vector<int> law_of_cut, double viscous_damping)
+      : groups_{Group(std::move(laws)), Group({SmoothWall(wall_stiffness)}),
+                Group(std::move(interface_laws))},
         law_of_cut_(std::move(law_of_cut)),
         viscous_damping_(viscous_damping) {}
 
-  [[nodiscard]] const Joints& joints() const { return std::get<0>(groups_); }
-  [[nodiscard]] const Walls& walls() const { return std::get<1>(groups_); }
-  [[nodiscard]] const Interface& interface() const { return std::get<2>(groups_); }
+  [[nodiscard]] const Group& joints() const { return groups_[0]; }
+  [[nodiscard]] const Group& walls() const { return groups_[1]; }
+  [[nodiscard]] const Group& interface() const { return groups_[2]; }
   [[nodiscard]] std::size_t size() const {
     std::size_t sum = 0;
-    each_group([&](const auto& group) { sum += group.size(); });
+    for (const Group& group : groups_) sum += group.size();
     return sum;
   }
 
   /// Calls visit(group, contact) for every contact of all groups.
   template <class Visit>
   void each(Visit&& visit) {
-    each_group([&](auto& group) {
+    for (Group& group : groups_)
       for (auto& c : group.contacts()) visit(group, c);
-    });
   }
   template <class Visit>
   void each(Visit&& visit) const {
-    each_group([&](const auto& group) {
+    for (const Group& group : groups_)
       for (const auto& c : group.contacts()) visit(group, c);
-    });
   }
 
   /// @return  its index
-  int add_interface_law(const InterfaceLaw& law) { return std::get<2>(groups_).add_law(law); }
+  int add_interface_law(const Law& law) { return groups_[2].add_law(law); }
   /// Rock touches these bodies, nodes of one lining, by this law.
   /// @param number  of the law;  @param first  of the bodies;  @param count  of them
   void set_interface_law(int number, int first, int count) {
@@ -96,11 +85,10 @@ class ContactNetwork {
 
   /// The contacts of a model that is set in motion: those that are found first carry them on.
   /// @param interface  laws numbered as by `set_interface_law`
-  void carry_on(Former<JointLaw> joints, Former<WallLaw> walls, Former<InterfaceLaw> interface) {
-    adopt(std::get<0>(groups_), joints);
-    adopt(std::get<1>(groups_), walls);
-    adopt(std::get<2>(groups_), interface);
+  void carry_on(Former joints, Former walls, Former interface) {
     former_ = {std::move(joints), std::move(walls), std::move(interface)};
+    for (std::size_t kind = 0; kind < groups_.size(); ++kind)
+      groups_[kind].adopt(std::move(former_[kind].states));
     is_everything_new_ = false;
   }
 
@@ -121,24 +109,24 @@ class ContactNetwork {
                                    double& gained);
 
   /// Other laws for the joints from now on: as many, of the same kind.
-  void set_laws(std::vector<JointLaw> laws) { std::get<0>(groups_).set_laws(std::move(laws)); }
+  void set_laws(std::vector<Law> laws) { groups_[0].set_laws(std::move(laws)); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
   void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
     std::size_t before = 0;
-    each_group([&](auto& group) {
+    for (Group& group : groups_) {
       const std::size_t begin = std::max(first, before),
                         end = std::min(last, before + group.size());
       if (begin < end)
         group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost);
       before += group.size();
-    });
+    }
   }
   /// The same of these contacts, in ascending order.
   void react(std::span<const std::uint32_t> which, const Bodies& bodies, Dissipation& lost) {
     std::size_t before = 0;
     auto next = which.begin();
-    each_group([&](auto& group) {
+    for (Group& group : groups_) {
       const std::size_t end = before + group.size();
       while (next != which.end() && *next < end) {
         const std::size_t first = *next;
@@ -147,7 +135,7 @@ class ContactNetwork {
         group.react(first - before, last - before, bodies, &sums_.reaction(first), lost);
       }
       before = end;
-    });
+    }
   }
   /// All contacts of some bodies, each once, in ascending order.
   [[nodiscard]] std::vector<std::uint32_t> contacts_of(
@@ -164,15 +152,9 @@ class ContactNetwork {
   template <class Visit>
   void each_neighbour(std::size_t b, Visit&& visit) const {
     for (const auto& end : sums_.ends_of(b)) {
-      std::size_t before = 0;
-      each_group([&](const auto& group) {
-        const std::size_t k = end.contact - before;  // wraps where it is of a group before
-        if (k < group.size()) {
-          const auto& c = group.contacts()[k];
-          visit(end.end == 0 ? c.b : c.a);
-        }
-        before += group.size();
-      });
+      const auto [group, k] = place_of(end.contact);
+      const auto& c = group->contacts()[k];
+      visit(end.end == 0 ? c.b : c.a);
     }
   }
   /// Force and moment of all contacts on a body, as last computed; world axes.
@@ -182,9 +164,8 @@ class ContactNetwork {
 
   [[nodiscard]] double stored_energy(const Bodies& bodies) const {
     double sum = 0;
-    each_group([&](const auto& group) {
+    for (const Group& group : groups_)
       for (std::size_t k = 0; k < group.size(); ++k) sum += group.stored_energy(k, bodies);
-    });
     return sum;
   }
 
@@ -194,13 +175,8 @@ class ContactNetwork {
   const detail::BodyRates<Dim>& rates(const Bodies& bodies) {
     rates_.update(bodies, [&](std::size_t b, auto& stiffness, auto& damping) {
       for (const auto& end : sums_.ends_of(b)) {
-        std::size_t before = 0;
-        each_group([&](const auto& group) {
-          const std::size_t k = end.contact - before;  // wraps where it is of a group before
-          if (k < group.size())
-            detail::add_springs<Dim>(group, k, end.end == 1, bodies, stiffness, damping);
-          before += group.size();
-        });
+        const auto [group, k] = place_of(end.contact);
+        detail::add_springs<Dim>(*group, k, end.end == 1, bodies, stiffness, damping);
       }
     });
     return rates_;
@@ -212,54 +188,11 @@ class ContactNetwork {
     return static_cast<std::size_t>(i);
   }
 
-  // Groups of one type, as those are whose laws are known at run time, are visited in a loop: what
-  // is done to a group is then compiled once instead of three times.
-  static constexpr bool is_of_one_type =
-      std::is_same_v<Joints, Walls> && std::is_same_v<Walls, Interface>;
-
-  template <class Visit>
-  void each_group(Visit&& visit) {
-    each_of(groups_, visit);
-  }
-  template <class Visit>
-  void each_group(Visit&& visit) const {
-    each_of(groups_, visit);
-  }
-  template <class Groups, class Visit>
-  static void each_of(Groups& groups, Visit& visit) {
-    auto& [joints, walls, interface] = groups;
-    if constexpr (is_of_one_type) {
-      for (auto* group : {&joints, &walls, &interface}) visit(*group);
-    } else {
-      visit(joints);
-      visit(walls);
-      visit(interface);
-    }
-  }
-  /// Calls visit(group, former) with the contacts of a kind and those that they carry on.
-  /// @param kind  0: joints, 1: walls, 2: interface
-  template <class Visit>
-  void group_of_kind(std::size_t kind, Visit&& visit) {
-    auto& [joints, walls, interface] = groups_;
-    auto& [of_joints, of_walls, of_interface] = former_;
-    if constexpr (is_of_one_type) {
-      auto* const group = kind == 0 ? &joints : kind == 1 ? &walls : &interface;
-      auto* const former = kind == 0 ? &of_joints : kind == 1 ? &of_walls : &of_interface;
-      visit(*group, *former);
-    } else if (kind == 0) {
-      visit(joints, of_joints);
-    } else if (kind == 1) {
-      visit(walls, of_walls);
-    } else {
-      visit(interface, of_interface);
-    }
-  }
-
-  /// What former contacts remember, where that lies beside their points.
-  template <class Group, class FormerGroup>
-  static void adopt(Group& group, FormerGroup& former) {
-    if constexpr (requires { group.adopt(std::move(former.states)); })
-      group.adopt(std::move(former.states));
+  /// The group of a contact, and its number there.
+  [[nodiscard]] std::pair<const Group*, std::size_t> place_of(std::size_t contact) const {
+    const Group* group = groups_.data();
+    for (; contact >= group->size(); ++group) contact -= group->size();
+    return {group, contact};
   }
 
   using Pair = typename Tracker::Pair;
@@ -294,12 +227,9 @@ class ContactNetwork {
   /// Of the springs of a pair's contact [J]; 0 without.
   template <class U>
   [[nodiscard]] double energy_of(const U& update, const Pair& pair) {
-    double held = 0;
-    if (pair.contact >= 0)
-      group_of_kind(update.kind_of(pair), [&](const auto& group, const auto&) {
-        held = group.stored_energy(index(pair.contact), update.bodies);
-      });
-    return held;
+    return pair.contact < 0
+               ? 0.0
+               : groups_[update.kind_of(pair)].stored_energy(index(pair.contact), update.bodies);
   }
   /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
   template <class U>
@@ -314,20 +244,11 @@ class ContactNetwork {
   /// @param held    energy that its springs may have [J]
   template <class U>
   void renew(U& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined,
-             double held) {
-    group_of_kind(update.kind_of(pair), [&](auto& group, const auto& former) {
-      const bool in_place = renew(update, group, former, pair, found, joined, held);
-      update.relisted = update.relisted || !in_place;
-    });
-    update.changed = true;
-  }
-  /// @return  true if the contact has kept its place in the lists
-  template <class U, class Group, class FormerGroup>
-  bool renew(U& update, Group& group, const FormerGroup& former, Pair& pair,
-             const Contact<Dim>& found, const ContactArea<Dim>* joined, double held);
+             double held);
 
   /// Puts a contact in the place of the pair's old one, or behind all others.
-  template <class U, class Group>
+  /// @return  true if the contact has kept its place in the lists
+  template <class U>
   bool put(U& update, Group& group, Pair& pair, const typename Group::Contact& contact,
            const std::vector<typename Group::Point>& points);
 
@@ -356,19 +277,16 @@ class ContactNetwork {
   /// Drops what is no longer used, and puts contacts in the order of the pairs.
   template <class KindOf>
   void tidy(Tracker& tracker, KindOf&& kind_of) {
-    std::size_t kind = 0;
-    each_group([&](auto& group) {
-      group.keep([&](auto&& visit) {
+    for (std::size_t kind = 0; kind < groups_.size(); ++kind)
+      groups_[kind].keep([&](auto&& visit) {
         for (Pair& pair : tracker.pairs())
           if (pair.contact >= 0 && kind_of(pair) == kind) visit(pair.contact);
       });
-      ++kind;
-    });
     unused_ = 0;
   }
 
-  std::tuple<Joints, Walls, Interface> groups_;
-  std::tuple<Former<JointLaw>, Former<WallLaw>, Former<InterfaceLaw>> former_;
+  std::array<Group, 3> groups_;    ///< joints, walls, interface
+  std::array<Former, 3> former_;   ///< that these carry on
   bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
   bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;

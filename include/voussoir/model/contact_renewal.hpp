@@ -33,11 +33,11 @@ namespace voussoir::detail {
 /// whatever the depth: which part of them is pressed follows from the motion (`PressedPart`). Faces
 /// that are all open by more than the reach make no contact: what closes between two updates is
 /// within reach at the first of them.
-template <int Dim, class State>
+template <int Dim>
 class ContactRenewal {
  public:
   using Contact = MovingContact<Dim>;
-  using Point = MovingContactPoint<Dim, State>;
+  using Point = MovingContactPoint<Dim, FormerPoint>;
   using Bodies = std::vector<MovingBody<Dim>>;
 
   /// @param old_points  of the contacts before

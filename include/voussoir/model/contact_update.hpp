@@ -9,7 +9,6 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/progress.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/contact_update_report.hpp>
 #include <voussoir/model/detail/kept_shear.hpp>
@@ -203,8 +202,7 @@ template <class System>
 ContactUpdateReport update_contacts(System& system, double reach, const Progress& progress = {}) {
   if (system.shapes == nullptr)
     throw InvalidInput("update_contacts: the system does not know the shapes of its bodies");
-  detail::LawsAside<System> aside(system);
-  return detail::SystemUpdate<std::decay_t<decltype(*aside)>>(*aside, reach).run(progress);
+  return detail::SystemUpdate<System>(system, reach).run(progress);
 }
 
 }  // namespace voussoir

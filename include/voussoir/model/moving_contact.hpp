@@ -48,7 +48,7 @@ struct MovingContact {
 };
 
 /// A point of a contact, fixed in body b.
-/// @tparam State  what the contact law remembers of it
+/// @tparam State  what the contact law remembers of it, or where that lies
 template <int Dim, class State>
 struct MovingContactPoint {
   Vec<Dim> place;  ///< in the frame of body b [m]

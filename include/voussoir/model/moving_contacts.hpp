@@ -9,33 +9,39 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/model/any_law.hpp>
-#include <voussoir/model/detail/contact_reaction.hpp>
+#include <voussoir/model/detail/law_model.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
 #include <voussoir/model/point_loads.hpp>
 
 namespace voussoir {
 
-/// Contacts that follow laws of one kind, between bodies that move and turn by any amount.
+/// Contacts of one kind between bodies that move and turn by any amount.
 ///
 /// A contact point is fixed in body b, and touches the face of body a: its opening and slip are its
 /// coordinates in a frame that turns with that face, less what they were when the joint was closed.
 /// Forces on both bodies act in the same place, so that momentum and angular momentum are kept to
 /// rounding.
-template <int Dim, class Law>
+///
+/// What the laws remember lies in a column beside the points; in a point that is stored is its
+/// number there, in one that is to be stored that of the point whose memory it inherits: among the
+/// contacts here, or among former ones that were taken over (`adopt`), which are numbered downwards
+/// from -2.
+template <int Dim>
 class MovingContacts {
  public:
-  using State = typename Law::template State<Dim>;
-
+  using Law = AnyLaw<Dim>;
+  using State = detail::FormerPoint;
   using Point = MovingContactPoint<Dim, State>;
   using Contact = MovingContact<Dim>;
 
-  explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) {}
+  explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
   /// @return  its index
   std::int32_t add_law(Law law) {
     laws_.push_back(std::move(law));
+    prepare();
     return static_cast<std::int32_t>(laws_.size()) - 1;
   }
   /// @throws InvalidInput  not as many as there are
@@ -43,6 +49,7 @@ class MovingContacts {
     require(laws.size() == laws_.size(), "number of contact laws", static_cast<double>(laws.size()),
             "as many as before");
     laws_ = std::move(laws);
+    prepare();
   }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
     return laws_[static_cast<std::size_t>(c.law)];
@@ -56,47 +63,43 @@ class MovingContacts {
     return {points_.data() + c.first, static_cast<std::size_t>(c.last - c.first)};
   }
 
+  /// Memories that points may inherit from now on, by the numbers -2, -3, ...
+  void adopt(detail::StateColumn former) { former_ = std::move(former); }
+
   /// Puts a contact with its points in the place of another, or behind all.
   /// @param number  of the other, which leaves its points behind if they are fewer or more; -1:
   ///                none. The number of the new one afterwards
   /// @return  true if its points lie where those of the other did
-  bool put(std::int32_t& number, Contact contact, const std::vector<Point>& points) {
-    const auto count = static_cast<std::int32_t>(points.size());
-    const bool is_new = number < 0;
-    if (is_new) {
-      number = static_cast<std::int32_t>(contacts_.size());
-      contacts_.emplace_back();
-    }
-    Contact& place = contacts_[static_cast<std::size_t>(number)];
-    const bool fits = !is_new && place.last - place.first == count;
-    contact.first = fits ? place.first : static_cast<std::int32_t>(points_.size());
-    contact.last = contact.first + count;
-    if (fits)
-      std::copy(points.begin(), points.end(), points_.begin() + contact.first);
-    else
-      points_.insert(points_.end(), points.begin(), points.end());
-    place = contact;
-    return fits;
-  }
+  bool put(std::int32_t& number, Contact contact, const std::vector<Point>& points);
+
   /// Keeps these contacts and their points alone, in this order, and numbers them anew.
   /// @param each  each(visit) calls visit(number) for every one, to be changed
   template <class Each>
   void keep(Each&& each) {
     std::vector<Contact> contacts;
     std::vector<Point> points;
+    detail::StateColumn states;
     contacts.reserve(contacts_.size());
     points.reserve(points_.size());
+    if (!laws_.empty()) states.set_model(laws_.front().model().states());
+    states.reserve(points_.size());
     each([&](std::int32_t& number) {
       Contact c = contacts_[static_cast<std::size_t>(number)];
-      const std::span<const Point> own = points_of(c);
-      c.first = static_cast<std::int32_t>(points.size());
-      points.insert(points.end(), own.begin(), own.end());
+      const auto first = static_cast<std::int32_t>(points.size());
+      for (std::int32_t k = c.first; k < c.last; ++k) {
+        Point p = points_[static_cast<std::size_t>(k)];
+        p.state.number = static_cast<std::int32_t>(points.size());
+        points.push_back(p);
+        states.push_back(states_.at(static_cast<std::size_t>(k)));
+      }
+      c.first = first;
       c.last = static_cast<std::int32_t>(points.size());
       number = static_cast<std::int32_t>(contacts.size());
       contacts.push_back(c);
     });
     contacts_.swap(contacts);
     points_.swap(points);
+    states_.swap(states);
   }
 
   /// Forces of contacts first, ..., last - 1 with the bodies at these poses, history brought up to
@@ -104,21 +107,18 @@ class MovingContacts {
   /// @param reactions  of these contacts, to be written
   void react(std::size_t first, std::size_t last, const std::vector<MovingBody<Dim>>& bodies,
              Reaction<Dim>* reactions, Dissipation& lost) {
-    for (std::size_t k = first; k < last; ++k) {
-      const Contact& c = contacts_[k];
-      *reactions++ = detail::reaction(law_of(c), c, points_.data(), detail::StatesOfPoints{},
-                                      bodies[static_cast<std::size_t>(c.a)],
-                                      bodies[static_cast<std::size_t>(c.b)], lost);
-    }
+    if (!(first < last)) return;
+    laws_.front().model().react({laws_.data(), contacts_.data(), first, last, points_.data(),
+                                 states_.data(), bodies.data(), reactions, &lost});
   }
   /// Of a point as this contact has it.
   [[nodiscard]] PointForce<Dim> force(const Contact& c, const PointLoad<Dim>& load,
-                                      const State& state) const {
-    return law_of(c).force(load, state);
+                                      State state) const {
+    return law_of(c).model().force(load, memory(state));
   }
   [[nodiscard]] double stored_energy(const Contact& c, const PointLoad<Dim>& load,
-                                     const State& state) const {
-    return law_of(c).stored_energy(load, state);
+                                     State state) const {
+    return law_of(c).model().stored_energy(load, memory(state));
   }
   /// Calls visit(k, point, load) for points of a contact, here or to be, on its pressed part.
   template <class Visit>
@@ -128,14 +128,9 @@ class MovingContacts {
         points.size(), c.outline, [&](std::size_t k) { return points[k]; },
         [&](const Point& p) { return p.load(at); },
         [&](std::size_t k, const PointLoad<Dim>& load) {
-          return release_opening<Dim>(law_of(c), load, points[k].state);
+          return law_of(c).model().release_opening(load, memory(points[k].state));
         },
         visit);
-  }
-  /// Points and loads of a contact of this group, on its pressed part.
-  template <class Visit>
-  void visit_loads(const Contact& c, const typename Contact::Place& at, Visit&& visit) const {
-    visit_loads(c, points_of(c), at, visit);
   }
   /// Sum of the shear forces of such points [N].
   [[nodiscard]] Vec<Dim - 1> shear_of(const Contact& c, std::span<const Point> points,
@@ -159,7 +154,8 @@ class MovingContacts {
     return sum;
   }
   /// What is remembered of a point.
-  [[nodiscard]] const State& state_of(std::size_t point) const { return points_[point].state; }
+  [[nodiscard]] AnyState state_of(std::size_t point) const { return states_.value(point); }
+  [[nodiscard]] const void* memory_of(std::size_t point) const { return states_.at(point); }
 
   /// Energy that the springs of contact `k` hold [J].
   template <class Bodies>
@@ -171,9 +167,54 @@ class MovingContacts {
   }
 
  private:
+  [[nodiscard]] const void* memory(State state) const {
+    if (state.number >= 0) return states_.at(static_cast<std::size_t>(state.number));
+    if (state.number < -1) return former_.at(static_cast<std::size_t>(-2 - state.number));
+    return laws_.front().model().states().fresh();
+  }
+  void prepare() {
+    if (laws_.empty()) return;
+    states_.set_model(laws_.front().model().states());
+    inherited_.set_model(laws_.front().model().states());
+  }
+
   std::vector<Law> laws_;
   std::vector<Contact> contacts_;
   std::vector<Point> points_;
+  detail::StateColumn states_, former_;
+  detail::StateColumn inherited_;  ///< room for `put`
 };
+
+template <int Dim>
+bool MovingContacts<Dim>::put(std::int32_t& number, Contact contact,
+                              const std::vector<Point>& points) {
+  const auto count = static_cast<std::int32_t>(points.size());
+  const bool is_new = number < 0;
+  if (is_new) {
+    number = static_cast<std::int32_t>(contacts_.size());
+    contacts_.emplace_back();
+  }
+  Contact& place = contacts_[static_cast<std::size_t>(number)];
+  const bool fits = !is_new && place.last - place.first == count;
+  contact.first = fits ? place.first : static_cast<std::int32_t>(points_.size());
+  contact.last = contact.first + count;
+  // First all memories, then their places: one point may inherit from where another goes.
+  inherited_.truncate(0);
+  for (const Point& p : points) inherited_.push_back(memory(p.state));
+  if (!fits) points_.resize(points_.size() + points.size());
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::int32_t at = contact.first + k;
+    Point& p = points_[static_cast<std::size_t>(at)];
+    p = points[static_cast<std::size_t>(k)];
+    p.state.number = at;
+    const void* state = inherited_.at(static_cast<std::size_t>(k));
+    if (fits)
+      states_.set(static_cast<std::size_t>(at), state);
+    else
+      states_.push_back(state);
+  }
+  place = contact;
+  return fits;
+}
 
 }  // namespace voussoir

@@ -11,8 +11,6 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
-#include <voussoir/contact/coulomb_joint.hpp>
-#include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/long_vectors.hpp>
 #include <voussoir/core/pose.hpp>
@@ -38,15 +36,13 @@ namespace voussoir {
 ///
 /// A copy is a full snapshot: about 2 kB per block.
 /// @tparam DetectorModel  the narrow phase by which contacts are updated
-template <class Geometry, class JointLaw, class InterfaceLaw = CoulombJoint,
-          class DetectorModel = FaceContacts>
+template <class Geometry, class DetectorModel = FaceContacts>
 class System : public SystemState<Geometry> {
   using Base = SystemState<Geometry>;
 
  public:
   using Detector = DetectorModel;
-  using JointLawType = JointLaw;
-  using InterfaceLawType = InterfaceLaw;
+  using Contacts = ContactGroup<Geometry>;
   using Base::dim;
   using Base::displacement;
   using Base::dof;
@@ -57,30 +53,24 @@ class System : public SystemState<Geometry> {
   using Base::wall_held;
   using Base::wall_load;
   using Matrix = BlockMatrix<dof>;
-  using Joints = ContactGroup<Geometry, JointLaw>;
-  using Boundary = ContactGroup<Geometry, detail::WallLaw<dim, JointLaw>>;
-  using Interface = ContactGroup<Geometry, InterfaceLaw>;
+  using Law = AnyLaw<dim>;
 
-  System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness)
-      : joints(joint_laws.all()),
-        boundary(detail::wall_laws<dim, JointLaw>(boundary_stiffness)),
-        interface({}) {}
-  System(const LawsBySet<JointLaw>& joint_laws, double boundary_stiffness,
-         const InterfaceLaw& interface_law)
-      : System(joint_laws, boundary_stiffness) {
-    interface.add_law(interface_law);
-  }
-
-  /// @param wall_laws  of the fixed edge
-  System(std::vector<JointLaw> joint_laws, std::vector<typename Boundary::LawType> wall_laws,
-         std::vector<InterfaceLaw> interface_laws)
+  /// @param joint_laws          of rock on rock
+  /// @param boundary_stiffness  of the edge of the domain, which is smooth [Pa/m]
+  /// @param interface_laws      of linings that there are already
+  System(std::vector<Law> joint_laws, double boundary_stiffness,
+         std::vector<Law> interface_laws = {})
       : joints(std::move(joint_laws)),
-        boundary(std::move(wall_laws)),
+        boundary({SmoothWall(boundary_stiffness)}),
         interface(std::move(interface_laws)) {}
+  System(const Law& joint_law, double boundary_stiffness)
+      : System(std::vector<Law>{joint_law}, boundary_stiffness) {}
+  System(const Law& joint_law, double boundary_stiffness, const Law& interface_law)
+      : System(std::vector<Law>{joint_law}, boundary_stiffness, {interface_law}) {}
 
-  Joints joints;        ///< rock on rock
-  Boundary boundary;    ///< rock on the fixed edge of the domain
-  Interface interface;  ///< rock on lining
+  Contacts joints;     ///< rock on rock
+  Contacts boundary;   ///< rock on the fixed edge of the domain
+  Contacts interface;  ///< rock on lining
 
   /// Out-of-balance force at displacement `u`; zero for bodies that cannot move.
   template <class History = Frozen>
@@ -148,10 +138,9 @@ class System : public SystemState<Geometry> {
   using Base::bodies_;
 };
 
-template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
+template <class Geometry, class DetectorModel>
 template <class History>
-void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces(const Eigen::VectorXd& u,
-                                                                     Eigen::VectorXd& f) {
+void System<Geometry, DetectorModel>::forces(const Eigen::VectorXd& u, Eigen::VectorXd& f) {
   set_to_sum(f, load, wall_fraction, wall_load);
   if (wall_held.size() > 0) add_to(f, wall_held);
   joints.template add_forces<History>(u.data(), f.data());
@@ -162,9 +151,8 @@ void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces(const Eigen
     if (!this->body(b).movable) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::elastic_stiffness(
-    const Progress& progress) const -> Matrix {
+template <class Geometry, class DetectorModel>
+auto System<Geometry, DetectorModel>::elastic_stiffness(const Progress& progress) const -> Matrix {
   StopCheck stop(progress);
   Matrix k(this->body_count());
   visit_stiffness([&](int a, int b, const auto& aa, const auto& ab, const auto& bb) {
@@ -180,8 +168,8 @@ auto System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::elastic_stiffness(
   return k;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-Eigen::VectorXd System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces_of_displaced(
+template <class Geometry, class DetectorModel>
+Eigen::VectorXd System<Geometry, DetectorModel>::forces_of_displaced(
     const Eigen::VectorXd& fixed) const {
   Eigen::VectorXd f = zeros(fixed.size());
   using Part = Fixed<dof, 1>;
@@ -195,8 +183,8 @@ Eigen::VectorXd System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::forces_
   return f;
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::remove(const std::vector<int>& gone) {
+template <class Geometry, class DetectorModel>
+void System<Geometry, DetectorModel>::remove(const std::vector<int>& gone) {
   BodyMarks is_gone(bodies_.size(), 0);
   for (const int b : gone) {
     is_gone[static_cast<std::size_t>(b)] = 1;
@@ -211,8 +199,8 @@ void System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::remove(const std::
   for (const auto& support : supports) support->remove(is_gone);
 }
 
-template <class Geometry, class JointLaw, class InterfaceLaw, class DetectorModel>
-std::vector<int> System<Geometry, JointLaw, InterfaceLaw, DetectorModel>::unsupported() const {
+template <class Geometry, class DetectorModel>
+std::vector<int> System<Geometry, DetectorModel>::unsupported() const {
   // Groups as trees: every body points towards the root of its group, that of the ground is
   // `fixed`.
   const std::size_t fixed = bodies_.size();

@@ -24,39 +24,34 @@
 
 /// All that works on a model without knowing its laws: making it, going on after a round, updating
 /// its contacts, the searches for equilibrium and with them motion.
-#define VOUSSOIR_MODEL(WORD, GEOMETRY)                                                            \
-  WORD class SystemState<GEOMETRY>;                                                               \
-  WORD class ContactGroup<GEOMETRY, AnyLaw<GEOMETRY::dim>>;                                       \
-  WORD class System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>;                      \
-  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Frozen>(       \
-      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
-  WORD void System<GEOMETRY, AnyLaw<GEOMETRY::dim>, AnyLaw<GEOMETRY::dim>>::forces<Committing>(   \
-      const Eigen::VectorXd&, Eigen::VectorXd&);                                                  \
-  WORD EquilibriumReport TwoLevel::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
-  WORD EquilibriumReport Relaxation::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;   \
-  WORD void Relaxation::follow(AnySystem<GEOMETRY>&, const SearchContext&, EquilibriumReport&)    \
-      const;                                                                                      \
-  WORD EquilibriumReport Explicit::find_in(AnySystem<GEOMETRY>&, const SearchContext&) const;     \
-  WORD ContactUpdateReport update_contacts(AnySystem<GEOMETRY>&, double, const Progress&);        \
-  WORD MotionOf<AnySystem<GEOMETRY>>::type detail::run_of(const AnySystem<GEOMETRY>&,             \
-                                                          const DynamicsSettings&);               \
-  WORD void detail::take_from_run(MotionOf<AnySystem<GEOMETRY>>::type&, AnySystem<GEOMETRY>&,     \
-                                  const std::vector<int>&);                                       \
-  WORD void detail::make_model<CutContacts>(                                                      \
-      AnySystem<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,             \
-      const FarField<GEOMETRY::dim>&, std::vector<int>,                                           \
-      std::shared_ptr<const GroundAround<GEOMETRY::dim>>, std::vector<double>&, const Progress&); \
-  WORD detail::AfterRound detail::go_on_after_round<CutContacts>(                                 \
-      AnySystem<GEOMETRY>&, AnySystem<GEOMETRY>&,                                                 \
-      const std::shared_ptr<const RockMass<GEOMETRY>>&, std::vector<int>,                         \
-      const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&, double,            \
-      WallTractions&, const std::vector<int>&, const Progress&);
+#define VOUSSOIR_MODEL(WORD, GEOMETRY)                                                             \
+  WORD class SystemState<GEOMETRY>;                                                                \
+  WORD class ContactGroup<GEOMETRY>;                                                               \
+  WORD class System<GEOMETRY>;                                                                     \
+  WORD void System<GEOMETRY>::forces<Frozen>(const Eigen::VectorXd&, Eigen::VectorXd&);            \
+  WORD void System<GEOMETRY>::forces<Committing>(const Eigen::VectorXd&, Eigen::VectorXd&);        \
+  WORD EquilibriumReport TwoLevel::find(System<GEOMETRY>&, const SearchContext&) const;            \
+  WORD EquilibriumReport Relaxation::find(System<GEOMETRY>&, const SearchContext&) const;          \
+  WORD void Relaxation::follow(System<GEOMETRY>&, const SearchContext&, EquilibriumReport&) const; \
+  WORD EquilibriumReport Explicit::find(System<GEOMETRY>&, const SearchContext&) const;            \
+  WORD ContactUpdateReport update_contacts(System<GEOMETRY>&, double, const Progress&);            \
+  WORD Motion<GEOMETRY::dim> detail::run_of(const System<GEOMETRY>&, const DynamicsSettings&);     \
+  WORD void detail::take_from_run(Motion<GEOMETRY::dim>&, System<GEOMETRY>&,                       \
+                                  const std::vector<int>&);                                        \
+  WORD void detail::make_model<CutContacts>(                                                       \
+      System<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,                 \
+      const FarField<GEOMETRY::dim>&, std::vector<int>,                                            \
+      std::shared_ptr<const GroundAround<GEOMETRY::dim>>, std::vector<double>&, const Progress&);  \
+  WORD detail::AfterRound detail::go_on_after_round<CutContacts>(                                  \
+      System<GEOMETRY>&, System<GEOMETRY>&, const std::shared_ptr<const RockMass<GEOMETRY>>&,      \
+      std::vector<int>, const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&,   \
+      double, WallTractions&, const std::vector<int>&, const Progress&);
 
 /// A kind of lining.
-#define VOUSSOIR_LINING(WORD, GEOMETRY, LINING)                           \
-  WORD std::vector<Vec<GEOMETRY::dim>> detail::assemble_lining<LINING>(   \
-      AnySystem<GEOMETRY>&, double, double, const LiningFrame<GEOMETRY>&, \
-      const std::vector<LiningSection>&, const AnyLaw<GEOMETRY::dim>&,    \
+#define VOUSSOIR_LINING(WORD, GEOMETRY, LINING)                         \
+  WORD std::vector<Vec<GEOMETRY::dim>> detail::assemble_lining<LINING>( \
+      System<GEOMETRY>&, double, double, const LiningFrame<GEOMETRY>&,  \
+      const std::vector<LiningSection>&, const AnyLaw<GEOMETRY::dim>&,  \
       const std::optional<FootBearing>&);
 
 /// Rock: its blocks, the opening in it, its contacts.

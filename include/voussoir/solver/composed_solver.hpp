@@ -20,7 +20,6 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/detail/bolt_assembly.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
@@ -61,8 +60,7 @@ class ComposedSolver {
   using BoltLaw = typename Models::BoltLaw;
   using Lining = typename Models::Lining;
   using Method = typename Models::Method;
-  using SystemType =
-      System<Geometry, JointLaw, InterfaceLaw, typename NarrowPhaseOf<Detector>::type>;
+  using SystemType = System<Geometry, typename NarrowPhaseOf<Detector>::type>;
   using BoltsType = BoltSet<Geometry::dim, BoltLaw>;
   using LiningType = LiningMembers<Geometry>;
   static constexpr int dim = Geometry::dim;
@@ -128,12 +126,10 @@ class ComposedSolver {
                                        const std::vector<LiningSection>& sections,
                                        const InterfaceLaw& interface_law,
                                        const std::optional<FootBearing>& feet = {}) {
-    detail::LawsAside<SystemType> aside(system_);
-    using Aside = std::decay_t<decltype(*aside)>;
-    std::vector<Vec<dim>> hanging = detail::assemble_lining<Lining>(
-        *aside, in_situ_.gravity, 1e3 * mass_->domain.tolerance(), frame, sections,
-        detail::law_for<Aside>(interface_law), feet);
-    measures_.resize(static_cast<std::size_t>(aside->body_count()), 0.0);
+    std::vector<Vec<dim>> hanging =
+        detail::assemble_lining<Lining>(system_, in_situ_.gravity, 1e3 * mass_->domain.tolerance(),
+                                        frame, sections, AnyLaw<dim>(interface_law), feet);
+    measures_.resize(static_cast<std::size_t>(system_.body_count()), 0.0);
     started_ = true;
     return hanging;
   }
@@ -189,7 +185,9 @@ class ComposedSolver {
   /// @param time  [s]
   template <class Law = JointLaw>  // a template: clang++ 14 instantiates the others unasked
   requires CreepingLaw<Law, dim>
-  void creep_joints(double time) { system_.joints.creep(system_.displacement.data(), time); }
+  void creep_joints(double time) {
+    system_.joints.template creep<Law>(system_.displacement.data(), time);
+  }
 
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const LawsBySet<JointLaw>& joint_laws() const { return joint_laws_; }
@@ -200,10 +198,9 @@ class ComposedSolver {
   /// Largest out-of-balance force of a body, over its weight, where the bodies are now [-].
   /// @cost  one evaluation of all forces
   [[nodiscard]] double out_of_balance_ratio() {
-    detail::LawsAside<SystemType> aside(system_);
     Eigen::VectorXd f;
-    aside->forces(aside->displacement, f);
-    return aside->unbalance_over_weight(f);
+    system_.forces(system_.displacement, f);
+    return system_.unbalance_over_weight(f);
   }
   /// The bolts installed so far; null if there are none.
   [[nodiscard]] const BoltsType* bolts() const {
@@ -240,6 +237,9 @@ class ComposedSolver {
   ComposedSolver(Unbuilt, RockMass<Geometry> mass, LawsBySet<JointLaw> joint_laws,
                  const InSitu& in_situ, const FarField<dim>& far_field);
 
+  [[nodiscard]] SystemType new_system() const {
+    return {detail::any_laws<dim>(joint_laws_.all()), joint_laws_.stiffest()};
+  }
   void build(const Progress& progress);
   /// All that the rock in the opening has exerted on the walls goes on acting.
   /// @param touched  the blocks that it touched; null: all, nothing has moved yet
@@ -282,7 +282,7 @@ ComposedSolver<Models>::ComposedSolver(Unbuilt, RockMass<Geometry> mass,
       joint_laws_(std::move(joint_laws)),
       in_situ_(in_situ),
       far_field_(far_field),
-      system_(joint_laws_, joint_laws_.stiffest()) {
+      system_(new_system()) {
   in_situ_.check();
   far_field_.check();
   if (mass_->bodies.empty()) throw InvalidInput("solver: the rock mass has no bodies");
@@ -327,7 +327,7 @@ void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
   if (!is_kept) system_.shapes.reset();
   mass_ = std::make_shared<RockMass<Geometry>>(
       carve(is_kept ? *mass_ : std::move(*mass_), opening, smallest_piece, progress));
-  system_ = SystemType(joint_laws_, joint_laws_.stiffest());
+  system_ = new_system();
   build(progress);
   hold_wall();
 }
@@ -337,14 +337,10 @@ void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
                                               double smallest_piece, const Progress& progress) {
   const auto mass = std::make_shared<RockMass<Geometry>>(
       carve(RockMass<Geometry>(*mass_), opening, smallest_piece, progress));
-  SystemType next(joint_laws_, joint_laws_.stiffest());
-  detail::AfterRound after;
-  {
-    detail::LawsAside<SystemType> aside(system_), next_aside(next);
-    after = detail::go_on_after_round<Detector>(
-        *aside, *next_aside, mass, joint_laws_.of_cuts(*mass), opening, in_situ_, far_field_,
-        update_limit_, walls_, fallen_, progress);
-  }
+  SystemType next = new_system();
+  detail::AfterRound after = detail::go_on_after_round<Detector>(
+      system_, next, mass, joint_laws_.of_cuts(*mass), opening, in_situ_, far_field_, update_limit_,
+      walls_, fallen_, progress);
   mass_ = mass;
   measures_ = std::move(after.measures);
   fallen_ = std::move(after.fallen);
@@ -355,10 +351,7 @@ template <class Models>
 void ComposedSolver<Models>::hold_wall(const BodyMarks* touched) {
   (void)aim_at(walls_.fractions());
   Eigen::VectorXd f;
-  {
-    detail::LawsAside<SystemType> aside(system_);
-    aside->forces(aside->displacement, f);
-  }
+  system_.forces(system_.displacement, f);
   for (int b = 0; touched != nullptr && b < system_.body_count(); ++b)
     if (!is_marked(*touched, b)) set_part<dof>(f, dof * b, zeros<Fixed<dof, 1>>());
   hold(opposite(f));
@@ -432,11 +425,8 @@ auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) co
 
 template <class Models>
 void ComposedSolver<Models>::build(const Progress& progress) {
-  {
-    detail::LawsAside<SystemType> aside(system_);
-    detail::make_model<Detector>(*aside, mass_, in_situ_, far_field_, joint_laws_.of_cuts(*mass_),
-                                 around_, measures_, progress);
-  }
+  detail::make_model<Detector>(system_, mass_, in_situ_, far_field_, joint_laws_.of_cuts(*mass_),
+                               around_, measures_, progress);
   // Nothing carries their weight yet.
   if (in_situ_.is_laid) hold_wall();
 }

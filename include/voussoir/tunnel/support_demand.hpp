@@ -102,9 +102,10 @@ template <class Solver>
     condition.lost += result.crossings[k] > 0 && held[k] == 0;
   }
   bool is_bonded = false;
+  using Law = typename Solver::InterfaceLaw;
   for (const auto& law : solver.system().interface.laws())
-    if constexpr (requires { law.params().cohesion; })
-      is_bonded = is_bonded || law.params().cohesion > 0;
+    if constexpr (requires(const Law& of) { of.params().cohesion; })
+      is_bonded = is_bonded || law.template as<Law>()->params().cohesion > 0;
   const bool is_joined =
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto* lining : solver.linings()) {

@@ -20,8 +20,8 @@
 // The longer functions of `Motion`.
 namespace voussoir {
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::add_inertia(double share) {
   require(share >= 0 && share < 1, "share of bodies with more inertia", share, ">= 0 and < 1");
   begin();
   const double kinetic = this->kinetic_energy();
@@ -31,8 +31,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::add_inertia(double share) {
   forget();
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::hold() {
   begin();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto [force, moment] = network_.gather(b);
@@ -42,8 +42,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::hold() {
   set_held(1);
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::advance(double time) {
   require(time >= 0 && std::isfinite(time), "time to advance", time, ">= 0 s");
   const double end = time_ + time;
   while (end - time_ > 1e-12 * std::max(time, step_)) {
@@ -56,8 +56,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::advance(double time) {
   time_ = end;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vector<int>& bodies) {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::move_only(const std::vector<int>& bodies) {
   begin();
   MovingPart part;
   part.is_all = false;
@@ -77,8 +77,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::move_only(const std::vector<
   move(std::move(part));
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::VectorXd& step) {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::displace(const Eigen::VectorXd& step) {
   constexpr int dof = Dim + spin_count<Dim>;
   require(step.size() == dof * static_cast<Eigen::Index>(bodies_.size()), "values of a step",
           static_cast<double>(step.size()), "those of all bodies");
@@ -109,8 +109,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::displace(const Eigen::Vector
   each(work);
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::take_in() {
   if (known_bodies_ == bodies_.size() && known_bodies_ > 0) return;
   const bool is_first = known_bodies_ == 0;
   if (is_first) {
@@ -132,8 +132,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take_in() {
   if (is_first) start_audit();
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::find_contacts() {
   const auto cut_of = [this](std::size_t shape, const Vec<Dim>& outward) {
     const auto& [part, b] = shapes_[shape];
     const Rotation<Dim> turn =
@@ -151,8 +151,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::find_contacts() {
   if (change == ContactChange::renumbered) fresh_ = false;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::check() {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::check() {
   const std::string fault =
       detail::RunDiagnostics<Dim>(bodies_, roles_, origin_, sizes_.speed_limit,
                                   settings_.overlap_limit)
@@ -174,8 +174,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::check() {
   throw NumericalFault(where + " (the state kept is that of step " + std::to_string(steps_) + ")");
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take(const State& state) {
+template <int Dim, class Detector>
+void Motion<Dim, Detector>::take(const State& state) {
   bodies_ = state.bodies;
   network_ = state.network;
   tracker_ = state.tracker;
@@ -188,8 +188,8 @@ void Motion<Dim, JointLaw, InterfaceLaw, Detector>::take(const State& state) {
   part_ = state.part;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-double Motion<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
+template <int Dim, class Detector>
+double Motion<Dim, Detector>::choose_step() {
   take_in();
   if (settings_.goes_back && !sound_) check();
   if (stable_step_ == 0) stable_step_ = longest_step();
@@ -202,8 +202,8 @@ double Motion<Dim, JointLaw, InterfaceLaw, Detector>::choose_step() {
   return step_;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-int Motion<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double step) {
+template <int Dim, class Detector>
+int Motion<Dim, Detector>::run_batch(int count, double step) {
   begin();
   step_ = step;
   constexpr double never = std::numeric_limits<double>::infinity();
@@ -218,12 +218,12 @@ int Motion<Dim, JointLaw, InterfaceLaw, Detector>::run_batch(int count, double s
 }
 
 #ifdef VOUSSOIR_COMPILED
-VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2, AnyLaw<2>, AnyLaw<2>>;
-VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, ContactNetwork<2, AnyLaw<2>, AnyLaw<2>>>;
-VOUSSOIR_PLANAR_TEMPLATE class Motion<2, AnyLaw<2>, AnyLaw<2>, FaceContacts>;
-VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3, AnyLaw<3>, AnyLaw<3>>;
-VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, ContactNetwork<3, AnyLaw<3>, AnyLaw<3>>>;
-VOUSSOIR_SPATIAL_TEMPLATE class Motion<3, AnyLaw<3>, AnyLaw<3>, FaceContacts>;
+VOUSSOIR_PLANAR_TEMPLATE class ContactNetwork<2>;
+VOUSSOIR_PLANAR_TEMPLATE class detail::Stepping<2, ContactNetwork<2>>;
+VOUSSOIR_PLANAR_TEMPLATE class Motion<2>;
+VOUSSOIR_SPATIAL_TEMPLATE class ContactNetwork<3>;
+VOUSSOIR_SPATIAL_TEMPLATE class detail::Stepping<3, ContactNetwork<3>>;
+VOUSSOIR_SPATIAL_TEMPLATE class Motion<3>;
 #endif
 
 }  // namespace voussoir

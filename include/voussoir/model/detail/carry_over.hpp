@@ -65,7 +65,7 @@ class CarryOver {
       carry_history(old_.joints, next_.joints);
       carry_history(old_.boundary, next_.boundary);
     }
-    next_.interface = typename System::Interface(old_.interface.laws());
+    next_.interface = typename System::Contacts(old_.interface.laws());
     move_contacts(old_.interface, next_.interface);
     check_linings();
     next_.supports = old_.supports;

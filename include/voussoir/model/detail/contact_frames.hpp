@@ -6,6 +6,7 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
+#include <voussoir/model/any_law.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 #include <voussoir/model/reference_contact.hpp>
 
@@ -34,13 +35,12 @@ template <int Dim>
 /// @param b      where body b is
 /// @param u      displacement there; null: zero
 /// @param state  what the law remembers of the point
-template <int Dim, class State>
-[[nodiscard]] MovingContactPoint<Dim, State> to_frames(const ReferenceContact<Dim>& c,
-                                                       const ReferencePoint<Dim>& p,
-                                                       const typename MovingContact<Dim>::Place& at,
-                                                       const Pose<Dim>& b, const double* u,
-                                                       const State& state) {
-  MovingContactPoint<Dim, State> point{};
+template <int Dim>
+[[nodiscard]] MovingContactPoint<Dim, FormerPoint> to_frames(
+    const ReferenceContact<Dim>& c, const ReferencePoint<Dim>& p,
+    const typename MovingContact<Dim>::Place& at, const Pose<Dim>& b, const double* u,
+    FormerPoint state) {
+  MovingContactPoint<Dim, FormerPoint> point{};
   point.place = transposed_product(b.rotation, Vec<Dim>(c.arm_b + c.offset_of(p)));
   point.weight = p.weight;
   point.initial = p.initial;

@@ -13,25 +13,7 @@ namespace voussoir::detail {
 
 // The forces of one contact of bodies that move, history brought up to date.
 //
-// states.of(point, number) is what the law remembers of a point: it lies in the point, or in a
-// column beside the points.
-
-/// In the points.
-struct StatesOfPoints {
-  template <class Point>
-  [[nodiscard]] auto& of(Point& point, std::ptrdiff_t) const {
-    return point.state;
-  }
-};
-/// In a column.
-template <class State>
-struct StatesInColumn {
-  State* first;
-  template <class Point>
-  [[nodiscard]] State& of(Point&, std::ptrdiff_t number) const {
-    return first[number];
-  }
-};
+// states: what the law remembers of the points, one behind the other.
 
 struct PlanePlace {
   double normal, tangential;
@@ -39,9 +21,9 @@ struct PlanePlace {
 
 /// Number by number: small vectors are carried through memory by g++ 12 when they are put
 /// together from parts, which doubles the time. So in 3-D.
-template <class Law, class Point, class States>
+template <class Law, class Point, class State>
 [[nodiscard]] Reaction<2> reaction(const Law& law, const MovingContact<2>& c, Point* points,
-                                   States states, const MovingBody<2>& a, const MovingBody<2>& b,
+                                   State* states, const MovingBody<2>& a, const MovingBody<2>& b,
                                    Dissipation& lost) {
   const double ca = a.pose.rotation(0, 0), sa = a.pose.rotation(1, 0);
   const double cb = b.pose.rotation(0, 0), sb = b.pose.rotation(1, 0);
@@ -84,7 +66,7 @@ template <class Law, class Point, class States>
   Point* const p = points + c.first;
   if (c.last - c.first == 2) {
     Point* const q = p + 1;
-    auto &state_p = states.of(*p, p - points), &state_q = states.of(*q, q - points);
+    auto &state_p = states[p - points], &state_q = states[q - points];
     PlanePlace at_p = place_of(*p), at_q = place_of(*q);
     const PointLoad<2> of_whole[2] = {load_of(*p, at_p), load_of(*q, at_q)};
     PointLoad<2> loads[2] = {of_whole[0], of_whole[1]};
@@ -107,7 +89,7 @@ template <class Law, class Point, class States>
   } else {
     for (Point* k = p; k != points + c.last; ++k) {
       const PlanePlace at = place_of(*k);
-      react(states.of(*k, k - points), at, load_of(*k, at));
+      react(states[k - points], at, load_of(*k, at));
     }
   }
   Reaction<2> r;
@@ -134,9 +116,9 @@ template <class Law, class Point, class States>
   return viscous;
 }
 
-template <class Law, class Point, class States>
+template <class Law, class Point, class State>
 [[nodiscard]] Reaction<3> reaction(const Law& law, const MovingContact<3>& c, Point* points,
-                                   States states, const MovingBody<3>& a, const MovingBody<3>& b,
+                                   State* states, const MovingBody<3>& a, const MovingBody<3>& b,
                                    Dissipation& lost) {
   const Rotation<3> frame = a.pose.rotation * c.frame;
   const Vec<3> arm = b.pose.position - a.pose.position;
@@ -183,7 +165,7 @@ template <class Law, class Point, class States>
   constexpr std::size_t four = PressedPart<3>::count;
   const auto release_of = [&](std::size_t k, const PointLoad<3>& load) {
     Point& p = first[k];
-    return release_opening<3>(law, load, states.of(p, &p - points));
+    return release_opening<3>(law, load, states[&p - points]);
   };
   const bool is_cut =
       c.last - c.first == static_cast<std::ptrdiff_t>(four) && c.outline.radius > 0 &&
@@ -199,16 +181,16 @@ template <class Law, class Point, class States>
           part.is_whole()
               ? first[k].place
               : part.at(k, [&](std::size_t i) -> const Vec<3>& { return first[i].place; });
-      react(states.of(first[k], first + k - points), place, first[k].place, loads[k]);
+      react(states[first + k - points], place, first[k].place, loads[k]);
     }
     lost.friction += let_go_of_bond<3>(
         loads, c.outline, [&](std::size_t k) { return load_of(first[k]); }, release_of,
         [&](std::size_t k, const PointLoad<3>& load) {
-          return law.commit(load, states.of(first[k], first + k - points));
+          return law.commit(load, states[first + k - points]);
         });
   } else {
     for (Point* p = first; p != points + c.last; ++p)
-      react(states.of(*p, p - points), p->place, p->place, load_of(*p));
+      react(states[p - points], p->place, p->place, load_of(*p));
   }
   Reaction<3> r;
   r.force = b.pose.rotation * Vec<3>(x, y, z);

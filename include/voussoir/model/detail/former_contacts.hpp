@@ -36,11 +36,14 @@ template <int Dim, class Points>
 
 /// The contacts of one kind that bodies had before, in their frames, to be carried on by those that
 /// are found now.
-template <int Dim, class State>
+///
+/// What is remembered of point k is named by the number -2 - k, and lies in `states`, or wherever
+/// whoever asks has it.
+template <int Dim>
 class FormerContacts {
  public:
   using Contact = MovingContact<Dim>;
-  using Point = MovingContactPoint<Dim, State>;
+  using Point = MovingContactPoint<Dim, FormerPoint>;
   using Bodies = std::vector<MovingBody<Dim>>;
 
   FormerContacts() = default;
@@ -48,10 +51,9 @@ class FormerContacts {
   /// @param contacts, points  in the axes of the reference configuration
   /// @param frames    of all bodies: where they are there
   /// @param u         displacement there; null: zero
-  /// @param state_of  state_of(number): what is remembered of a point
-  template <class ReferencePoints, class StateOf>
+  template <class ReferencePoints>
   FormerContacts(const std::vector<ReferenceContact<Dim>>& contacts, const ReferencePoints& points,
-                 const std::vector<Pose<Dim>>& frames, const double* u, StateOf&& state_of) {
+                 const std::vector<Pose<Dim>>& frames, const double* u) {
     contacts_.reserve(contacts.size());
     points_.reserve(points.size());
     for (const ReferenceContact<Dim>& c : contacts) {
@@ -60,13 +62,23 @@ class FormerContacts {
       const auto at = contact.place(a, b);
       contact.first = static_cast<std::int32_t>(points_.size());
       for (int k = c.first; k < c.last(); ++k)
-        points_.push_back(to_frames<Dim, State>(c, points[index(k)], at, b, u, state_of(k)));
+        points_.push_back(to_frames<Dim>(c, points[index(k)], at, b, u, FormerPoint{-2 - k}));
       contact.last = static_cast<std::int32_t>(points_.size());
       contacts_.push_back(contact);
       bodies_.emplace_back(std::minmax(c.a, c.b));
     }
     order_ = order_of_pairs(bodies_, static_cast<int>(frames.size()));
   }
+
+  /// The same with what their laws remember.
+  template <class Geometry>
+  FormerContacts(const ContactGroup<Geometry>& group, const std::vector<Pose<Dim>>& frames,
+                 const double* u)
+      : FormerContacts(group.contacts(), group.points(), frames, u) {
+    states = group.points().states();
+  }
+
+  StateColumn states;
 
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
@@ -104,29 +116,6 @@ class FormerContacts {
   std::vector<Point> points_;
   std::vector<std::pair<int, int>> bodies_;  ///< of every contact, the lower first
   std::vector<int> order_;                   ///< of contacts, by their bodies
-};
-
-/// The same with what laws known at run time remember of the points, in a column beside them: the
-/// points are numbered downwards from -2 (`MovingContacts<Dim, AnyLaw<Dim>>`).
-template <int Dim>
-struct FormerOfAnyLaw : FormerContacts<Dim, FormerPoint> {
-  FormerOfAnyLaw() = default;
-  template <class Points>
-  FormerOfAnyLaw(const std::vector<ReferenceContact<Dim>>& contacts, const Points& points,
-                 const std::vector<Pose<Dim>>& frames, const double* u)
-      : FormerContacts<Dim, FormerPoint>(contacts, points, frames, u,
-                                         [](int k) { return FormerPoint{-2 - k}; }),
-        states(points.states()) {}
-  StateColumn<AnyState> states;
-};
-
-template <int Dim, class Law>
-struct FormerOfLaw {
-  using type = FormerContacts<Dim, typename Law::template State<Dim>>;
-};
-template <int Dim>
-struct FormerOfLaw<Dim, AnyLaw<Dim>> {
-  using type = FormerOfAnyLaw<Dim>;
 };
 
 }  // namespace voussoir::detail

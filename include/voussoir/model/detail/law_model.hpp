@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
-#include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/contact/contact_law.hpp>
+#include <voussoir/core/roles.hpp>
 #include <voussoir/model/any_law.hpp>
 #include <voussoir/model/detail/contact_reaction.hpp>
 #include <voussoir/model/detail/law_steps.hpp>
@@ -33,6 +35,10 @@ class LawModelOf final : public LawModel<Dim> {
   double commit(const PointLoad<Dim>& load, void* state) const override {
     return law_.commit(load, *static_cast<State*>(state));
   }
+  [[nodiscard]] ContactReport describe(const PointLoad<Dim>& load,
+                                       const void* state) const override {
+    return report_of(law_, load, as_state(state));
+  }
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const void* state) const override {
     return law_.stored_energy(load, as_state(state));
   }
@@ -55,7 +61,7 @@ class LawModelOf final : public LawModel<Dim> {
         task, [&](std::size_t law) -> const Law& { return of_type(task.laws[law]); });
   }
   void react(const ReactionTask<Dim>& task) const override {
-    const StatesInColumn<State> states{static_cast<State*>(task.states)};
+    auto* const states = static_cast<State*>(task.states);
     Reaction<Dim>* reactions = task.reactions;
     for (std::size_t k = task.first; k < task.last; ++k) {
       const MovingContact<Dim>& c = task.contacts[k];
@@ -77,34 +83,38 @@ class LawModelOf final : public LawModel<Dim> {
   Law law_;
 };
 
-/// The same law, known at run time.
-template <int Dim, class Law>
-[[nodiscard]] AnyLaw<Dim> any_law(const Law& law) {
-  if constexpr (is_any_law<Law>)
-    return law;
-  else
-    return {std::make_shared<const LawModelOf<Dim, Law>>(law), law.joint_normal_stiffness(),
-            law.joint_shear_stiffness()};
-}
+/// Laws known at run time.
 template <int Dim, class Law>
 [[nodiscard]] std::vector<AnyLaw<Dim>> any_laws(const std::vector<Law>& laws) {
-  std::vector<AnyLaw<Dim>> all;
-  all.reserve(laws.size());
-  for (const Law& law : laws) all.push_back(any_law<Dim>(law));
-  return all;
-}
-
-/// The law of the walls of a model whose joints follow `JointLaw`: that of a type goes with those
-/// of types.
-template <int Dim, class JointLaw>
-using WallLaw = std::conditional_t<is_any_law<JointLaw>, AnyLaw<Dim>, SmoothWall>;
-
-template <int Dim, class JointLaw>
-[[nodiscard]] std::vector<WallLaw<Dim, JointLaw>> wall_laws(double stiffness) {
-  if constexpr (is_any_law<JointLaw>)
-    return {any_law<Dim>(SmoothWall(stiffness))};
-  else
-    return {SmoothWall(stiffness)};
+  return {laws.begin(), laws.end()};
 }
 
 }  // namespace voussoir::detail
+
+namespace voussoir {
+
+template <int Dim>
+template <class Law>
+requires(Fills<Law, roles::ContactLaw> &&
+         !std::is_same_v<Law, AnyLaw<Dim>>) AnyLaw<Dim>::AnyLaw(const Law& law)
+    : model_(std::make_shared<const detail::LawModelOf<Dim, Law>>(law)),
+      normal_stiffness_(law.joint_normal_stiffness()),
+      shear_stiffness_(law.joint_shear_stiffness()) {
+  using History = typename Law::template State<Dim>;
+  static_assert(explain_contact_law<Law, Dim>());
+  static_assert(sizeof(History) <= detail::StateModel::most_bytes,
+                "contact law: `State` may have 128 bytes");
+  static_assert(alignof(History) <= detail::StateModel::alignment,
+                "contact law: `State` may be aligned to 16 bytes");
+  static_assert(std::is_trivially_destructible_v<History>,
+                "contact law: `State` must own nothing: it is kept in arrays of bytes");
+}
+
+template <int Dim>
+template <class Law>
+const Law* AnyLaw<Dim>::as() const {
+  const auto* model = dynamic_cast<const detail::LawModelOf<Dim, Law>*>(model_.get());
+  return model != nullptr ? &model->law() : nullptr;
+}
+
+}  // namespace voussoir

@@ -29,22 +29,18 @@ bool commit_point(const Law& law, const PointLoad<Dim>& load,
 template <int Dim, class Law>
 [[nodiscard]] Stress<Dim> tangent_at(const Law& law, const PointLoad<Dim>& load,
                                      const typename Law::template State<Dim>& state) {
-  if constexpr (is_any_law<Law>) {
-    return law.model().tangent_at(load, state.of(law.model().states()));
-  } else {
-    constexpr double step = 1e-9;
-    Stress<Dim> stiffness;
-    for (int l = 0; l < Dim; ++l) {
-      PointLoad<Dim> more = load, less = load;
-      (l == 0 ? more.motion.opening : more.motion.slip[l - 1]) += step;
-      (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
-      const PointForce<Dim> up = law.force(more, state), down = law.force(less, state);
-      stiffness(0, l) = (down.normal - up.normal) / (2 * step);
-      for (int m = 1; m < Dim; ++m)
-        stiffness(m, l) = (down.tangential[m - 1] - up.tangential[m - 1]) / (2 * step);
-    }
-    return stiffness;
+  constexpr double step = 1e-9;
+  Stress<Dim> stiffness;
+  for (int l = 0; l < Dim; ++l) {
+    PointLoad<Dim> more = load, less = load;
+    (l == 0 ? more.motion.opening : more.motion.slip[l - 1]) += step;
+    (l == 0 ? less.motion.opening : less.motion.slip[l - 1]) -= step;
+    const PointForce<Dim> up = law.force(more, state), down = law.force(less, state);
+    stiffness(0, l) = (down.normal - up.normal) / (2 * step);
+    for (int m = 1; m < Dim; ++m)
+      stiffness(m, l) = (down.tangential[m - 1] - up.tangential[m - 1]) / (2 * step);
   }
+  return stiffness;
 }
 
 template <int Dim, class Law, class History, bool Shifted, class LawOf>

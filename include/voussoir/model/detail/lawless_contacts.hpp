@@ -90,7 +90,7 @@ class ContactUpdate {
   using Point = MovingContactPoint<Dim, FormerPoint>;
   using Pair = typename Tracker::Pair;
 
-  using Former = FormerContacts<Dim, FormerPoint>;
+  using Former = FormerContacts<Dim>;
 
   template <class Number>
   [[nodiscard]] static std::size_t index(Number i) {
@@ -99,8 +99,7 @@ class ContactUpdate {
 
   [[nodiscard]] Former former(const Contacts& group) const {
     return {group.contacts, group.points, then_,
-            updated_at_.size() > 0 ? updated_at_.data() : nullptr,
-            [](int k) { return FormerPoint{k}; }};
+            updated_at_.size() > 0 ? updated_at_.data() : nullptr};
   }
   /// Marks bodies that no chain of contacts, of `Dim` points at least, joins to a fixed one.
   /// @return  whether there are any
@@ -126,7 +125,8 @@ class ContactUpdate {
     to.contacts.push_back(from_frames(c, now(c.a), now(c.b), displacement_.data(), points,
                                       [&](const auto& p) { to.points.push_back(p); }));
     to.contacts.back().set_points(first, points.size());
-    for (const Point& p : points) to.former.push_back(p.state);
+    for (const Point& p : points)
+      to.former.push_back({p.state.number < -1 ? -2 - p.state.number : -1});
   }
 
   const Eigen::VectorXd &displacement_, &updated_at_;
@@ -249,7 +249,7 @@ void ContactUpdate<Dim, Detector>::renew(const Former& former, const Pair& pair,
   middle += from;
   const Contact* const old = former.nearest(bodies_, a, b, found.normal, middle);
   std::vector<Point> points;
-  using Renewal = ContactRenewal<Dim, FormerPoint>;
+  using Renewal = ContactRenewal<Dim>;
   Contact contact =
       Renewal(bodies_, former.points())
           .run(found, from, tracker_.shapes(), owner, a, b, false, reach, old, points, joined);

@@ -32,7 +32,7 @@ template <class Lining, class System>
 class LiningAssembly {
  public:
   using Geometry = typename System::GeometryType;
-  using InterfaceLaw = typename System::InterfaceLawType;
+  using InterfaceLaw = typename System::Law;
   static constexpr int dim = Geometry::dim;
   static constexpr int dof = Geometry::dof;
 
@@ -191,8 +191,7 @@ template <class Lining, class System>
 std::vector<Vec<System::dim>> assemble_lining(
     System& system, double gravity, double near,
     const LiningFrame<typename System::GeometryType>& frame,
-    const std::vector<LiningSection>& sections,
-    const typename System::InterfaceLawType& interface_law,
+    const std::vector<LiningSection>& sections, const typename System::Law& interface_law,
     const std::optional<FootBearing>& feet) {
   return LiningAssembly<Lining, System>(system, gravity, near)
       .run(frame, sections, interface_law, feet);

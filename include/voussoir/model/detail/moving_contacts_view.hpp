@@ -5,9 +5,9 @@
 #include <iterator>
 #include <vector>
 #include <voussoir/model/any_law.hpp>
-#include <voussoir/model/detail/any_moving_contacts.hpp>
 #include <voussoir/model/detail/law_model.hpp>
 #include <voussoir/model/moving_contact.hpp>
+#include <voussoir/model/moving_contacts.hpp>
 
 namespace voussoir {
 
@@ -16,7 +16,7 @@ namespace voussoir {
 template <int Dim, class Law>
 class MovingContactsView {
  public:
-  using Group = MovingContacts<Dim, AnyLaw<Dim>>;
+  using Group = MovingContacts<Dim>;
   using State = typename Law::template State<Dim>;
   using Point = MovingContactPoint<Dim, State>;
   using Contact = MovingContact<Dim>;

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,11 +20,10 @@
 // How the contacts of `ContactNetwork` come to be and are updated.
 namespace voussoir {
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+template <int Dim, class Detector>
 template <class StressAt>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::prescribe(const Bodies& bodies,
-                                                                      StressAt&& stress_at,
-                                                                      double closed) {
+void ContactNetwork<Dim, Detector>::prescribe(const Bodies& bodies, StressAt&& stress_at,
+                                              double closed) {
   each([&](auto& group, const auto& c) {
     const Pose<Dim>&a = bodies[index(c.a)].pose, &b = bodies[index(c.b)].pose;
     const auto at = c.place(a, b);
@@ -42,11 +40,12 @@ void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::prescribe(const Bodi
   });
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+template <int Dim, class Detector>
 template <class CutOf>
-ContactChange ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::find(
-    Tracker& tracker, const Bodies& bodies, const std::vector<std::uint32_t>* moved,
-    const std::vector<BodyRole>& roles, CutOf&& cut_of, double& gained) {
+ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies& bodies,
+                                                  const std::vector<std::uint32_t>* moved,
+                                                  const std::vector<BodyRole>& roles,
+                                                  CutOf&& cut_of, double& gained) {
   // Bodies may have come since.
   rates_.resize(bodies.size());
   Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
@@ -95,50 +94,50 @@ ContactChange ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::find(
                           : ContactChange::none;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+template <int Dim, class Detector>
 template <class U>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::take_nearest(
-    const U& update, std::vector<Left>& left, Pair& pair, const Contact<Dim>& found) {
+void ContactNetwork<Dim, Detector>::take_nearest(const U& update, std::vector<Left>& left,
+                                                 Pair& pair, const Contact<Dim>& found) {
   const std::pair<int, int> wanted =
       std::minmax(update.tracker.body_of(pair.a), update.tracker.body_of(pair.b));
   const Vec<Dim> place = middle_of(found) + update.tracker.shapes().grid_point(pair.a);
   auto best = left.end();
   double least = std::numeric_limits<double>::infinity();
-  group_of_kind(update.kind_of(pair), [&](auto& group, const auto&) {
-    auto it = std::lower_bound(left.begin(), left.end(), wanted,
-                               [](const Left& x, const auto& value) { return x.bodies < value; });
-    for (; it != left.end() && it->bodies == wanted; ++it) {
-      if (it->contact < 0) continue;
-      const double distance = detail::squared_distance<Dim>(
-          update.bodies, group.contacts()[index(it->contact)], group.points(), found.normal, place);
-      if (distance >= least) continue;
-      least = distance;
-      best = it;
-    }
-  });
+  const Group& group = groups_[update.kind_of(pair)];
+  auto it = std::lower_bound(left.begin(), left.end(), wanted,
+                             [](const Left& x, const auto& value) { return x.bodies < value; });
+  for (; it != left.end() && it->bodies == wanted; ++it) {
+    if (it->contact < 0) continue;
+    const double distance = detail::squared_distance<Dim>(
+        update.bodies, group.contacts()[index(it->contact)], group.points(), found.normal, place);
+    if (distance >= least) continue;
+    least = distance;
+    best = it;
+  }
   if (best != left.end()) pair.contact = std::exchange(best->contact, -1);
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
+template <int Dim, class Detector>
 template <class U>
-void ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::drop(U& update, const Left& it) {
-  group_of_kind(it.kind, [&](auto& group, const auto&) {
-    update.gained -= group.stored_energy(index(it.contact), update.bodies);
-    auto& contact = group.contacts()[index(it.contact)];
-    contact.last = contact.first;
-  });
+void ContactNetwork<Dim, Detector>::drop(U& update, const Left& it) {
+  Group& group = groups_[it.kind];
+  update.gained -= group.stored_energy(index(it.contact), update.bodies);
+  auto& contact = group.contacts()[index(it.contact)];
+  contact.last = contact.first;
   ++unused_;
   for (const int b : {it.bodies.first, it.bodies.second}) rates_.forget(b);
   update.relisted = update.changed = true;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-template <class U, class Group, class FormerGroup>
-bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::renew(
-    U& update, Group& group, const FormerGroup& former, Pair& pair, const Contact<Dim>& found,
-    const ContactArea<Dim>* joined, double held) {
-  const auto& [tracker, bodies] = std::tie(update.tracker, update.bodies);
+template <int Dim, class Detector>
+template <class U>
+void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<Dim>& found,
+                                          const ContactArea<Dim>* joined, double held) {
+  const Tracker& tracker = update.tracker;
+  const Bodies& bodies = update.bodies;
   const std::size_t kind = update.kind_of(pair);
+  Group& group = groups_[kind];
+  const Former& former = former_[kind];
   const bool of_a = found.touch != Touch::face_b, known = pair.contact >= 0;
   const std::size_t owner = of_a ? pair.a : pair.b;
   const int a = tracker.body_of(owner), b = tracker.body_of(of_a ? pair.b : pair.a);
@@ -148,7 +147,7 @@ bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::renew(
       known ? &group.contacts()[index(pair.contact)]
             : former.nearest(bodies, a, b, found.normal, middle_of(found) + from);
   const std::vector<typename Group::Point>& old_points = known ? group.points() : former.points();
-  detail::ContactRenewal<Dim, typename Group::State> renewal(bodies, old_points);
+  detail::ContactRenewal<Dim> renewal(bodies, old_points);
   if (!is_everything_new_) renewal.start_at_rest();
   const bool is_centred =
       known ? old->is_centred : kind == 2 && old != nullptr && old->last - old->first == 1;
@@ -175,14 +174,16 @@ bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::renew(
     if (viscous_damping_ > 0)
       contact.viscosity = impact.viscosity(viscous_damping_, per_area * detail::area_of(points));
   }
-  return put(update, group, pair, contact, points);
+  const bool in_place = put(update, group, pair, contact, points);
+  update.relisted = update.relisted || !in_place;
+  update.changed = true;
 }
 
-template <int Dim, class JointLaw, class InterfaceLaw, class Detector>
-template <class U, class Group>
-bool ContactNetwork<Dim, JointLaw, InterfaceLaw, Detector>::put(
-    U& update, Group& group, Pair& pair, const typename Group::Contact& contact,
-    const std::vector<typename Group::Point>& points) {
+template <int Dim, class Detector>
+template <class U>
+bool ContactNetwork<Dim, Detector>::put(U& update, Group& group, Pair& pair,
+                                        const typename Group::Contact& contact,
+                                        const std::vector<typename Group::Point>& points) {
   const Bodies& bodies = update.bodies;
   const bool known = pair.contact >= 0;
   const typename Group::Contact* const old =

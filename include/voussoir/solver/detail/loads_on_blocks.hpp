@@ -11,7 +11,6 @@
 #include <voussoir/core/message.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/linear/free_body.hpp>
-#include <voussoir/model/any_system.hpp>
 #include <voussoir/model/prescribed_displacement.hpp>
 #include <voussoir/solver/composed_solver.hpp>
 
@@ -85,10 +84,9 @@ void ComposedSolver<Models>::displace(const std::vector<PrescribedDisplacement<d
   // Moved alone, a block would be driven into those that it carries, by forces that have nothing
   // to do with those of any equilibrium.
   try {
-    detail::LawsAside<SystemType> aside(system_);
-    Eigen::VectorXd carried = aside->forces_of_displaced(moved);
-    (void)aside->elastic_solver({}).solve_in_place(carried, {});
-    carried_ += aside->largest_translation(carried);
+    Eigen::VectorXd carried = system_.forces_of_displaced(moved);
+    (void)system_.elastic_solver({}).solve_in_place(carried, {});
+    carried_ += system_.largest_translation(carried);
     moved += carried;
   } catch (const FreeBody&) {
     // Nothing holds that one: the next stage takes it out, and begins where the others are.
