@@ -11,6 +11,8 @@
 #include <memory>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/contact/smooth_wall.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/model/contact_update.hpp>
@@ -184,6 +186,19 @@ TEST_SUITE("model/contact_group") {
       }
     }
     CHECK(left == system.joints.contacts().size());
+  }
+
+  TEST_CASE("a law of another type than the others of its group is refused, and nothing changes") {
+    ContactGroup<Planar> group({CoulombJoint({5e9, 5e8, 35 * degree})});
+    CHECK(group.add_law(CoulombJoint({5e9, 5e8, 30 * degree})) == 1);
+    CHECK_THROWS_AS((void)group.add_law(MohrCoulombJoint({5e9, 5e8, 35 * degree})), InvalidInput);
+    CHECK(group.laws().size() == 2);
+    CHECK(group.laws()[0].as<MohrCoulombJoint>() == nullptr);
+    REQUIRE(group.laws()[1].as<CoulombJoint>() != nullptr);
+    CHECK(group.laws()[1].as<CoulombJoint>()->friction_coefficient() ==
+          CoulombJoint({5e9, 5e8, 30 * degree}).friction_coefficient());
+    CHECK_THROWS_AS(ContactGroup<Planar>({CoulombJoint({5e9, 5e8, 35 * degree}), SmoothWall(5e9)}),
+                    InvalidInput);
   }
 
   TEST_CASE("the force of a contact is the sum over its points, in 2-D and 3-D") {

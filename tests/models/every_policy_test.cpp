@@ -17,11 +17,6 @@ TEST_SUITE("models/every_policy") {
     MESSAGE(in_motion<Spatial, BurgersJoint, AxialShearBolt, JointFaceAnchors, BondedChain,
                       RockOnLining<MohrCoulombJoint>, AnalyticCentre>());
   }
-
-  TEST_CASE("AnyLaw is behind the laws of every row: what they share is compiled once") {
-    CHECK(detail::hides_laws<MohrCoulombJoint, BartonBandisJoint, 2>);
-    CHECK(detail::hides_laws<BurgersJoint, MohrCoulombJoint, 3>);
-  }
 }
 
 }  // namespace every_policy_test

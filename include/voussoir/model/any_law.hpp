@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
@@ -242,6 +243,20 @@ class AnyLaw {
 
 namespace detail {
 
+/// What the laws of a group remember. Kernels of forces are called once for all contacts.
+/// @throws InvalidInput  they are not of one type
+/// @pre there is one
+template <int Dim>
+[[nodiscard]] const StateModel& states_of(const std::vector<AnyLaw<Dim>>& laws) {
+  const LawModel<Dim>& first = laws.front().model();
+  for (const AnyLaw<Dim>& law : laws) {
+    const LawModel<Dim>& other = law.model();
+    if (typeid(other) != typeid(first))
+      throw InvalidInput("contact laws of one group: they must be of one type");
+  }
+  return first.states();
+}
+
 /// What points remember, one behind the other, as tight as the law's own type.
 class StateColumn {
  public:
@@ -265,7 +280,7 @@ class StateColumn {
 
   /// Of the laws that these are of, before the first is there.
   void set_model(const StateModel& model) {
-    VOUSSOIR_ASSERT(count_ == 0 || model_->size() == model.size(), "laws of one type");
+    VOUSSOIR_ASSERT(count_ == 0 || model_ == &model, "laws of one type");
     model_ = &model;
   }
   [[nodiscard]] std::size_t size() const { return count_; }

@@ -37,13 +37,16 @@ class ContactGroup {
   using Points = ContactArrays<dim>;
   using Point = typename Points::Point;
 
-  explicit ContactGroup(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
+  /// @throws InvalidInput  laws of different types
+  explicit ContactGroup(std::vector<Law> laws) { set_laws(std::move(laws)); }
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
   /// @return  its index
+  /// @throws InvalidInput  it is not of the type of those that there are
   int add_law(Law law) {
-    laws_.push_back(std::move(law));
-    prepare();
+    std::vector<Law> laws = laws_;
+    laws.push_back(std::move(law));
+    set_laws(std::move(laws));
     return static_cast<int>(laws_.size()) - 1;
   }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
@@ -283,9 +286,9 @@ class ContactGroup {
     task.laws = laws_.data();
     laws_.front().model().add_forces(task);
   }
-  /// After a law has come.
-  void prepare() {
-    if (!laws_.empty()) points_.states().set_model(laws_.front().model().states());
+  void set_laws(std::vector<Law> laws) {
+    if (!laws.empty()) points_.states().set_model(detail::states_of(laws));
+    laws_ = std::move(laws);
   }
 
   [[nodiscard]] static PointMotion<dim> motion_of(const Contact& c, const ReferencePoint<dim>& p,

@@ -35,21 +35,23 @@ class MovingContacts {
   using Point = MovingContactPoint<Dim, State>;
   using Contact = MovingContact<Dim>;
 
-  explicit MovingContacts(std::vector<Law> laws) : laws_(std::move(laws)) { prepare(); }
+  /// @throws InvalidInput  laws of different types
+  explicit MovingContacts(std::vector<Law> laws) { take(std::move(laws)); }
 
   [[nodiscard]] const std::vector<Law>& laws() const { return laws_; }
   /// @return  its index
+  /// @throws InvalidInput  it is not of the type of those that there are
   std::int32_t add_law(Law law) {
-    laws_.push_back(std::move(law));
-    prepare();
+    std::vector<Law> laws = laws_;
+    laws.push_back(std::move(law));
+    take(std::move(laws));
     return static_cast<std::int32_t>(laws_.size()) - 1;
   }
-  /// @throws InvalidInput  not as many as there are
+  /// @throws InvalidInput  not as many as there are, or of another type
   void set_laws(std::vector<Law> laws) {
     require(laws.size() == laws_.size(), "number of contact laws", static_cast<double>(laws.size()),
             "as many as before");
-    laws_ = std::move(laws);
-    prepare();
+    take(std::move(laws));
   }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
     return laws_[static_cast<std::size_t>(c.law)];
@@ -81,7 +83,7 @@ class MovingContacts {
     detail::StateColumn states;
     contacts.reserve(contacts_.size());
     points.reserve(points_.size());
-    if (!laws_.empty()) states.set_model(laws_.front().model().states());
+    if (!laws_.empty()) states.set_model(detail::states_of(laws_));
     states.reserve(points_.size());
     each([&](std::int32_t& number) {
       Contact c = contacts_[static_cast<std::size_t>(number)];
@@ -172,10 +174,12 @@ class MovingContacts {
     if (state.number < -1) return former_.at(static_cast<std::size_t>(-2 - state.number));
     return laws_.front().model().states().fresh();
   }
-  void prepare() {
-    if (laws_.empty()) return;
-    states_.set_model(laws_.front().model().states());
-    inherited_.set_model(laws_.front().model().states());
+  void take(std::vector<Law> laws) {
+    if (!laws.empty()) {
+      states_.set_model(detail::states_of(laws));
+      inherited_.set_model(detail::states_of(laws));
+    }
+    laws_ = std::move(laws);
   }
 
   std::vector<Law> laws_;
