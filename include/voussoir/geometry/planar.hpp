@@ -4,7 +4,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
-#include <voussoir/geometry/geometry_model.hpp>
+#include <voussoir/geometry/geometry_of.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
@@ -27,6 +27,9 @@ struct Planar {
   using Opening = SimplePolygon;  ///< outline of an excavation
 };
 
-static_assert(GeometryModel<Planar>);
+template <>
+struct GeometryOf<2> {
+  using type = Planar;
+};
 
 }  // namespace voussoir

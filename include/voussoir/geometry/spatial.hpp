@@ -4,7 +4,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polyhedron.hpp>
-#include <voussoir/geometry/geometry_model.hpp>
+#include <voussoir/geometry/geometry_of.hpp>
 #include <voussoir/geometry/joint_plane.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/geometry/spatial_facet.hpp>
@@ -29,6 +29,9 @@ struct Spatial {
   using Opening = PrismaticOpening;  ///< what an excavation takes out
 };
 
-static_assert(GeometryModel<Spatial>);
+template <>
+struct GeometryOf<3> {
+  using type = Spatial;
+};
 
 }  // namespace voussoir

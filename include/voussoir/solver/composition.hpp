@@ -12,7 +12,7 @@
 #include <voussoir/detection/face_contacts.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/equilibrium/two_level.hpp>
-#include <voussoir/geometry/geometry_model.hpp>
+#include <voussoir/geometry/geometry_of.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/lining/lining_model.hpp>
