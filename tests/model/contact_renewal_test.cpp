@@ -25,8 +25,6 @@ using namespace voussoir_test;
 
 namespace {
 
-struct Nothing {};
-
 template <int Dim>
 struct Dimensions {
   static constexpr int dim = Dim;
@@ -44,7 +42,7 @@ Vec<Dim> vec(double x, double y, double z) {
 /// A block on another one whose top is at height 0: the contact is 1 m long (wide, and 0.8 m deep).
 template <int Dim>
 struct Pile {
-  using Renewal = detail::ContactRenewal<Dim, Nothing>;
+  using Renewal = detail::ContactRenewal<Dim>;
   using Point = typename Renewal::Point;
   using Contact = MovingContact<Dim>;
 

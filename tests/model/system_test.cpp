@@ -144,9 +144,9 @@ template <class SystemType>
 std::vector<double> history(const SystemType& system) {
   std::vector<double> slips;
   for (const auto& p : system.joints.points())
-    slips.push_back(p.history<CoulombJoint>().plastic_slip[0]);
+    slips.push_back(p.template history<CoulombJoint>().plastic_slip[0]);
   for (const auto& p : system.interface.points())
-    slips.push_back(p.history<CoulombJoint>().plastic_slip[0]);
+    slips.push_back(p.template history<CoulombJoint>().plastic_slip[0]);
   for (const auto& b : system.supports.template first<BoltSet<2, AxialBolt>>()->springs())
     slips.push_back(b.state.plastic_extension);
   return slips;

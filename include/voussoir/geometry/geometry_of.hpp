@@ -14,8 +14,7 @@ template <int Dim>
 struct GeometryOf;
 
 template <class Geometry>
-concept IsGeometryOfItsDimension =
-    std::same_as<Geometry, typename GeometryOf<Geometry::dim>::type>;
+concept IsGeometryOfItsDimension = std::same_as<Geometry, typename GeometryOf<Geometry::dim>::type>;
 
 template <class Geometry>
 consteval bool explain_geometry() {
