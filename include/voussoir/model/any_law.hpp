@@ -85,6 +85,10 @@ class AnyState {
 
 template <int Dim>
 class AnyLaw;
+template <class Law>
+inline constexpr bool is_any_law = false;
+template <int Dim>
+inline constexpr bool is_any_law<AnyLaw<Dim>> = true;
 template <int Dim>
 struct ReferenceContact;
 template <int Dim>
@@ -102,6 +106,9 @@ struct Reaction;
 struct Dissipation;
 
 namespace detail {
+
+template <class Law>
+concept IsLawOfAType = Fills<Law, roles::ContactLaw> && !is_any_law<Law>;
 
 /// The point of other contacts whose memory a point inherits.
 struct FormerPoint {
@@ -208,8 +215,8 @@ class AnyLaw {
   using State = AnyState;
 
   template <class Law>
-  requires(Fills<Law, roles::ContactLaw> && !std::is_same_v<Law, AnyLaw>)
-      AnyLaw(const Law& law);  // NOLINT(google-explicit-constructor): any law is one
+  requires detail::IsLawOfAType<Law> AnyLaw(  // NOLINT(google-explicit-constructor): any law is one
+      const Law& law);
 
   /// The law as its type; null if it is of another.
   template <class Law>

@@ -155,7 +155,7 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
       s.commit(law_of(s), span);
       const BoltForce<Dim> force = law_of(s).force(span, s.state);
       const Vec<Dim> pull = s.share * force.pull, dowel = s.share * force.dowel;
-      travels_[k].go_to(span.initial + span.motion, pull, force.axial);
+      travels_[k].go_to(span.initial + span.motion, pull, span.jump, dowel, force.axial);
       push(loads[index(s.a)], a.rotation * s.arm_a, pull);
       push(loads[index(s.b)], b.rotation * s.arm_b, -pull);
       push(loads[index(s.a)], a.rotation * s.joint_a, dowel);
@@ -186,19 +186,25 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
  private:
   /// What a run knows of a spring: the work done on it, step by step.
   struct Travel {
-    Vec<Dim> pull = zeros<Vec<Dim>>();  ///< on the first anchor at the last step, shared [N]
-    Vec<Dim> span = zeros<Vec<Dim>>();  ///< from anchor to anchor then [m]
+    Vec<Dim> pull = zeros<Vec<Dim>>();   ///< on the first anchor at the last step, shared [N]
+    Vec<Dim> span = zeros<Vec<Dim>>();   ///< from anchor to anchor then [m]
+    Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first side of the joint then, shared [N]
+    Vec<Dim> jump = zeros<Vec<Dim>>();   ///< of the joint then [m]
     bool is_under_way = false;
     double axial = 0;  ///< then, of the bolt [N]
     double work = 0;   ///< done on the bolt so far, shared [J]
 
-    void go_to(const Vec<Dim>& now, const Vec<Dim>& pull_now, double axial_now) {
-      // The force on a does the bolt's work with the opposite sign; dowels have a span of their own
-      // but move with the same joint.
-      if (is_under_way) work += 0.5 * (pull + pull_now).dot(now - span);
+    void go_to(const Vec<Dim>& span_now, const Vec<Dim>& pull_now, const Vec<Dim>& jump_now,
+               const Vec<Dim>& dowel_now, double axial_now) {
+      // The forces on a do the bolt's work with the opposite sign.
+      if (is_under_way)
+        work += 0.5 *
+                ((pull + pull_now).dot(span_now - span) + (dowel + dowel_now).dot(jump_now - jump));
       is_under_way = true;
-      span = now;
+      span = span_now;
       pull = pull_now;
+      jump = jump_now;
+      dowel = dowel_now;
       axial = axial_now;
     }
   };

@@ -95,8 +95,7 @@ namespace voussoir {
 
 template <int Dim>
 template <class Law>
-requires(Fills<Law, roles::ContactLaw> &&
-         !std::is_same_v<Law, AnyLaw<Dim>>) AnyLaw<Dim>::AnyLaw(const Law& law)
+requires detail::IsLawOfAType<Law> AnyLaw<Dim>::AnyLaw(const Law& law)
     : model_(std::make_shared<const detail::LawModelOf<Dim, Law>>(law)),
       normal_stiffness_(law.joint_normal_stiffness()),
       shear_stiffness_(law.joint_shear_stiffness()) {
