@@ -278,9 +278,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     if (node_spacing > coarsest_moment_spacing * length)
       warn("lining nodes are " + number(node_spacing) + " m apart, farther than " +
            number(coarsest_moment_spacing) + " L = " + number(coarsest_moment_spacing * length) +
-           " m, L = (4 E I / kn)^(1/4): moments under a block may be too small by half and more; "
+           " m, L = (4 E I / kn)^(1/4): moments under a block may come out too small; "
            "take " +
-           number(bonded_node_count(run.opening.perimeter(), length, coarsest_moment_spacing)) +
+           number(node_count_for(run.opening.perimeter(), length, coarsest_moment_spacing)) +
            " nodes or more");
   }
   return warnings;

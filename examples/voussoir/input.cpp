@@ -8,8 +8,8 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
-#include <voussoir/lining/bonded_mesh.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 
 #include "blocks_input.hpp"
 #include "input_document.hpp"
@@ -538,7 +538,7 @@ void check_opening(Checker& checker, const Input& input) {
     checker.report("diagram.thickness", "fills the opening", below);
 }
 
-/// Nodes are close enough together for a bond, see `bonded_mesh.hpp`.
+/// Nodes are close enough together for a bond, see `node_spacing.hpp`.
 void check_bond(Checker& checker, const Input& input) {
   if (!input.lining || !(input.lining->tensile_bond > 0)) return;
   for (const char* key : {"support.lining", "tunnel", "diagram"})
@@ -552,8 +552,8 @@ void check_bond(Checker& checker, const Input& input) {
       bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
                      lining.interface_normal_stiffness);
   const double perimeter = opening_of(input).perimeter();
-  const double least = bonded_node_count(perimeter, length, coarsest_bonded_spacing),
-               chosen = bonded_node_count(perimeter, length, chosen_bonded_spacing);
+  const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
+               chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
   const auto metres = [](double value) { return format_quantity(value, dimension::length); };
   const std::string why = "the bond of a lining " + metres(thinnest) +
                           " thick acts over L = (4 E I / kn)^(1/4) = " + metres(length);

@@ -6,8 +6,8 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/message.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
-#include <voussoir/lining/bonded_mesh.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 
 namespace voussoir {
@@ -29,7 +29,7 @@ template <int Dim, class Law>
   if (!holds_tension<Dim>(interface)) return ring;
   const double length =
       bending_length(section.bending_stiffness, width * interface.joint_normal_stiffness());
-  const double needed = bonded_node_count(opening.perimeter(), length, chosen_bonded_spacing);
+  const double needed = node_count_for(opening.perimeter(), length, chosen_bonded_spacing);
   if (!(needed <= most_lining_nodes))
     throw InvalidInput(message(
         {"lining: its bond to the rock acts over L = (4 E I / k_n)^(1/4) = ", length, " m, and ",
@@ -37,7 +37,7 @@ template <int Dim, class Law>
          " m; accepted: at most ", most_lining_nodes,
          ", of a thicker lining or a softer interface, or a number of nodes that you give, at "
          "least ",
-         bonded_node_count(opening.perimeter(), length, coarsest_bonded_spacing)}));
+         node_count_for(opening.perimeter(), length, coarsest_bonded_spacing)}));
   ring.nodes = std::max(default_lining_nodes, static_cast<int>(needed));
   return ring;
 }

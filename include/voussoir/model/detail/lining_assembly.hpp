@@ -2,25 +2,22 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/core/message.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/segment.hpp>
-#include <voussoir/lining/bonded_mesh.hpp>
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/lining_surface.hpp>
@@ -60,7 +57,7 @@ class LiningAssembly {
       throw InvalidInput("lining: no rock touches it");
     if constexpr (!is_pinned_lining<Lining>())
       if (holds_tension<dim>(interface_law))
-        require_fine_enough(wanted, sections, interface_law.joint_normal_stiffness());
+        require_nodes_for_bond(wanted, sections, interface_law.joint_normal_stiffness());
     const LiningFrame<Geometry> beside = with_shared_ends(
         wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
     std::vector<int> standing;
@@ -81,39 +78,6 @@ class LiningAssembly {
   }
 
  private:
-  /// Refuses members that are too long for a bond, see `coarsest_bonded_spacing`.
-  /// @param normal_stiffness  of the interface [Pa/m]
-  static void require_fine_enough(const LiningFrame<Geometry>& frame,
-                                  const std::vector<LiningSection>& sections,
-                                  double normal_stiffness) {
-    std::vector<double> wall(frame.nodes.size(), 0.0);  // of the nodes [m], [m^2]
-    for (const auto& panel : frame.panels)
-      wall[static_cast<std::size_t>(panel.node)] += panel.facet.measure();
-    for (const auto& member : frame.members) {
-      const auto i = static_cast<std::size_t>(member.first),
-                 j = static_cast<std::size_t>(member.second),
-                 of = static_cast<std::size_t>(member.section);
-      const double spacing = (frame.nodes[j] - frame.nodes[i]).norm();
-      const double width = dim == 2 ? 1.0 : 0.5 * (wall[i] + wall[j]) / spacing;
-      if (of >= sections.size() || !(width > 0)) continue;  // is said, or cannot be
-      const double length =
-          bending_length(sections[of].bending_stiffness, width * normal_stiffness);
-      const double most = coarsest_bonded_spacing * length;
-      if (spacing <= most * (1 + 1e-9)) continue;
-      const bool is_along = dim == 3 && member.section > 0;
-      const std::string remedy =
-          is_along || frame.count_on_outline == 0
-              ? std::string()
-              : message({", nodes >= ", std::ceil(frame.count_on_outline * spacing / most)});
-      throw InvalidInput(
-          message({"lining: ", is_along ? "ribs" : "nodes", " ", spacing,
-                   " m apart are too coarse for its bond to the rock, which acts over "
-                   "L = (4 E I / k_n)^(1/4) = ",
-                   length, " m; accepted: at most ", coarsest_bonded_spacing, " L = ", most, " m",
-                   remedy, ", or an interface without tensile strength"}));
-    }
-  }
-
   /// The node of a lining that stands at a place; -1: there is none.
   [[nodiscard]] int standing_node(const Vec<dim>& place) const {
     for (const auto* lining : system_.supports.template all<LiningMembers<Geometry>>())
