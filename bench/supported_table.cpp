@@ -119,9 +119,10 @@ Answer build(const FailureCase& rock, const SupportCase& support, int steps) {
          .tensile_strength = std::min(0.5 * bond, bond / std::tan(friction))},
         any_units);
     const LiningSection section = LiningSection::rectangular(support.thickness, support.modulus);
+    // Of 72 nodes, and more where the bond needs them.
     const auto line = [&](double from, double to, bool has_feet) {
       LiningInstallation<Tunnel> lining{
-          {.nodes = 72, .from = from * degree, .to = to * degree}, {section}, interface};
+          {.from = from * degree, .to = to * degree}, {section}, interface};
       if (has_feet)
         lining.feet.emplace(FootBearing::Params{
             .width = support.thickness, .stiffness = 2e9, .friction_angle = friction});

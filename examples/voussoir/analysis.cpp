@@ -82,14 +82,20 @@ BoltInstallation<Tunnel> bolts_of(const BoltsInput& bolts, const BoltSpacing& sp
 }
 
 /// On the full ring: as many as facets, or as many as it takes to be no farther apart than joints,
-/// for a block that falls between two nodes loads none.
-int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening) {
-  if (input.lining->nodes) return *input.lining->nodes;
+/// for a block that falls between two nodes loads none, or than a bond needs.
+/// @param thickness  of the lining [m], > 0
+int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening,
+                 double thickness) {
+  const LiningInput& lining = *input.lining;
+  if (lining.nodes) return *lining.nodes;
   const double half_width = input.tunnel.half_width();
   const double joint_spacing = radial_spacing(mass, Vec2::Zero(), half_width, 2 * half_width);
   const double needed = std::ceil(opening.perimeter() / joint_spacing);
-  return static_cast<int>(
+  const int count = static_cast<int>(
       std::clamp(needed, static_cast<double>(std::max(input.tunnel.facets, 8)), 2000.0));
+  return std::max(
+      count, *with_chosen_nodes<2>({}, opening, section_of(lining, thickness), interface_of(lining))
+                  .nodes);
 }
 
 LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, double thickness) {
@@ -124,8 +130,8 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
     if (stage.install_bolts && spacing)
       made.install_bolts(bolts_of(*input.bolts, *spacing, opening));
     if (stage.install_lining && thickness > 0)
-      made.install_lining(
-          lining_of(*input.lining, lining_nodes(input, tunnel.mass(), opening), thickness));
+      made.install_lining(lining_of(
+          *input.lining, lining_nodes(input, tunnel.mass(), opening, thickness), thickness));
   }
   return construction;
 }
@@ -258,12 +264,24 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   for (std::string& text : remarks_on(support_condition(run.tunnel, run.built)))
     warn(std::move(text));
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
-    const double node_spacing = run.opening.perimeter() / lining_nodes(input, mass, run.opening);
+    const LiningInput& lining = *input.lining;
+    const double node_spacing =
+        run.opening.perimeter() / lining_nodes(input, mass, run.opening, lining.thickness);
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
                                                 2 * input.tunnel.half_width());
     if (node_spacing > joint_spacing)
       warn("lining nodes are " + number(node_spacing) + " m apart, joints " +
            number(joint_spacing) + " m: take more nodes");
+    // What a block weighs on one rigid stretch bends nothing (docs/decisions.md).
+    const double length = bending_length(section_of(lining, lining.thickness).bending_stiffness,
+                                         lining.interface_normal_stiffness);
+    if (node_spacing > coarsest_moment_spacing * length)
+      warn("lining nodes are " + number(node_spacing) + " m apart, farther than " +
+           number(coarsest_moment_spacing) + " L = " + number(coarsest_moment_spacing * length) +
+           " m, L = (4 E I / kn)^(1/4): moments under a block may come out too small; "
+           "take " +
+           number(node_count_for(run.opening.perimeter(), length, coarsest_moment_spacing)) +
+           " nodes or more");
   }
   return warnings;
 }
@@ -395,6 +413,8 @@ RunResult computed_run(const Input& input, const Report& report) {
                         report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
+  if (input.lining && !input.lining->nodes && input.lining->tensile_bond > 0)
+    run.bonded_nodes = lining_nodes(input, run.tunnel.mass(), run.opening, input.lining->thickness);
   run.warnings = warnings_of(input, run);
   return run;
 }

@@ -33,6 +33,8 @@ struct RunResult {
   ChosenBoundary boundary = {};
   ConstructionResult<Planar> built = {};
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
+  int bonded_nodes =
+      0;  ///< of the lining on the full outline, chosen for its bond; 0: they are not
   std::vector<JointSource> joints = {};
   std::vector<std::string> rock_warnings = {};  ///< of `warnings`, those that the picture shows too
   std::vector<std::string> warnings = {};
@@ -50,8 +52,6 @@ struct RunResult {
 
 /// What is being done and how far it is, see `StageProgress`; rock and diagrams too.
 using Report = StageProgress;
-
-[[nodiscard]] SimplePolygon opening_of(const Input& input);
 
 /// Rock, and what its maker must be told about it.
 struct GeneratedRock {

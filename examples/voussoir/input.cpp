@@ -8,6 +8,8 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 
 #include "blocks_input.hpp"
 #include "input_document.hpp"
@@ -536,6 +538,45 @@ void check_opening(Checker& checker, const Input& input) {
     checker.report("diagram.thickness", "fills the opening", below);
 }
 
+/// Nodes are close enough together for a bond, see `node_spacing.hpp`.
+void check_bond(Checker& checker, const Input& input) {
+  if (!input.lining || !(input.lining->tensile_bond > 0)) return;
+  for (const char* key : {"support.lining", "tunnel", "diagram"})
+    if (checker.faulty(key)) return;
+  const LiningInput& lining = *input.lining;
+  double thinnest = lining.thickness;
+  if (input.diagram)
+    for (const double thickness : input.diagram->thickness)
+      if (thickness > 0) thinnest = std::min(thinnest, thickness);
+  const double length =
+      bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
+                     lining.interface_normal_stiffness);
+  const double perimeter = opening_of(input).perimeter();
+  const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
+               chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
+  const auto metres = [](double value) { return format_quantity(value, dimension::length); };
+  const std::string why = "the bond of a lining " + metres(thinnest) +
+                          " thick acts over L = (4 E I / kn)^(1/4) = " + metres(length);
+  const std::string others = "a softer interface, or no tensile_bond";
+  const std::string enough = format_quantity(least, dimension::number) +
+                             " to 2000, no farther apart than " +
+                             format_quantity(coarsest_bonded_spacing, dimension::number) + " L";
+  if (lining.nodes ? *lining.nodes >= least : chosen <= 2000) return;
+  const std::string accepted = least > 2000 ? "a thicker lining, " + others : enough;
+  if (lining.nodes)
+    checker.report("support.lining.nodes",
+                   "puts nodes " + metres(perimeter / *lining.nodes) +
+                       " apart, too far to see the bond fail at the edge of a block: " + why,
+                   accepted + (chosen <= 2000 ? ", or no key nodes to have it chosen"
+                               : least > 2000 ? ""
+                                              : ", or " + others));
+  else
+    checker.report("support.lining",
+                   "has no key nodes, and " + format_quantity(chosen, dimension::number) +
+                       " would be chosen, more than 2000: " + why,
+                   least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
+}
+
 void check_boundary(Checker& checker, const Input& input) {
   if (checker.faulty("boundary")) return;
   const BoundaryInput& boundary = input.boundary;
@@ -754,6 +795,7 @@ Input read_input_text(std::string_view text, const std::string& name,
     return input;
   }
   check_opening(checker, input);
+  check_bond(checker, input);
   check_boundary(checker, input);
   check_size(checker, input);
   if (input.bolts) check_bolts(checker, *input.bolts);

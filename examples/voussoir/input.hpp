@@ -13,6 +13,7 @@
 #include <vector>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/farfield/far_field.hpp>
+#include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/theory/foot_beam.hpp>
 
@@ -205,7 +206,9 @@ struct LiningInput {
   /// Bond to the rock until it fails [Pa], 100 to 1e9; 0: none. In tension no more than friction
   /// makes of the shear bond, c / tan(phi).
   double shear_bond = 0, tensile_bond = 0;
-  /// On the full ring, 8 to 2000; left out: as many as facets, or more where joints are closer.
+  /// On the full ring, 8 to 2000, for a tensile bond no farther apart than
+  /// `coarsest_bonded_spacing`; left out: as many as facets, or more where joints are closer or the
+  /// bond needs them.
   std::optional<int> nodes;
   std::optional<ArcInput> arc;    ///< default: the full ring
   std::optional<FeetInput> feet;  ///< of an arc alone
@@ -264,6 +267,9 @@ struct Input {
   [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
 };
+
+/// The outline of the tunnel. @pre its keys are read without fault
+[[nodiscard]] SimplePolygon opening_of(const Input& input);
 
 /// Of joints and of blocks: minutes and gigabytes beyond.
 inline constexpr double largest_count = 1e6;

@@ -244,6 +244,7 @@ std::string run_json(const Input& input, const RunResult& run) {
     json["lining"] = {{"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
+  if (run.bonded_nodes > 0) json["lining"]["nodes_chosen_for_the_bond"] = run.bonded_nodes;
   for (const auto& foot : foot_forces(run.tunnel)) {
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
                                       {"y_m", foot.place.y()},
@@ -341,6 +342,9 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);
+  if (run.bonded_nodes > 0)
+    out += "         " + std::to_string(run.bonded_nodes) + " nodes on the full ring, " +
+           text("%.3g m apart, chosen for the bond\n", run.opening.perimeter() / run.bonded_nodes);
   if (const auto feet = foot_forces(run.tunnel); !feet.empty()) {
     out += "feet    ";
     for (const auto& foot : feet)

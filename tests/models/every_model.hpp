@@ -113,6 +113,11 @@ template <>
 inline CoulombJoint interface_law() {
   return CoulombJoint({5e9, 5e8, 30 * degree});
 }
+// A soft layer: on a stiff one a bond would need more nodes than all else here.
+template <>
+inline MohrCoulombJoint interface_law() {
+  return MohrCoulombJoint({1e7, 1e7, 35 * degree, 5e4, 2e4});
+}
 template <>
 inline AxialBolt law() {
   return AxialBolt({.axial_stiffness = 2e8, .yield_force = 1.5e4});

@@ -71,6 +71,10 @@ TEST_SUITE("program/bad_input") {
         {"\"30 deg\" }",
          "\"30 deg\", shear_bond = \"0.5 MPa\", tensile_bond = \"2 MPa\" }",
          {"support.lining.interface.tensile_bond", "more than shear_bond / tan(friction)"}},
+        // 12.5 m of wall, L = 0.2556 m.
+        {"\"30 deg\" }",
+         "\"30 deg\", shear_bond = \"0.5 MPa\", tensile_bond = \"0.2 MPa\" }\nnodes = 40",
+         {"support.lining.nodes = 40", "41 to 2000", "1.2 L"}},
         {"E = \"25 GPa\"",
          "E = \"25 GPa\"\nfeet.stiffness = \"2 GPa/m\"",
          {"support.lining.feet", "a full ring has none", "a key arc"}},

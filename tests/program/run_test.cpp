@@ -311,6 +311,27 @@ TEST_SUITE("program/run") {
     CHECK(thrust(relaxed) < 0.7 * thrust(wished));
   }
 
+  // 24 chords of a circle 4 m wide; 8 cm of 25 GPa on 1 GPa/m.
+  TEST_CASE("a bonded lining has the nodes that its bond needs, and the run says how many") {
+    const double perimeter = 24 * 4 * std::sin(7.5 * deg),
+                 length = std::pow(4 * 25e9 * 0.08 * 0.08 * 0.08 / 12 / 1e9, 0.25);
+    const int chosen = static_cast<int>(std::ceil(perimeter / (0.4 * length)));
+    REQUIRE(chosen == 123);
+    InputText input;
+    input.lining = replaced(input.lining, "\"30 deg\" }",
+                            "\"30 deg\", shear_bond = \"0.5 MPa\", tensile_bond = \"0.2 MPa\" }");
+    const Results r = results_of(input.text());
+    CHECK(r.json.at("lining").at("nodes_chosen_for_the_bond") == chosen);
+    CHECK(table(r.files.at("lining.csv")).size() == static_cast<std::size_t>(chosen));
+    CHECK(r.outcome.out.find("123 nodes on the full ring, 0.102 m apart, chosen for the bond") !=
+          std::string::npos);
+    // Given, or without a bond, it says nothing of them.
+    CHECK_FALSE(supported_results().json.at("lining").contains("nodes_chosen_for_the_bond"));
+    const Results given = results_of(input.text(), {"--set", "support.lining.nodes=60"});
+    CHECK(table(given.files.at("lining.csv")).size() == 60);
+    CHECK_FALSE(given.json.at("lining").contains("nodes_chosen_for_the_bond"));
+  }
+
   TEST_CASE("a horseshoe, a polygon and a partial lining run") {
     InputText horseshoe, polygon, arch;
     horseshoe.shape = "shape = \"horseshoe\"\nwidth = \"4 m\"\nwall_height = \"2 m\"\n";

@@ -3,12 +3,23 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/rock_on_lining.hpp>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/dynamics/moving_rock.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/lining/beams.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/chosen_nodes.hpp>
+#include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 
 #include "support/degree.hpp"
@@ -36,28 +47,49 @@ struct Strip {
            (1 + fall * (std::sin(x) - std::cos(x)));
   }
 
-  /// Whether the block stays, and nothing of the bond breaks.
-  [[nodiscard]] bool holds(int nodes, double bond) const {
-    // Beside it rock on springs a thousand times stiffer; joints without friction and stress.
+  [[nodiscard]] double bending_length() const {
+    return voussoir::bending_length(section().bending_stiffness, stiffness);
+  }
+  [[nodiscard]] static LiningSection section() {
+    return LiningSection::rectangular(thickness, young);
+  }
+  /// @param tensile_strength  of the interface [Pa]
+  [[nodiscard]] MohrCoulombJoint interface(double tensile_strength) const {
+    return MohrCoulombJoint({.joint_normal_stiffness = stiffness,
+                             .joint_shear_stiffness = stiffness,
+                             .friction_angle = 30 * degree,
+                             .cohesion = 1e9,
+                             .tensile_strength = tensile_strength});
+  }
+  [[nodiscard]] static SimplePolygon opening() {
+    return SimplePolygon(
+        {{-0.5 * span, -side}, {0.5 * span, -side}, {0.5 * span, 0}, {-0.5 * span, 0}});
+  }
+  /// In the roof alone; without a number the nodes are to be chosen.
+  [[nodiscard]] static LiningRing roof(std::optional<int> nodes) {
+    return {
+        .nodes = nodes, .from = 34 * degree, .to = 146 * degree, .centre = Vec2(0, -0.5 * side)};
+  }
+  /// Beside the block rock on springs a thousand times stiffer; joints without friction and stress.
+  template <class Tunnel>
+  [[nodiscard]] Tunnel rock() const {
     std::vector<Joint> joints;
     for (const double x : {0.03 - 0.5 * width, 0.03 + 0.5 * width})
       joints.push_back({Segment{{x, -20}, {x, 20}}, 0});
-    Solver<Planar, RockOnLining<MohrCoulombJoint>> tunnel(
-        slice({{-8, -8}, {8, height}}, joints, {.min_inscribed_radius = 1e-3}),
-        CoulombJoint({1e12, 1e11, 0}), {.density = density, .k0 = 0, .gravity = gravity});
-    tunnel.excavate(SimplePolygon(
-        {{-0.5 * span, -side}, {0.5 * span, -side}, {0.5 * span, 0}, {-0.5 * span, 0}}));
-    const LiningRing roof{
-        .nodes = nodes, .from = 34 * degree, .to = 146 * degree, .centre = Vec2(0, -0.5 * side)};
-    tunnel.install_lining(lining_frame(tunnel.mass(), roof),
-                          LiningSection::rectangular(thickness, young),
-                          MohrCoulombJoint({.joint_normal_stiffness = stiffness,
-                                            .joint_shear_stiffness = stiffness,
-                                            .friction_angle = 30 * degree,
-                                            .cohesion = 1e9,
-                                            .tensile_strength = bond}));
+    return Tunnel(slice({{-8, -8}, {8, height}}, joints, {.min_inscribed_radius = 1e-3}),
+                  CoulombJoint({1e12, 1e11, 0}), {.density = density, .k0 = 0, .gravity = gravity});
+  }
+
+  /// Whether the block stays, and nothing of the bond breaks.
+  template <class Method = TwoLevel>
+  [[nodiscard]] bool holds(int nodes, double bond) const {
+    using Tunnel = Solver<Planar, RockOnLining<MohrCoulombJoint>, Method>;
+    auto tunnel = rock<Tunnel>();
+    tunnel.excavate(opening());
+    tunnel.install_lining(lining_frame(tunnel.mass(), roof(nodes)), section(), interface(bond));
     const EquilibriumReport report = tunnel.equilibrium(0);
-    // A strip that has come off in part may still carry a block at its ends: by more than a sag.
+    // A strip that has come off in part may still carry a block at its ends, or wedged between the
+    // walls, for a beam does not break: by more than a sag.
     return report.verdict == Verdict::stable && report.fallen.empty() &&
            report.lost_nodes.empty() && report.largest_displacement < 5e-3;
   }
@@ -81,6 +113,74 @@ TEST_SUITE("solver/bonded_lining") {
       CHECK(strip.holds(nodes, 1.06 * strip.bond_needed()));
       CHECK_FALSE(strip.holds(nodes, 0.98 * strip.bond_needed()));
     }
+  }
+
+  // 200 nodes are 0.33 L apart, which the mesh chosen is no coarser than. Relaxation commits what
+  // breaks on its way and asks for no error estimate: on meshes twice as coarse it needs 1.3 times
+  // the bond, on the safe side.
+  TEST_CASE_TEMPLATE("every procedure finds it", Method, TwoLevel, Relaxation, Explicit) {
+    const Strip strip{1.5, 1e9};
+    CHECK(strip.holds<Method>(200, 1.06 * strip.bond_needed()));
+    CHECK_FALSE(strip.holds<Method>(200, 0.98 * strip.bond_needed()));
+  }
+
+  TEST_CASE("nodes too far apart for a bond are refused, at rest and in motion") {
+    const Strip strip{1.5, 1e9};
+    using Tunnel = Solver<RockOnLining<MohrCoulombJoint>>;
+    auto tunnel = strip.rock<Tunnel>();
+    tunnel.excavate(Strip::opening());
+    const double perimeter = 2 * (Strip::span + Strip::side), length = strip.bending_length();
+    const int least = static_cast<int>(std::ceil(perimeter / (1.2 * length)));
+    REQUIRE(least == 56);
+    const auto coarse = lining_frame(tunnel.mass(), Strip::roof(least - 1)),
+               fine = lining_frame(tunnel.mass(), Strip::roof(least));
+    const std::string refused =
+        "at most 1.2 L = 0.362565 m, nodes >= 56, or an interface without tensile strength";
+    const auto names_it = [&](auto&& install) {
+      try {
+        install();
+      } catch (const InvalidInput& fault) {
+        return std::string(fault.what()).find(refused) != std::string::npos;
+      }
+      return false;
+    };
+    CHECK(names_it([&] { tunnel.install_lining(coarse, Strip::section(), strip.interface(1e5)); }));
+    CHECK_NOTHROW(Tunnel(tunnel).install_lining(fine, Strip::section(), strip.interface(1e5)));
+    CHECK_NOTHROW(Tunnel(tunnel).install_lining(coarse, Strip::section(), strip.interface(0)));
+    auto run = moving_rock<MohrCoulombJoint>(tunnel.mass(), CoulombJoint({1e12, 1e11, 0}),
+                                             {.density = Strip::density, .k0 = 0});
+    LiningSection heavy = Strip::section();
+    heavy.mass = 250;
+    CHECK(names_it([&] {
+      (void)add_lining<EulerBernoulliBeam>(run, coarse, {heavy}, strip.interface(1e5),
+                                           Strip::thickness);
+    }));
+  }
+
+  TEST_CASE("nodes that are left out are chosen for the bond in a construction") {
+    const Strip strip{1.5, 1e9};
+    using Tunnel = Solver<RockOnLining<MohrCoulombJoint>>;
+    const double perimeter = 2 * (Strip::span + Strip::side), length = strip.bending_length();
+    for (const double bond : {0.0, 1e6}) {
+      CAPTURE(bond);
+      auto tunnel = strip.rock<Tunnel>();
+      Construction<Tunnel> plan;
+      plan.add_stage("all")
+          .excavate(Strip::opening())
+          .install_lining({Strip::roof({}), {Strip::section()}, strip.interface(bond)});
+      (void)construct(tunnel, plan);
+      const double spacing = (tunnel.system().body(tunnel.first_lining_node()).centre -
+                              tunnel.system().body(tunnel.first_lining_node() + 1).centre)
+                                 .norm();
+      // Of a straight roof: the perimeter over a whole number, rounded at 1e-15 m.
+      CHECK(spacing * (bond > 0 ? std::ceil(perimeter / (0.4 * length)) : 72) ==
+            doctest::Approx(perimeter).epsilon(1e-12));
+    }
+    // As stiff as this a strip 1 mm thick would need 2.6 times as many nodes as there may be.
+    CHECK_THROWS_WITH_AS(
+        (void)with_chosen_nodes<2>({}, Strip::opening(), LiningSection::rectangular(1e-3, 25e9),
+                                   strip.interface(1e5)),
+        doctest::Contains("at least 1745"), InvalidInput);
   }
 }
 

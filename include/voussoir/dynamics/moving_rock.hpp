@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <vector>
+#include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/contact/laws_by_set.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
@@ -14,6 +15,7 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/model/bolt_crossings.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
@@ -109,7 +111,7 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 /// @param feet       on which its ends stand; none: they hang free
 /// @return  the lining, which the run holds too: forces are read there
 /// @throws InvalidInput  a thickness or mass out of range; a member without
-///                       length or section; no rock at the wall
+///                       length or section; no rock at the wall; nodes too far apart for a bond
 template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
     Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
@@ -124,6 +126,8 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
     require(section.mass > 0 && std::isfinite(section.mass), "mass of a lining that moves",
             section.mass, "> 0 kg per metre of it");
   constexpr bool is_pinned = is_pinned_lining<Lining>();
+  if (!is_pinned && holds_tension<dim>(interface_law))
+    require_nodes_for_bond(frame, sections, interface_law.joint_normal_stiffness());
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
   const LiningSurface<Geometry> surface(
       frame, thickness, [&](int b) { return run.motion(b); },

@@ -64,6 +64,8 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> joints{};
   /// Its ends; one that goes on in a lining that stands is none.
   std::vector<LiningEnd<Geometry>> ends{};
+  /// Nodes of the full outline, of which it may be an arc; 0: it was made in another way.
+  int count_on_outline = 0;
 
   /// Of a node, or of a neighbour behind them.
   [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {

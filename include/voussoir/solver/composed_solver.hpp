@@ -114,7 +114,9 @@ class ComposedSolver {
   /// @param interface_law  rock on lining
   /// @param feet  on which those ends stand that do not go on in a lining; none: they hang free
   /// @return  ends that hang free because the rock under their foot has fallen [m]
-  /// @throws InvalidInput  a member has no length, no rock touches it, or was ever under its feet
+  /// @throws InvalidInput  a member has no length, no rock touches it, or was ever under its feet;
+  ///                       the interface holds tension, and nodes are farther apart than
+  ///                       `coarsest_bonded_spacing`
   std::vector<Vec<dim>> install_lining(const LiningFrame<Geometry>& frame,
                                        const LiningSection& section,
                                        const InterfaceLaw& interface_law,

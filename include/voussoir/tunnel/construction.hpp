@@ -16,6 +16,8 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
+#include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/tunnel/chosen_nodes.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
@@ -175,6 +177,25 @@ using StageProgress = std::function<bool(const std::string& stage, double fracti
 
 namespace detail {
 
+/// The frame of a lining, with as many nodes as its bond needs where it gives no number.
+/// @throws InvalidInput  see `lining_frame`, `with_chosen_nodes`
+template <class Solver>
+[[nodiscard]] LiningFrame<typename Solver::Geometry> frame_of(
+    const RockMass<typename Solver::Geometry>& mass, const LiningInstallation<Solver>& lining) {
+  if (mass.openings.empty() || lining.sections.empty() ||
+      is_pinned_lining<typename Solver::Lining>())
+    return lining_frame(mass, lining.layout);
+  const auto& opening = lining.opening ? *lining.opening : mass.openings.back();
+  auto layout = lining.layout;
+  const LiningSection& across = lining.sections.front();
+  if constexpr (Solver::dim == 2)
+    layout = with_chosen_nodes<2>(layout, opening, across, lining.interface_law);
+  else
+    layout.ring = with_chosen_nodes<3>(layout.ring, opening.section(), across, lining.interface_law,
+                                       layout.spacing);
+  return lining_frame(mass, opening, layout);
+}
+
 /// @throws InvalidInput  see the calls; Stopped
 template <class Solver>
 void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress,
@@ -189,10 +210,8 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
       result.bars.push_back(bar);
     }
   for (const auto& lining : stage.linings)
-    for (const auto& end : solver.install_lining(
-             lining.opening ? lining_frame(solver.mass(), *lining.opening, lining.layout)
-                            : lining_frame(solver.mass(), lining.layout),
-             lining.sections, lining.interface_law, lining.feet))
+    for (const auto& end : solver.install_lining(frame_of(solver.mass(), lining), lining.sections,
+                                                 lining.interface_law, lining.feet))
       result.hanging_ends.push_back(end);
 }
 

@@ -68,6 +68,7 @@ class RibBuilder {
   }
 
   [[nodiscard]] LiningFrame<Spatial> build(bool tied) {
+    frame_.count_on_outline = static_cast<int>(nodes_.number.size());
     for (int row = 0; row < rows_; ++row)
       for (int n = 0; n < ring_; ++n) {
         const auto here = static_cast<std::size_t>(n);

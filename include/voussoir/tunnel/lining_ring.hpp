@@ -18,10 +18,15 @@
 
 namespace voussoir {
 
+/// Nodes on the full outline of a lining: where no number is given, and at most.
+inline constexpr int default_lining_nodes = 72, most_lining_nodes = 2000;
+
 /// A lining along the wall: the full ring, or an arc of it about the centre of the opening. An arc
 /// next to one that stands on the same outline, with as many nodes, joins it.
 struct LiningRing {
-  int nodes = 72;                    ///< on the full outline; evenly spaced, 8 to 2000
+  /// On the full outline, evenly spaced, 8 to 2000; none: 72, or what a bond to the rock needs
+  /// (`with_chosen_nodes`, asked by `construct`).
+  std::optional<int> nodes{};
   double from = 0;                   ///< [rad], anticlockwise from the right-hand springing
   double to = 2 * std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
   std::optional<Vec2> centre{};      ///< about which angles are counted [m]; none: see `centre_of`
@@ -203,11 +208,12 @@ namespace detail {
 }
 
 VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningRing& ring) {
-  require(ring.nodes >= 8 && ring.nodes <= 2000, "lining nodes", ring.nodes, "8 to 2000");
+  const int count = ring.nodes.value_or(default_lining_nodes);
+  require(count >= 8 && count <= most_lining_nodes, "lining nodes", count, "8 to 2000");
   const double circle = 2 * std::numbers::pi, arc = ring.to - ring.from;
   require(arc > 0 && arc <= circle * (1 + 1e-12), "lining arc", arc, "> 0 and <= 2 pi rad");
   RingNodes nodes;
-  const double stretch = nodes.stretch = opening.perimeter() / ring.nodes;
+  const double stretch = nodes.stretch = opening.perimeter() / count;
   nodes.offset = ring_offset(opening, stretch);
   const auto point_at = [&](double s) {
     s = std::fmod(s + nodes.offset, opening.perimeter());
@@ -220,33 +226,33 @@ VOUSSOIR_INLINE RingNodes ring_nodes(const SimplePolygon& opening, const LiningR
   };
   const bool closed = nodes.closed = arc > circle * (1 - 1e-9);
   const Vec2 centre = ring.centre.value_or(centre_of(opening));
-  nodes.number.assign(static_cast<std::size_t>(ring.nodes), -1);
+  nodes.number.assign(static_cast<std::size_t>(count), -1);
   // Start behind the gap of a partial ring, so that consecutive nodes are neighbours.
   const auto inside = [&](const Vec2& p) {
     const double angle = elementary::angle_of(p.y() - centre.y(), p.x() - centre.x()) - ring.from;
     return closed || angle - circle * std::floor(angle / circle) <= arc;
   };
   int start = 0;
-  for (int k = 0; !closed && k < ring.nodes; ++k)
+  for (int k = 0; !closed && k < count; ++k)
     if (inside(point_at((k + 0.5) * stretch)) &&
-        !inside(point_at(((k + ring.nodes - 1) % ring.nodes + 0.5) * stretch)))
+        !inside(point_at(((k + count - 1) % count + 0.5) * stretch)))
       start = k;
-  for (int i = 0; i < ring.nodes; ++i) {
-    const int k = (start + i) % ring.nodes;
+  for (int i = 0; i < count; ++i) {
+    const int k = (start + i) % count;
     const Vec2 p = point_at((k + 0.5) * stretch);
     if (!inside(p)) continue;
     const int node = static_cast<int>(nodes.places.size());
     nodes.number[static_cast<std::size_t>(k)] = node;
     nodes.places.push_back(p);
     // An outline that turns back can leave the arc and come again: no member across the gap.
-    const int before = nodes.number[static_cast<std::size_t>((k + ring.nodes - 1) % ring.nodes)];
+    const int before = nodes.number[static_cast<std::size_t>((k + count - 1) % count)];
     if (node > 0) nodes.joined.push_back(before == node - 1);
   }
   if (nodes.places.size() < 2) throw InvalidInput("lining: fewer than two nodes lie in the arc");
   nodes.joined.push_back(closed);
-  for (int k = 0; k < ring.nodes; ++k)
+  for (int k = 0; k < count; ++k)
     for (const int step : {-1, 1}) {
-      const int next = (k + step + ring.nodes) % ring.nodes;
+      const int next = (k + step + count) % count;
       if (nodes.number[static_cast<std::size_t>(k)] >= 0 &&
           nodes.number[static_cast<std::size_t>(next)] < 0)
         nodes.neighbours.push_back({nodes.number[static_cast<std::size_t>(k)],
@@ -288,6 +294,7 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
   const detail::RingNodes nodes = detail::ring_nodes(opening, ring);
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
+  frame.count_on_outline = ring.nodes.value_or(default_lining_nodes);
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
     if (nodes.joined[n])
       frame.members.push_back(

@@ -17,6 +17,7 @@
 #include <voussoir/lining/frame_element.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/model/lining_feet.hpp>
 #include <voussoir/model/lining_members.hpp>
 #include <voussoir/model/lining_surface.hpp>
@@ -46,7 +47,7 @@ class LiningAssembly {
   /// @return  ends without a foot because the rock under them has fallen [m]
   /// @throws InvalidInput  a member has no length, no rock touches the lining, or was ever under
   /// its
-  ///                       feet
+  ///                       feet; nodes are too far apart for a bond
   std::vector<Vec<dim>> run(const LiningFrame<Geometry>& wanted,
                             const std::vector<LiningSection>& sections,
                             const InterfaceLaw& interface_law,
@@ -54,6 +55,9 @@ class LiningAssembly {
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
+    if constexpr (!is_pinned_lining<Lining>())
+      if (holds_tension<dim>(interface_law))
+        require_nodes_for_bond(wanted, sections, interface_law.joint_normal_stiffness());
     const LiningFrame<Geometry> beside = with_shared_ends(
         wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
     std::vector<int> standing;
