@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/message.hpp>
 
 #include "all_blocks_in_motion.hpp"
 
@@ -67,9 +68,8 @@ std::vector<Row> rows_of(const std::vector<std::string>& lines) {
     if (line == lines.front()) continue;
     const std::vector<std::string> cells = cells_of(line);
     if (cells.size() != head.size())
-      throw voussoir::InvalidInput("a row of " + std::to_string(cells.size()) +
-                                   " cells in a table of " + std::to_string(head.size()) +
-                                   " columns: " + line);
+      throw voussoir::InvalidInput(voussoir::message(
+          {"a row of ", cells.size(), " cells in a table of ", head.size(), " columns: ", line}));
     Row& row = rows.emplace_back();
     for (std::size_t k = 0; k < head.size(); ++k) row[head[k]] = cells[k];
   }
