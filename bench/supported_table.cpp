@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Supported tunnels that nobody picked: the rock of failure_cases.hpp with bolts and linings drawn
-// from the number of the case, built in two stages, by TwoLevel and by Explicit. One line a case as
-// CSV; counts at the end on the error stream.
-//   supported_table [FIRST] [COUNT] [THREADS] [STEPS]      default: 0 200 1 1
+// from the number of the case, built in two stages, by TwoLevel, by Explicit and by the varied
+// reference (all_blocks_in_motion.hpp). One line a case as CSV; counts at the end on the error
+// stream.
+//   supported_table [FIRST] [COUNT] [THREADS] [STEPS] [REFERENCES] [EVERY]
+//                                             default: 0 200 1 1 2 1; hours
+//   supported_table counts FILE...    of pieces that were written before: cases FIRST, FIRST +
+//   EVERY
 // With STEPS each of the two stages is unloaded in so many equal steps: what hangs on the path.
+// With 1 reference nothing is varied, with 0 there is none: minutes.
 //
 //   bolts    in three of four cases: 0.3 to 0.6 spans long, 0.8 to 2 m apart, over the roof
 //   lining   closed ring, arch on feet, or two arcs with a gap at the crown; 5 to 30 cm of 10 to 30
@@ -14,21 +19,26 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "all_blocks_in_motion.hpp"
 #include "failure_cases.hpp"
+#include "reference_counts.hpp"
 #include "whole_number.hpp"
 
 namespace {
@@ -69,9 +79,10 @@ SupportCase support_case(const FailureCase& rock) {
 }
 
 struct Answer {
-  std::string verdict = "fault";
+  std::string verdict = "-";
   double fallen = 0, crown = 0, thrust = 0, bolts = 0;
   double seconds = 0;
+  std::optional<RockfallRange> range;
 };
 
 /// The same with every stage in equal steps of its traction.
@@ -95,13 +106,16 @@ Construction<Tunnel> in_steps(const Construction<Tunnel>& plan, int steps) {
 }
 
 template <class Method>
-Answer build(const FailureCase& rock, const SupportCase& support, int steps) {
+Answer build(const FailureCase& rock, const SupportCase& support, int steps,
+             const Method& method = Method()) {
   using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, Method>;
   const auto start = std::chrono::steady_clock::now();
   Answer answer;
+  answer.verdict = "fault";
   try {
     Tunnel tunnel(rock_of(rock), CoulombJoint(rock.joint), rock.in_situ);
     Construction<Tunnel> plan;
+    plan.method = method;
     plan.acceptance.collapse_measure = collapse_measure_of(rock.opening);
     plan.add_stage("excavation", support.relaxed).excavate(rock.opening);
     auto& stage = plan.add_stage("support");
@@ -140,6 +154,7 @@ Answer build(const FailureCase& rock, const SupportCase& support, int steps) {
     if (built.verdict() == Verdict::undecided)
       std::fprintf(stderr, "case %d: %s\n", rock.number, built.last().reason.c_str());
     answer.fallen = built.fallen_measure();
+    answer.range = built.rockfall_range();
     answer.crown = built.stages.back().convergence.crown;
     answer.thrust = demand.mean_thrust;
     answer.bolts = demand.mean_bolt_force;
@@ -161,37 +176,31 @@ double apart(double a, double b, double floor) {
   return std::abs(a - b) / largest;
 }
 
-}  // namespace
+TwoLevel with_range() {
+  TwoLevel::Params params;
+  params.motion.range = RangeSought::all;
+  return TwoLevel(params);
+}
 
-int main(int argc, char** argv) {
-  const int first = argc > 1 ? number_of(argv[1]) : 0, count = argc > 2 ? number_of(argv[2]) : 200,
-            threads = argc > 3 ? number_of(argv[3]) : 1, steps = argc > 4 ? number_of(argv[4]) : 1;
-  if (argc > 5 || first < 0 || count < 1 || threads < 1 || steps < 1)
-    return std::fputs(
-               "usage: supported_table [FIRST >= 0] [COUNT >= 1] [THREADS >= 1] [STEPS >= 1]\n",
-               stderr),
-           2;
-  std::puts(
-      "case,shape,span_m,cover_m,k0,friction_deg,lining,thickness_m,bond_MPa,bolt_length_m,relaxed,"
-      "two_level,two_level_m2,two_level_crown_mm,two_level_thrust_kN,two_level_bolts_kN,two_level_s,"
-      "explicit,explicit_m2,explicit_crown_mm,explicit_thrust_kN,explicit_bolts_kN,explicit_s");
-  std::mutex guard;
+const std::vector<std::string> procedure_names = {"two_level", "explicit"};
+
+std::string head() {
+  std::string text =
+      "case,shape,span_m,cover_m,k0,friction_deg,lining,thickness_m,bond_MPa,bolt_length_m,relaxed";
+  for (const std::string& name : procedure_names)
+    for (const char* part : {"", "_m2", "_crown_mm", "_thrust_kN", "_bolts_kN", "_s"})
+      text.append(",").append(name).append(part);
+  text += ",marginal,least_m2,most_m2,another_verdict,marginal_s";
+  for (const Variation& variation : variations)
+    for (const char* part : {"", "_m2", "_s"}) text.append(",").append(variation.name).append(part);
+  return text;
+}
+
+/// How the two procedures agree with each other.
+struct Agreement {
   int same = 0, undecided = 0, stable = 0, close = 0, near = 0;
-  parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
-    const FailureCase rock = failure_case(first + static_cast<int>(k));
-    const SupportCase support = support_case(rock);
-    const Answer a = build<TwoLevel>(rock, support, steps),
-                 b = build<Explicit>(rock, support, steps);
-    const std::scoped_lock lock(guard);
-    std::printf("%d,%s,%.2f,%.1f,%.2f,%.1f,%s,%.3f,%.2f,%.2f,%.2f", rock.number, rock.shape.c_str(),
-                rock.span, rock.cover, rock.k0, rock.joint.friction_angle / degree,
-                support.lining.c_str(), support.thickness, 1e-6 * support.bond, support.bolt_length,
-                support.relaxed);
-    for (const Answer* it : {&a, &b})
-      std::printf(",%s,%.3g,%.4f,%.2f,%.3f,%.2f", it->verdict.c_str(), it->fallen, 1e3 * it->crown,
-                  1e-3 * it->thrust, 1e-3 * it->bolts, it->seconds);
-    std::printf("\n");
-    std::fflush(stdout);
+
+  void add(const FailureCase& rock, const Answer& a, const Answer& b) {
     same += a.verdict == b.verdict;
     undecided += (a.verdict == "undecided") + (b.verdict == "undecided");
     if (a.verdict != "stable" || b.verdict != "stable") return;
@@ -202,10 +211,72 @@ int main(int argc, char** argv) {
                                    apart(a.bolts, b.bolts, weight)});
     close += worst <= 0.01;
     near += worst <= 0.05;
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 2 && std::strcmp(argv[1], "counts") == 0) {
+    print_counts(lines_of({argv + 2, argv + argc}), procedure_names);
+    return 0;
+  }
+  const int first = argc > 1 ? number_of(argv[1]) : 0, count = argc > 2 ? number_of(argv[2]) : 200,
+            threads = argc > 3 ? number_of(argv[3]) : 1, steps = argc > 4 ? number_of(argv[4]) : 1,
+            references = argc > 5 ? number_of(argv[5]) : 2,
+            every = argc > 6 ? number_of(argv[6]) : 1;
+  if (argc > 7 || first < 0 || count < 1 || threads < 1 || steps < 1 || references < 0 ||
+      references > 2 || every < 1)
+    return std::fputs(
+               "usage: supported_table [FIRST >= 0] [COUNT >= 1] [THREADS >= 1] [STEPS >= 1] "
+               "[REFERENCES 0 to 2] [EVERY >= 1]\n       supported_table counts FILE...\n",
+               stderr),
+           2;
+  std::vector<std::string> lines = {head()};
+  std::puts(lines.front().c_str());
+  std::mutex guard;
+  Agreement agreement;
+  parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
+    const FailureCase rock = failure_case(first + every * static_cast<int>(k));
+    const SupportCase support = support_case(rock);
+    const Answer a = build<TwoLevel>(rock, support, steps),
+                 b = build<Explicit>(rock, support, steps),
+                 ranged = build<TwoLevel>(rock, support, steps, with_range());
+    std::vector<Answer> motion(std::size(variations));
+    for (std::size_t v = 0; v < motion.size(); ++v)
+      if (references > 1 || (references > 0 && v == 0))
+        motion[v] =
+            build<AllBlocksInMotion>(rock, support, steps, AllBlocksInMotion(variations[v].motion));
+    char text[200];
+    std::snprintf(text, sizeof text, "%d,%s,%.2f,%.1f,%.2f,%.1f,%s,%.3f,%.2f,%.2f,%.2f",
+                  rock.number, rock.shape.c_str(), rock.span, rock.cover, rock.k0,
+                  rock.joint.friction_angle / degree, support.lining.c_str(), support.thickness,
+                  1e-6 * support.bond, support.bolt_length, support.relaxed);
+    std::string line = text;
+    for (const Answer* it : {&a, &b}) {
+      std::snprintf(text, sizeof text, ",%s,%.3g,%.4f,%.2f,%.3f,%.2f", it->verdict.c_str(),
+                    it->fallen, 1e3 * it->crown, 1e-3 * it->thrust, 1e-3 * it->bolts, it->seconds);
+      line += text;
+    }
+    const RockfallRange range = ranged.range.value_or(RockfallRange{ranged.fallen, ranged.fallen});
+    std::snprintf(text, sizeof text, ",%d,%.4g,%.4g,%d,%.3g", range.is_marginal(), range.low,
+                  range.high, range.has_other_verdict, ranged.seconds);
+    line += text;
+    for (const Answer& it : motion) {
+      std::snprintf(text, sizeof text, ",%s,%.4g,%.3g", it.verdict.c_str(), it.fallen, it.seconds);
+      line += text;
+    }
+    const std::scoped_lock lock(guard);
+    lines.push_back(line);
+    std::puts(line.c_str());
+    std::fflush(stdout);
+    agreement.add(rock, a, b);
   });
   std::fprintf(stderr,
                "%d cases: same verdict in %d, undecided answers %d; stable in both %d, crown, mean "
                "thrust and bolts within 1 %% in %d of these, within 5 %% in %d\n",
-               count, same, undecided, stable, close, near);
+               count, agreement.same, agreement.undecided, agreement.stable, agreement.close,
+               agreement.near);
+  if (references > 1) print_counts(lines, procedure_names);
   return 0;
 }

@@ -200,7 +200,7 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
                  : "Error of the displacements not estimated. ") +
       "Arrows: rock falls, the rest stands; red crosses: collapse." +
       (marginal > 0
-           ? " Rings: marginal, another displacement limit or slower unloading changes what falls."
+           ? " Rings: marginal, another displacement limit, other damping or slower unloading changes what falls."
            : "")};
   picture.header.key_numbers = {
       bolt_length(plan), {"tunnels with detached blocks", std::to_string(failed) + " of " + count}};
@@ -242,7 +242,7 @@ std::string realised_svg(const CasePlan& plan, const std::vector<Place>& places,
       " Arrows: in at least one realisation rock falls; red crosses: in "
       "at least one the tunnel collapses." +
       (marginal > 0
-           ? " Rings: at least one is marginal, another displacement limit or slower unloading changes what falls."
+           ? " Rings: at least one is marginal, another displacement limit, other damping or slower unloading changes what falls."
            : "")};
   picture.header.key_numbers = {
       bolt_length(plan),
@@ -299,7 +299,8 @@ std::string tunnels_summary(const CasePlan& plan, const std::vector<Place>& plac
                     std::to_string(results.front().blocks) +
                     " blocks; R: stable after rockfall, C: collapse, ?: undecided\n";
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.marginal; }))
-    out += "~: marginal, another displacement limit or slower unloading changes what falls\n";
+    out +=
+        "~: marginal, another displacement limit, other damping or slower unloading changes what falls\n";
   out += "\n" + table_text(plan, places, [](const Place& place) {
            const TunnelResult& r = place.tunnels.front();
            const char* const mark = !r.is_decided()                  ? " ?"

@@ -108,7 +108,7 @@ std::string margin_text(const RunResult& run) {
   if (!range || !range->is_marginal()) return "";
   return text("%.2f", range->low) + text(" to %.2f m2", range->high) +
          (range->has_other_verdict ? ", and not the same verdict," : "") +
-         " with half and twice the displacement limit and slower unloading";
+         " with half and three times the displacement limit, other damping and slower unloading";
 }
 
 /// How much rock has come off, where, whether the rest stands without it, and how sure that is.
@@ -233,7 +233,8 @@ std::string run_json(const Input& input, const RunResult& run) {
     json["rockfall"] = {{"marginal", range->is_marginal()},
                         {"least_detached_area_m2", range->low},
                         {"most_detached_area_m2", range->high},
-                        {"another_verdict", range->has_other_verdict}};
+                        {"another_verdict", range->has_other_verdict},
+                        {"near_collapse", range->is_near_collapse}};
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},

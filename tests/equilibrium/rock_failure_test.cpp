@@ -107,7 +107,7 @@ TEST_SUITE("equilibrium/rock_failure") {
     tuning.patience *= share;
     return tuning;
   }
-  TEST_CASE("the range of what comes off holds stages with half and twice the limit") {
+  TEST_CASE("the range of what comes off holds stages with other limits and damping") {
     const Drawn drawn = drawn_tunnel(1);
     const Acceptance asked{.collapse_measure = collapse_measure_of(drawn.opening)};
     const auto report_of = [&](const MotionTuning& motion, const Acceptance& acceptance) {
@@ -127,19 +127,46 @@ TEST_SUITE("equilibrium/rock_failure") {
     const RockfallRange& range = *report.rockfall;
     CHECK(range.low <= report.fallen_measure);
     CHECK(range.high >= report.fallen_measure);
-    for (const double share : {0.5, 2.0}) {
-      CAPTURE(share);
-      Acceptance other = asked;
-      other.displacement_limit = share * report.displacement_limit;
-      const EquilibriumReport anew = report_of(tuning_for(share), other);
+    const auto check_holds = [&](const EquilibriumReport& anew) {
       CHECK(range.low <= anew.fallen_measure);
       CHECK(range.high >= anew.fallen_measure);
       if (anew.verdict != report.verdict) CHECK(range.has_other_verdict);
+    };
+    for (const double share : {0.5, 3.0}) {
+      CAPTURE(share);
+      Acceptance other = asked;
+      other.displacement_limit = share * report.displacement_limit;
+      check_holds(report_of(tuning_for(share), other));
     }
+    check_holds(report_of({.local_damping = 0.3}, asked));
     const EquilibriumReport brief = report_of({.range = RangeSought::until_marginal}, asked);
     REQUIRE(brief.rockfall);
     CHECK(brief.rockfall->is_marginal() == range.is_marginal());
     CHECK(brief.steps <= report.steps);
+  }
+  TEST_CASE("a verdict that hangs on what counts as a collapse says so") {
+    const Drawn drawn = drawn_tunnel(1);
+    const auto report_with = [&](double collapse) {
+      Solver<> tunnel = drawn.tunnel;
+      TwoLevel::Params params;
+      params.motion.range = RangeSought::all;
+      return tunnel.equilibrium(0, TwoLevel(params), {.collapse_measure = collapse});
+    };
+    const double fallen = report_with(1e3).fallen_measure;
+    REQUIRE(fallen > 0);
+    // The limit over what comes off where nothing ends it; whether the stage is near to it.
+    const auto check = [&](double share, Verdict verdict, bool is_near) {
+      CAPTURE(share);
+      const EquilibriumReport report = report_with(share * fallen);
+      CHECK(report.verdict == verdict);
+      REQUIRE(report.rockfall);
+      CHECK(report.rockfall->is_near_collapse == is_near);
+      CHECK((report.reason.find("near to a collapse") != std::string::npos) == is_near);
+    };
+    check(2, Verdict::stable, false);
+    check(1.05, Verdict::stable, true);    // 0.95 of the limit
+    check(0.95, Verdict::collapse, true);  // 1.05 of it
+    check(0.8, Verdict::collapse, false);  // 1.25 of it
   }
   TEST_CASE("a range is marginal where it is more than a tenth and a block, or the verdict turns") {
     RockfallRange range{1, 1.05, false, 0.2};
@@ -151,7 +178,9 @@ TEST_SUITE("equilibrium/rock_failure") {
     CHECK(!RockfallRange{10, 10.9, false, 0.2}.is_marginal());  // more than a block, not a tenth
     CHECK(RockfallRange{1, 1, true, 0.2}.is_marginal());
     CHECK(!RockfallRange{10, 30}.is_marginal());  // of a collapse: wherever it is ended
-    range.add({2, 2, true, 0.1});
+    CHECK(!range.is_near_collapse);
+    range.add({2, 2, true, 0.1, true});
+    CHECK(range.is_near_collapse);
     CHECK(range.low == 3);
     CHECK(range.high == 3.25);
     CHECK(range.has_other_verdict);

@@ -113,10 +113,12 @@ double solve_elastically(System& system, const SearchContext& context,
 }
 
 /// True, with the verdict, if more is detached than a tunnel can lose.
+/// @param share  of what that is [-], > 0
 template <int Dim>
-[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context) {
+[[nodiscard]] bool has_collapsed(EquilibriumReport& report, const SearchContext& context,
+                                 double share = 1) {
   VOUSSOIR_ASSERT(context.open_length > 0, "rock is lost over a length");
-  const double limit = context.acceptance.collapse_measure * context.open_length;
+  const double limit = share * context.acceptance.collapse_measure * context.open_length;
   if (!(report.fallen_measure > limit)) return false;
   const char* unit = Dim == 2 ? "m2" : "m3";
   char text[160];

@@ -7,15 +7,24 @@
 namespace voussoir {
 
 /// How much rock comes off in a stage that is followed in motion, and how much more or less it is
-/// with half and with twice the displacement limit, and with the walls unloaded at half the rate
-/// from where blocks begin to move. Where these differ the rock is marginal by nature, and no
-/// single figure is its answer.
+/// with half and with three times the displacement limit, and, from where blocks begin to move,
+/// with other damping (0.3 for 0.7) and with the walls unloaded at half the rate. Where these
+/// differ the rock is marginal by nature, and no single figure is its answer.
+///
+/// What they are was chosen by holding them against all blocks in motion, varied from the beginning
+/// on: docs/failure-patterns.md has how many marginal tunnels they find.
 struct RockfallRange {
-  double low = 0, high = 0;        ///< detached, over the four [m^2], [m^3]
+  static constexpr double near_collapse = 0.1;  ///< of what counts as a collapse [-]
+
+  double low = 0, high = 0;        ///< detached, over the five [m^2], [m^3]
   bool has_other_verdict = false;  ///< one of them stands and another does not, or is undecided
   /// A difference below it says nothing [m^2], [m^3]: a mean block. Of a collapse none does, which
   /// ends at whatever moment its limit is passed.
   double scale = std::numeric_limits<double>::infinity();
+  /// The verdict hangs on what counts as a collapse (`Acceptance::collapse_measure`): more than 0.9
+  /// of it has come off and the rest stands, or less than 1.1 of it had come off when the rest
+  /// would have come to rest. Asked for with `RangeSought::all` alone.
+  bool is_near_collapse = false;
 
   [[nodiscard]] bool is_marginal() const {
     return has_other_verdict || high - low > std::max(0.1 * high, scale);
@@ -26,6 +35,7 @@ struct RockfallRange {
     high += next.high;
     has_other_verdict = has_other_verdict || next.has_other_verdict;
     scale = std::max(scale, next.scale);
+    is_near_collapse = is_near_collapse || next.is_near_collapse;
   }
 };
 

@@ -21,12 +21,12 @@
 namespace voussoir {
 
 /// Whether a stage in which blocks come off, or nearly, is followed in other ways too, each from
-/// where it parts: with half and with twice the displacement limit, and at half the rate from where
-/// blocks become fast (`EquilibriumReport::rockfall`).
+/// where it parts: with half and with three times the displacement limit; with other damping, and
+/// at half the rate, from where blocks become fast (`EquilibriumReport::rockfall`).
 enum class RangeSought {
   none,
   until_marginal,  ///< no further than it takes to know whether it is
-  all,
+  all,             ///< and whether the stage is near to what counts as a collapse
 };
 
 /// What is true where rock fails: the stage as it happens, in time.
@@ -150,17 +150,18 @@ class UnloadingInMotion {
   /// @throws Stopped
   [[nodiscard]] std::optional<RockfallRange> range(EquilibriumReport& report) {
     if (!half_) return std::nullopt;
+    is_varied_ = true;
     RockfallRange range{report.fallen_measure, report.fallen_measure};
     if (report.verdict != Verdict::collapse) range.scale = mean_measure();
-    const auto vary = [&](std::optional<Fork>& fork, double limit, double slowness) {
+    if (tuning_.range == RangeSought::all) range.is_near_collapse = is_near_collapse(report);
+    const auto vary = [&](const std::optional<Fork>& fork, double limit, double slowness,
+                          double damping) {
       if (!fork || (tuning_.range == RangeSought::until_marginal && range.is_marginal())) return;
-      way_ = std::move(fork->way);
+      EquilibriumReport varied = go_back_to(*fork);
       way_.limit = limit;
       way_.slowness = slowness;
-      EquilibriumReport varied = fork->report;
-      run_.go_back_to(fork->run);
+      run_.set_local_damping(damping);
       const auto before = run_.steps();
-      fork.reset();
       try {
         if (follow(varied)) varied.verdict = Verdict::stable;
       } catch (const NumericalFault&) {
@@ -172,18 +173,22 @@ class UnloadingInMotion {
       range.high = std::max(range.high, varied.fallen_measure);
       range.has_other_verdict = range.has_other_verdict || varied.verdict != report.verdict;
     };
-    vary(half_, context_.carried + 0.5 * reach_, 1);
-    vary(twice_, context_.carried + 2 * reach_, 1);
-    vary(slow_, limit_, 2);
+    // The cheap ones first.
+    const double damping = tuning_.local_damping;
+    vary(half_, context_.carried + 0.5 * reach_, 1, damping);
+    vary(slow_ ? slow_ : half_, limit_, 1, damping > 0.5 ? 0.3 : 0.7);
+    vary(off_, context_.carried + 3 * reach_, 1, damping);
+    vary(slow_, limit_, 2, damping);
     return range;
   }
 
  private:
   /// What there is to know about a stage on its way, besides the run.
   struct Way {
-    double limit = 0;     ///< beyond which a block has come off [m]
-    double slowness = 1;  ///< of the ramp, times its duration
-    double done = 0;      ///< of the ramp
+    double limit = 0;           ///< beyond which a block has come off [m]
+    double slowness = 1;        ///< of the ramp, times its duration
+    double collapse_share = 1;  ///< of what counts as a collapse, at which the way ends
+    double done = 0;            ///< of the ramp
     std::vector<int> gone;
     std::vector<int> moving, fringe;  ///< and those that they touch
     double settled_at = 0;            ///< ratio up to which one that does not move is in balance
@@ -218,7 +223,7 @@ class UnloadingInMotion {
       }
       ask_to_go_on(context_);
       take_out(report);
-      if (has_collapsed<dim>(report, context_)) return false;
+      if (has_collapsed<dim>(report, context_, way_.collapse_share)) return false;
       if (way_.done >= 1 && rests(report)) return true;
     }
     report.reason =
@@ -227,8 +232,33 @@ class UnloadingInMotion {
     return false;
   }
 
+  /// Goes on with a collapse until much more has come off than it takes.
+  /// @param report  its effort is counted on
+  [[nodiscard]] bool is_near_collapse(EquilibriumReport& report) {
+    constexpr double near = RockfallRange::near_collapse;
+    const double limit = context_.acceptance.collapse_measure * context_.open_length;
+    if (report.verdict != Verdict::collapse) return report.fallen_measure >= (1 - near) * limit;
+    EquilibriumReport further = report;
+    way_.collapse_share = 1 + near;
+    const auto before = run_.steps();
+    try {
+      if (!has_collapsed<dim>(further, context_, way_.collapse_share)) (void)follow(further);
+    } catch (const NumericalFault&) {
+      return false;  // nothing is known
+    }
+    report.steps += static_cast<int>(run_.steps() - before);
+    report.elastic_solves = further.elastic_solves;
+    return further.fallen_measure <= way_.collapse_share * limit;
+  }
+
+  /// @return  the report of that moment, without the elastic solves before it
+  [[nodiscard]] EquilibriumReport go_back_to(const Fork& fork) {
+    way_ = fork.way;
+    run_.go_back_to(fork.run);
+    return fork.report;
+  }
   void fork(std::optional<Fork>& fork, const EquilibriumReport& report) {
-    if (tuning_.range == RangeSought::none || fork) return;
+    if (tuning_.range == RangeSought::none || is_varied_ || fork) return;
     fork.emplace(Fork{way_, run_.state(), report});
     fork->report.elastic_solves = 0;
   }
@@ -310,7 +340,7 @@ class UnloadingInMotion {
   void take_out(EquilibriumReport& report) {
     if (comes_off(context_.carried + 0.5 * reach_)) fork(half_, report);
     if (!comes_off(way_.limit)) return;
-    fork(twice_, report);
+    fork(off_, report);
     std::vector<int> off;
     for (int b = 0; b < run_.body_count(); ++b)
       if (is_rock(b) && has_left(b, way_.limit)) {
@@ -397,7 +427,8 @@ class UnloadingInMotion {
   Run run_;
   std::optional<ElasticBalance<System>> rest_of_rock_;
   Way way_;
-  std::optional<Fork> half_, twice_, slow_;
+  std::optional<Fork> half_, off_, slow_;
+  bool is_varied_ = false;  ///< the stage itself is over
   static constexpr int sound_every = 2000;  ///< steps between run diagnostics, which look at all
 };
 

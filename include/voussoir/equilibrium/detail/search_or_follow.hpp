@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/message_number.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
 #include <voussoir/equilibrium/displacement_limits.hpp>
@@ -99,6 +100,11 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
     throw;
   }
   say_why();
+  if (report.rockfall && report.rockfall->is_near_collapse)
+    report.reason +=
+        "; near to a collapse: the verdict is another with a tenth more or less than " +
+        message_number(context.acceptance.collapse_measure * context.open_length, 3) +
+        (System::dim == 2 ? " m2" : " m3") + " as its limit";
 }
 
 /// A stage from its beginning, for every solution procedure: what nothing holds is taken out, the
