@@ -22,7 +22,7 @@ TEST_SUITE("models/every_policy") {
                       RockOnLining<MohrCoulombJoint>, AnalyticCentre>());
   }
 
-  TEST_CASE("a solver of AnyLaw is that of the law behind it, bit for bit") {
+  TEST_CASE("AnyLaw is the law behind it, bit for bit") {
     const CoulombJoint joint({5e9, 5e8, 35 * degree});
     Solver<CoulombJoint> typed(small_rock<Planar>(), joint, small_in_situ);
     Solver<AnyLaw<2>> any(small_rock<Planar>(), AnyLaw<2>(joint), small_in_situ);
