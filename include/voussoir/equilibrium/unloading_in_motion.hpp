@@ -134,6 +134,7 @@ class UnloadingInMotion {
     bool rests = false;
     try {
       rests = follow(report);
+      report.motion = run_.energy();
       bring_to_rest(run_, system_, way_.gone);
     } catch (const NumericalFault& fault) {
       report.reason = std::string("the stage could not be followed in motion: ") + fault.what();

@@ -98,6 +98,10 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
                                      State state) const {
     return law_of(c).model().stored_energy(load, memory(state));
   }
+  [[nodiscard]] BondRelease<Dim> release_of(const Contact& c, const PointLoad<Dim>& load,
+                                            State state) const {
+    return law_of(c).model().release_opening(load, memory(state));
+  }
   template <class Visit>
   void visit_loads(const Contact& c, std::span<const Point> points,
                    const typename Contact::Place& at, Visit&& visit) const {
@@ -105,7 +109,7 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
         points.size(), c.outline, [&](std::size_t k) { return points[k]; },
         [&](const Point& p) { return p.load(at); },
         [&](std::size_t k, const PointLoad<Dim>& load) {
-          return law_of(c).model().release_opening(load, memory(points[k].state));
+          return release_of(c, load, points[k].state);
         },
         visit);
   }
@@ -118,11 +122,9 @@ class MovingContacts<Dim, AnyLaw<Dim>> {
     return sum;
   }
   [[nodiscard]] double stored_energy(const Contact& c, std::span<const Point> points,
-                                     const typename Contact::Place& at, double way = 0) const {
-    typename Contact::Place there = at;
-    there.base[0] += way;
+                                     const typename Contact::Place& at) const {
     double sum = 0;
-    visit_loads(c, points, there, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+    visit_loads(c, points, at, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
       sum += stored_energy(c, load, p.state);
     });
     return sum;
