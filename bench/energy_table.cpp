@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Loose blocks that nobody picked (tests/support/loose_blocks.hpp): what energy a run makes. One
-// line a case as CSV; counts at the end on the error stream.
+// What energy a run makes, and what contact updates do: of loose blocks that nobody picked
+// (tests/support/loose_blocks.hpp), or of stages in which rock fails (failure_cases.hpp).
+// One line a case as CSV; counts at the end on the error stream.
 //   energy_table [FIRST] [COUNT] [THREADS] [STEPS]      default: 0 1000 1 20000
+//   energy_table stages [FIRST] [COUNT] [THREADS]       default: 0 200 1
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <string>
+#include <vector>
+#include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/construction.hpp>
 
+#include "failure_cases.hpp"
 #include "support/loose_blocks.hpp"
 
 namespace {
 
+using namespace voussoir;
+
 struct Line {
-  double made = 0, updates = 0, seconds = 0, damping = 0, local = 0;
+  double made = 0, updates = 0, given = 0, seconds = 0, damping = 0, local = 0;
   std::string fault;
 };
 
@@ -31,6 +44,7 @@ Line follow(int number, int steps) {
     const auto account = blocks.advance(steps);
     line.made = account.made;
     line.updates = account.updates;
+    line.given = account.given;
   } catch (const voussoir::NumericalFault& fault) {
     line.fault = fault.what();
   }
@@ -45,28 +59,80 @@ int argument(int argc, char** argv, int k, int otherwise) {
   return value;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int loose_blocks(int argc, char** argv) {
   const int first = argument(argc, argv, 1, 0), count = argument(argc, argv, 2, 1000),
             threads = argument(argc, argv, 3, 1), steps = argument(argc, argv, 4, 20000);
   std::mutex mutex;
-  int faults = 0, above = 0, made = 0;
-  std::puts("case,dim,blocks,dashpots,local,made_percent,updates_percent,seconds,fault");
-  voussoir::parallel_for(
-      static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
-        const int number = first + static_cast<int>(k), dim = 2 + number / 2 % 2;
-        const Line line = dim == 2 ? follow<2>(number, steps) : follow<3>(number, steps);
-        const std::lock_guard lock(mutex);
-        faults += line.fault.empty() ? 0 : 1;
-        above += line.made > 0.01 ? 1 : 0;
-        made += line.updates > 0.01 ? 1 : 0;
-        std::printf("%d,%d,%d,%.2f,%.2f,%.3g,%.3g,%.1f,%s\n", number, dim, number % 2 == 1 ? 48 : 1,
-                    line.damping, line.local, 100 * line.made, 100 * line.updates, line.seconds,
-                    line.fault.c_str());
-        std::fflush(stdout);
-      });
+  int faults = 0, above = 0;
+  double given = 0;
+  std::puts(
+      "case,dim,blocks,dashpots,local,made_percent,updates_percent,seconds,fault,given_by_updates");
+  parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
+    const int number = first + static_cast<int>(k), dim = 2 + number / 2 % 2;
+    const Line line = dim == 2 ? follow<2>(number, steps) : follow<3>(number, steps);
+    const std::lock_guard lock(mutex);
+    faults += line.fault.empty() ? 0 : 1;
+    above += line.made > 0.01 ? 1 : 0;
+    given = std::max(given, line.given);
+    std::printf("%d,%d,%d,%.2f,%.2f,%.3g,%.3g,%.1f,%s,%.2g\n", number, dim,
+                number % 2 == 1 ? 48 : 1, line.damping, line.local, 100 * line.made,
+                100 * line.updates, line.seconds, line.fault.c_str(), line.given);
+    std::fflush(stdout);
+  });
   std::fprintf(stderr,
-               "%d cases: %d with a fault, %d above their start by 1 %%, updates made 1 %% in %d\n",
-               count, faults, above, made);
+               "%d cases: %d with a fault, %d above their start by 1 %%; updates gave %.2g of the "
+               "work of gravity at most\n",
+               count, faults, above, given);
+  return 0;
+}
+
+/// The stage in which a tunnel is excavated: the same in motion by every solution procedure.
+EquilibriumReport stage_of(const voussoir_bench::FailureCase& from) {
+  Solver<> tunnel(voussoir_bench::rock_of(from), CoulombJoint(from.joint), from.in_situ);
+  tunnel.excavate(from.opening);
+  std::vector<double> measures;
+  for (const auto& body : tunnel.mass().bodies) measures.push_back(body.properties.measure);
+  measures.resize(static_cast<std::size_t>(tunnel.system().body_count()), 0.0);
+  SearchContext context;
+  context.measures = &measures;
+  context.gravity = tunnel.in_situ().gravity;
+  context.acceptance.collapse_measure = collapse_measure_of(from.opening);
+  return TwoLevel().find(detail::SystemOf::in(tunnel), context);
+}
+
+int stages(int argc, char** argv) {
+  const int first = argument(argc, argv, 2, 0), count = argument(argc, argv, 3, 200),
+            threads = argument(argc, argv, 4, 1);
+  std::mutex mutex;
+  int failing = 0;
+  double most = 0;
+  std::puts("case,verdict,area_m2,gravity_J,loads_J,lost_by_updates_J,given_by_updates_J,given");
+  parallel_for(static_cast<std::size_t>(count), static_cast<unsigned>(threads), [&](std::size_t k) {
+    const auto from = voussoir_bench::failure_case(first + static_cast<int>(k));
+    const EquilibriumReport report = stage_of(from);
+    const EnergyBalance& motion = report.motion;
+    const std::lock_guard lock(mutex);
+    if (motion.scale() == 0) return;  // nothing fails
+    const double given =
+        motion.made_by_updates / (std::abs(motion.gravity) + std::abs(motion.loads));
+    ++failing;
+    most = std::max(most, given);
+    std::printf("%d,%s,%.4g,%.3g,%.3g,%.3g,%.3g,%.2g\n", from.number, to_string(report),
+                report.fallen_measure, motion.gravity, motion.loads, -motion.contact_updates,
+                motion.made_by_updates, given);
+    std::fflush(stdout);
+  });
+  std::fprintf(stderr,
+               "%d cases: %d stages in motion; updates gave %.2g of the work of gravity and loads "
+               "at most\n",
+               count, failing, most);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_freed_memory();
+  const bool is_stages = argc > 1 && std::strcmp(argv[1], "stages") == 0;
+  return is_stages ? stages(argc, argv) : loose_blocks(argc, argv);
 }

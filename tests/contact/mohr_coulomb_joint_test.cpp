@@ -193,6 +193,51 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
     }
   }
 
+  TEST_CASE_TEMPLATE(
+      "work is stored or lost to the last digit, also where a bond in tension is sheared", D,
+      Dimension<2>, Dimension<3>) {
+    // Normal stress and shear are linear in every step until the bond is sheared off, in the commit
+    // of that step: the work by the mean force of both ends is exact.
+    constexpr int dim = D::value;
+    Random random(83, dim);
+    int sheared_in_tension = 0;
+    for (int n = 0; n < 200; ++n) {
+      CAPTURE(n);
+      const MohrCoulombJoint law({.joint_normal_stiffness = kn,
+                                  .joint_shear_stiffness = ks,
+                                  .friction_angle = 30 * degree,
+                                  .cohesion = 3e5,
+                                  .tensile_strength = 4e5,
+                                  .residual_friction_angle = 20 * degree,
+                                  .residual_cohesion = n % 2 == 0 ? 0.0 : 5e4});
+      MohrCoulombJoint::State<dim> state;
+      PointLoad<dim> load = point<dim>(1e4 * random.uniform(), 0, 0);
+      load.bond.stretch = 4e5 / kn;  // a joint of one point, which tells it what is left
+      double stored = law.stored_energy(load, state), work = 0, lost = 0, turned_over = stored;
+      const double start = stored;
+      PointForce<dim> before = law.force(load, state);
+      for (int k = 0; k < 100 && !state.failed; ++k) {
+        const PointMotion<dim> from = load.motion;
+        load.motion.opening = 7e-5 * (2 * random.uniform() - 1);
+        for (int i = 0; i + 1 < dim; ++i) load.motion.slip[i] += 3e-4 * (2 * random.uniform() - 1);
+        const PointForce<dim> now = law.force(load, state);
+        const double done =
+            -0.5 * (before.normal + now.normal) * (load.motion.opening - from.opening) -
+            0.5 * (before.tangential + now.tangential).dot(load.motion.slip - from.slip);
+        lost += law.commit(load, state);
+        stored = law.stored_energy(load, state);
+        work += done;
+        turned_over += std::abs(done) + stored;
+        before = law.force(load, state);
+        if (state.failed && now.normal < 0) ++sheared_in_tension;
+      }
+      REQUIRE(state.failed);
+      CHECK(std::abs(work - (stored - start) - lost) <= 1e-9 * turned_over);
+      CHECK(lost > 0);
+    }
+    CHECK(sheared_in_tension > 50);
+  }
+
   TEST_CASE("parameters out of range are refused by name") {
     using P = MohrCoulombJoint::Params;
     CHECK_THROWS_WITH_AS(MohrCoulombJoint(P{.joint_normal_stiffness = kn,

@@ -48,11 +48,21 @@ Drawn drawn_tunnel(std::uint64_t number) {
   return {opening, std::move(tunnel)};
 }
 
+/// That contact updates have given nothing: 1e-6 of the work of gravity and loads is asked for, and
+/// roundings of 1e-16 a contact are all there is.
+void check_updates(const EnergyBalance& energy) {
+  const double work = std::abs(energy.gravity) + std::abs(energy.loads);
+  CHECK(energy.made_by_updates <= 1e-12 * work);
+  CHECK(energy.contact_updates <= 1e-12 * work);
+}
+
 template <class Method, class Tunnel>
 FailureAnswer answer_of(const Tunnel& tunnel, double collapse, double* limit = nullptr) {
   const EquilibriumReport report = report_by<Method>(tunnel, collapse);
   INFO(report.reason);
   CHECK(report.verdict != Verdict::undecided);
+  if (!report.fallen.empty()) CHECK(report.motion.gravity != 0);  // it was followed in motion
+  check_updates(report.motion);
   if (limit != nullptr) *limit = report.displacement_limit;
   CHECK(report.fallen_measure == doctest::Approx(area_of(tunnel, report.fallen)));
   return {report.verdict, report.fallen, report.fallen_measure};
@@ -75,7 +85,10 @@ TEST_SUITE("equilibrium/rock_failure") {
       const FailureAnswer two_level = answer_of<TwoLevel>(drawn.tunnel, collapse, &limit);
       const FailureAnswer relaxation = answer_of<Relaxation>(drawn.tunnel, collapse);
       const FailureAnswer stepping = answer_of<Explicit>(drawn.tunnel, collapse);
-      const FailureAnswer truth = all_blocks_in_motion(drawn.tunnel, limit, collapse, 1, 0.5);
+      EnergyBalance energy;
+      const FailureAnswer truth =
+          all_blocks_in_motion(drawn.tunnel, limit, collapse, 1, 0.5, &energy);
+      check_updates(energy);
       CHECK(two_level.verdict == truth.verdict);
       CHECK(relaxation.verdict == truth.verdict);
       CHECK(stepping.verdict == truth.verdict);
@@ -194,8 +207,10 @@ TEST_SUITE("equilibrium/rock_failure") {
       const double collapse = collapse_measure_of(drawn.section);
       double limit = 0;
       const FailureAnswer two_level = answer_of<TwoLevel>(drawn.tunnel, collapse, &limit);
+      EnergyBalance energy;
       const FailureAnswer truth = all_blocks_in_motion(
-          drawn.tunnel, limit, collapse * open_length(drawn.tunnel.mass()), 1, 0.5);
+          drawn.tunnel, limit, collapse * open_length(drawn.tunnel.mass()), 1, 0.5, &energy);
+      check_updates(energy);
       CHECK(truth.verdict == Verdict::stable);
       CHECK(truth.area > 0);
       CHECK(two_level == truth);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 #include <voussoir/contact/barton_bandis_joint.hpp>
@@ -17,7 +18,9 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/geometry/tangent_basis.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/moving_contacts.hpp>
 
 #include "support/degree.hpp"
 
@@ -141,6 +144,72 @@ double bond_of(const Group& group, const Eigen::VectorXd& u) {
 const Segment line{{0.8, 0.1}, {-0.4, 0.1}};
 const SpatialFacet patch{{Vec3(0, 0, 0.3), Vec3(1.1, 0.1, 0.3), Vec3(1.3, 0.6, 0.3),
                           Vec3(0.5, 1.2, 0.3), Vec3(-0.1, 0.7, 0.3)}};
+
+/// A bonded joint in motion whose body b is moved at random, without cracking, until it is sheared
+/// off: all that was done on it is stored or lost. In every step its forces are linear: the work by
+/// the mean force of both ends is exact.
+/// @return  how much of what it held then was in tension, over all that was turned over [-]
+template <int Dim, class Area>
+double shear_off(const Area& area, Random& random) {
+  const MohrCoulombJoint law({.joint_normal_stiffness = k_n,
+                              .joint_shear_stiffness = 1e9,
+                              .friction_angle = 30 * degree,
+                              .cohesion = 3e5,
+                              .tensile_strength = 2.5e5,
+                              .residual_friction_angle = 20 * degree});
+  MovingContacts<Dim, MohrCoulombJoint> group({law});
+  std::vector<MovingBody<Dim>> bodies(2);
+  for (auto& body : bodies) body.pose.rotation = diagonal_of<Dim>(1);
+  bodies[1].pose.position = area.centre();
+  bodies[1].pose.position[Dim - 1] += 0.4;
+  const Vec<Dim> normal = axis_vector<Dim>(Dim - 1);
+  MovingContact<Dim> contact{};
+  contact.frame << normal, tangent_basis(normal);
+  contact.a = 0;
+  contact.b = 1;
+  const auto place = [&] { return contact.place(bodies[0].pose, bodies[1].pose); };
+  std::vector<MovingContactPoint<Dim, MohrCoulombJoint::State<Dim>>> points;
+  std::vector<FacetPoint<Dim>> offsets;
+  for (const FacetPoint<Dim>& p : area.gauss_points()) {
+    MovingContactPoint<Dim, MohrCoulombJoint::State<Dim>> point{};
+    point.place = area.centre() + p.offset - bodies[1].pose.position;
+    point.zero = zeros<Vec<Dim>>();
+    const PointMotion<Dim> there = point.motion(place());
+    point.zero = stacked(there.opening, there.slip);
+    point.weight = p.weight;
+    // One side bears more: a point fails before the others.
+    point.initial.normal = 2e4 * p.weight * (1 + p.offset[0]);
+    points.push_back(point);
+    offsets.push_back(p);
+  }
+  if constexpr (Dim == 3)
+    contact.outline = detail::kept_outline(area, area.centre(), offsets.data(), offsets.size());
+  std::int32_t number = -1;
+  (void)group.put(number, contact, points);
+  Reaction<Dim> reaction;
+  Dissipation lost;
+  group.react(0, 1, bodies, &reaction, lost);
+  double stored = group.stored_energy(0, bodies), work = 0, turned_over = stored, tension = 0;
+  const double start = stored;
+  const Vec<Dim> home = bodies[1].pose.position;
+  bool is_off = false;
+  for (int k = 0; k < 200 && !is_off; ++k) {
+    const Vec<Dim> before = reaction.force, from = bodies[1].pose.position;
+    for (int i = 0; i < Dim; ++i) bodies[1].pose.position[i] += 2e-4 * (2 * random.uniform() - 1);
+    bodies[1].pose.position[Dim - 1] = home[Dim - 1] + 4e-5 * (2 * random.uniform() - 1);
+    group.react(0, 1, bodies, &reaction, lost);
+    const double done = -0.5 * (before + reaction.force).dot(bodies[1].pose.position - from);
+    stored = group.stored_energy(0, bodies);
+    work += done;
+    turned_over += std::abs(done) + stored;
+    for (const auto& p : group.points()) is_off = is_off || p.state.failed;
+    const double pulled = std::max(0.0, reaction.force[Dim - 1] * -1);
+    tension = 0.5 * pulled * pulled / (k_n * area.measure());
+  }
+  REQUIRE(is_off);
+  CHECK(std::abs(work - (stored - start) - lost.friction) <= 1e-9 * turned_over);
+  return tension / turned_over;
+}
 
 template <class Law>
 void check_law(const Law& law, double initial) {
@@ -383,6 +452,17 @@ TEST_SUITE("model/pressed_part") {
       }
       CHECK(between > 3);
     }
+  }
+
+  TEST_CASE("a bond in tension that is sheared off loses what it held, to the last digit") {
+    Random random(31, 2);
+    int in_tension = 0;
+    for (int n = 0; n < 60; ++n) {
+      CAPTURE(n);
+      in_tension += shear_off<2>(line, random) > 1e-3 ? 1 : 0;
+      in_tension += shear_off<3>(patch, random) > 1e-3 ? 1 : 0;
+    }
+    CHECK(in_tension > 20);
   }
 
   TEST_CASE("no path of opening, sliding and turning makes energy") {

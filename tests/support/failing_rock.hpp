@@ -79,9 +79,11 @@ template <class Method, class Tunnel>
 /// All blocks in motion, as inert as they are: nothing of the procedures but what a block that has
 /// come off is.
 /// @param collapse  area, in 3-D volume, beyond which it is one
+/// @param energy    of the run, to be written; null: nobody asks
 template <class Tunnel>
 [[nodiscard]] FailureAnswer all_blocks_in_motion(const Tunnel& tunnel, double limit,
-                                                 double collapse, double duration, double safety) {
+                                                 double collapse, double duration, double safety,
+                                                 EnergyBalance* energy = nullptr) {
   auto run = set_in_motion(tunnel, {.local_damping = 0.7, .safety = safety});
   std::vector<int> fallen;
   while (run.time() < 30) {
@@ -97,6 +99,7 @@ template <class Tunnel>
       fallen.push_back(b);
     }
     const bool collapses = area_of(tunnel, fallen) > collapse;
+    if (energy != nullptr) *energy = run.energy();
     if (!rests && !collapses) continue;
     std::sort(fallen.begin(), fallen.end());
     return {collapses ? Verdict::collapse : Verdict::stable, fallen, area_of(tunnel, fallen)};

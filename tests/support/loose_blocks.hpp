@@ -44,7 +44,8 @@ class LooseBlocks {
   struct Account {
     double made = 0;     ///< kinetic, elastic and of height, above the start, the most over `stake`
     double stake = 0;    ///< initial kinetic energy and the most that gravity has done [J]
-    double updates = 0;  ///< what contact updates have made in the end, over `stake`
+    double updates = 0;  ///< what contact updates have given in the end, over `stake`; < 0: lost
+    double given = 0;    ///< of it, what they made (`EnergyBalance::made_by_updates`)
   };
   /// Advances and looks every 100 steps.
   Account advance(int steps) {
@@ -57,6 +58,7 @@ class LooseBlocks {
       most = std::max(most, now.kinetic + now.contacts - now.gravity);
       if (account.stake > 0) account.made = std::max(account.made, most / account.stake);
       account.updates = now.contact_updates / account.stake;
+      account.given = now.made_by_updates / account.stake;
     }
     return account;
   }

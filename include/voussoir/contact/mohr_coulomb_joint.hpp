@@ -110,7 +110,8 @@ class MohrCoulombJoint {
     return holds(trial, load, state) ? trial : respond(load, state).force;
   }
 
-  /// @return  work of slip less what dilation stores, and what breaking in tension sets free [J]
+  /// @return  work of slip less what dilation stores, and what breaking in tension or in shear sets
+  ///          free [J]
   template <int Dim>
   double commit(const PointLoad<Dim>& load, State<Dim>& state) const {
     const Response<Dim> now = respond(load, state);
@@ -129,10 +130,13 @@ class MohrCoulombJoint {
           0.5 * load.weight * p_.tensile_strength * p_.tensile_strength / p_.joint_normal_stiffness;
     }
     if (state.failed || !(now.opens || now.slip > 0)) return lost;
-    state.failed = true;
     // It slips on at once to what it still carries: a spring left at the peak would come back to it
-    // as soon as the joint is pressed, with energy from nowhere.
-    return lost + commit(load, state);
+    // as soon as the joint is pressed, with energy from nowhere. What it held in shear and in
+    // tension beyond that is lost: nothing moves meanwhile.
+    const double held = stored_energy(load, state);
+    state.failed = true;
+    (void)commit(load, state);
+    return lost + held - stored_energy(load, state);
   }
 
   /// Where the normal spring, lifted by the dilation so far, carries nothing, and how far its bond

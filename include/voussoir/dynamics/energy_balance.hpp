@@ -22,6 +22,8 @@ struct EnergyBalance {
   double viscosity = 0;        ///< lost to dashpots at contacts
   double damping = 0;          ///< lost to local damping
   double contact_updates = 0;  ///< given to the springs of contacts by updates; < 0: lost by them
+  /// Of that, what contacts got beyond what those of their two bodies had: rounding.
+  double made_by_updates = 0;
   double highest_kinetic = 0;  ///< of the differences seen at checks so far: what has been at stake
 
   /// What is stored and lost, less the work done: zero but for the error of the steps.

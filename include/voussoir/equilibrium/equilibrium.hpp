@@ -9,6 +9,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/roles.hpp>
+#include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/equilibrium/rockfall_range.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/model/contact_update_report.hpp>
@@ -100,6 +101,7 @@ struct EquilibriumReport {
   /// The state is where blocks came to rest in motion: some were caught on their way, and their
   /// displacements are those of that way, its overshoot and its rounding in them.
   bool is_from_motion = false;
+  EnergyBalance motion;  ///< of a stage that was followed in motion, to its end; else nothing
   /// Where it was asked for (`MotionTuning::range`) and blocks came off in motion, or nearly.
   std::optional<RockfallRange> rockfall;
   bool stopped = false;  ///< the caller asked to stop

@@ -134,6 +134,7 @@ class UnloadingInMotion {
     bool rests = false;
     try {
       rests = follow(report);
+      report.motion = run_.energy();
       bring_to_rest(run_, system_, way_.gone);
     } catch (const NumericalFault& fault) {
       report.reason = std::string("the stage could not be followed in motion: ") + fault.what();
@@ -428,7 +429,7 @@ class UnloadingInMotion {
   std::optional<ElasticBalance<System>> rest_of_rock_;
   Way way_;
   std::optional<Fork> half_, off_, slow_;
-  bool is_varied_ = false;  ///< the stage itself is over
+  bool is_varied_ = false;                  ///< the stage itself is over
   static constexpr int sound_every = 2000;  ///< steps between run diagnostics, which look at all
 };
 

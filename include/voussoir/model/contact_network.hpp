@@ -23,6 +23,12 @@
 
 namespace voussoir {
 
+/// Energy that contact updates give to springs [J].
+struct UpdateEnergy {
+  double given = 0;  ///< < 0: lost
+  double made = 0;   ///< of it, to contacts that got more than those of their bodies had: rounding
+};
+
 /// What a contact update has changed: nothing; contacts in their places; or these, too.
 enum class ContactChange { none, in_place, renumbered };
 
@@ -101,12 +107,12 @@ class ContactNetwork {
   /// @param moved   see `ContactTracker::update`
   /// @param roles   of every body
   /// @param cut_of  cut_of(shape, outward): label of the face of a shape that looks there
-  /// @param gained  energy that springs gain by their new form is added to it [J]
+  /// @param energy  what springs gain by their new form is added to it
   template <class CutOf>
   [[nodiscard]] ContactChange find(Tracker& tracker, const Bodies& bodies,
                                    const std::vector<std::uint32_t>* moved,
                                    const std::vector<BodyRole>& roles, CutOf&& cut_of,
-                                   double& gained);
+                                   UpdateEnergy& energy);
 
   /// Other laws for the joints from now on: as many, of the same kind.
   void set_laws(std::vector<Law> laws) { groups_[0].set_laws(std::move(laws)); }
@@ -203,7 +209,7 @@ class ContactNetwork {
     const Bodies& bodies;
     const std::vector<BodyRole>& roles;
     const CutOf& cut_of;
-    double& gained;        ///< energy of springs [J]
+    UpdateEnergy& energy;
     bool relisted;         ///< contacts have other places in the lists
     bool changed = false;  ///< anything has
 
@@ -247,10 +253,11 @@ class ContactNetwork {
              double held);
 
   /// Puts a contact in the place of the pair's old one, or behind all others.
+  /// @param held  energy that its springs may have [J]
   /// @return  true if the contact has kept its place in the lists
   template <class U>
   bool put(U& update, Group& group, Pair& pair, const typename Group::Contact& contact,
-           const std::vector<typename Group::Point>& points);
+           const std::vector<typename Group::Point>& points, double held);
 
   /// Of a joint: the index of its law.
   [[nodiscard]] std::int32_t law_of(int cut) const {

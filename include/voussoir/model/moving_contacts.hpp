@@ -122,6 +122,11 @@ class MovingContacts {
                                      State state) const {
     return law_of(c).model().stored_energy(load, memory(state));
   }
+  /// Where such a point lets go: see `release_opening`.
+  [[nodiscard]] BondRelease<Dim> release_of(const Contact& c, const PointLoad<Dim>& load,
+                                            State state) const {
+    return law_of(c).model().release_opening(load, memory(state));
+  }
   /// Calls visit(k, point, load) for points of a contact, here or to be, on its pressed part.
   template <class Visit>
   void visit_loads(const Contact& c, std::span<const Point> points,
@@ -130,7 +135,7 @@ class MovingContacts {
         points.size(), c.outline, [&](std::size_t k) { return points[k]; },
         [&](const Point& p) { return p.load(at); },
         [&](std::size_t k, const PointLoad<Dim>& load) {
-          return law_of(c).model().release_opening(load, memory(points[k].state));
+          return release_of(c, load, points[k].state);
         },
         visit);
   }
@@ -144,13 +149,10 @@ class MovingContacts {
     return sum;
   }
   /// Energy that the springs of such points hold [J].
-  /// @param way  by which the bodies are farther apart along the normal [m]
   [[nodiscard]] double stored_energy(const Contact& c, std::span<const Point> points,
-                                     const typename Contact::Place& at, double way = 0) const {
-    typename Contact::Place there = at;
-    there.base[0] += way;
+                                     const typename Contact::Place& at) const {
     double sum = 0;
-    visit_loads(c, points, there, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
+    visit_loads(c, points, at, [&](std::size_t, const Point& p, const PointLoad<Dim>& load) {
       sum += stored_energy(c, load, p.state);
     });
     return sum;

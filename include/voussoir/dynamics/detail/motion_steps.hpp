@@ -142,8 +142,12 @@ void Motion<Dim, Detector>::find_contacts() {
   };
   const std::vector<std::uint32_t>* const moved =
       only_part_has_moved_ && !part_.is_all ? &part_.bodies : nullptr;
-  const ContactChange change =
-      network_.find(*tracker_, bodies_, moved, roles_, cut_of, audit_.contact_updates);
+  UpdateEnergy energy;
+  const ContactChange change = network_.find(*tracker_, bodies_, moved, roles_, cut_of, energy);
+  VOUSSOIR_ASSERT(energy.made <= 1e-9 * network_.stored_energy(bodies_) + 1e-12,
+                  "contact updates make no energy");
+  audit_.contact_updates += energy.given;
+  audit_.made_by_updates += energy.made;
   only_part_has_moved_ = true;
   if (change == ContactChange::none) return;
   stable_step_ = 0;

@@ -15,6 +15,17 @@ namespace voussoir::detail {
 //
 // states: what the law remembers of the points, one behind the other.
 
+/// Brings the history of a point up to date once more where it is, on another part of the joint.
+/// @param before  how it was loaded;  @param now  how it is
+/// @return  energy that is lost: what it holds less, for nothing moves [J]
+template <int Dim, class Law>
+double commit_again(const Law& law, const PointLoad<Dim>& before, const PointLoad<Dim>& now,
+                    typename Law::template State<Dim>& state) {
+  const double held = law.stored_energy(before, state);
+  (void)law.commit(now, state);
+  return held - law.stored_energy(now, state);
+}
+
 struct PlanePlace {
   double normal, tangential;
 };
@@ -84,7 +95,7 @@ template <class Law, class Point, class State>
     lost.friction += let_go_of_bond<2>(
         loads, c.outline, [&](std::size_t k) { return of_whole[k]; }, release_of,
         [&](std::size_t k, const PointLoad<2>& load) {
-          return law.commit(load, k == 0 ? state_p : state_q);
+          return commit_again(law, loads[k], load, k == 0 ? state_p : state_q);
         });
   } else {
     for (Point* k = p; k != points + c.last; ++k) {
@@ -186,7 +197,7 @@ template <class Law, class Point, class State>
     lost.friction += let_go_of_bond<3>(
         loads, c.outline, [&](std::size_t k) { return load_of(first[k]); }, release_of,
         [&](std::size_t k, const PointLoad<3>& load) {
-          return law.commit(load, states[first + k - points]);
+          return commit_again(law, loads[k], load, states[first + k - points]);
         });
   } else {
     for (Point* p = first; p != points + c.last; ++p)

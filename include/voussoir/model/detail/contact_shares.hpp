@@ -38,6 +38,7 @@ template <int Dim, class Tracker>
 class ContactShares {
  public:
   using Pair = typename Tracker::Pair;
+  using Take = std::function<void(Pair&, const Contact<Dim>&)>;
   using Visit = std::function<void(Pair&, const Contact<Dim>&, const ContactArea<Dim>*)>;
 
   /// @param tracker  that finds the pairs; it outlives this
@@ -59,11 +60,14 @@ class ContactShares {
          is_edge ? -1 : cut});
   }
 
-  /// Calls visit(pair, found, area) for every contact, those of two bodies one after the other: the
+  /// Calls take(pair, found) for all contacts of two bodies, then visit(pair, found, area): the
   /// largest first, which so is the first to find what it was before; edges last. Where several
   /// pairs share it, `area` is what all have of it, on the polygon's side, counted as it is from
   /// the grid point of the pair's first shape and with the measure of all, and else null.
-  void join(const Visit& visit);
+  void join(const Take& take, const Visit& visit);
+  void join(const Visit& visit) {
+    join([](Pair&, const Contact<Dim>&) {}, visit);
+  }
 
  private:
   struct Share {
@@ -124,7 +128,7 @@ class ContactShares {
 };
 
 template <int Dim, class Tracker>
-void ContactShares<Dim, Tracker>::join(const Visit& visit) {
+void ContactShares<Dim, Tracker>::join(const Take& take, const Visit& visit) {
   // The largest of a contact tells its plane: it comes first. Edges come last.
   std::sort(shares_.begin(), shares_.end(), [](const Share& x, const Share& y) {
     return std::tuple(x.bodies, x.is_edge, x.cut, -x.found.measure, x.pair->a, x.pair->b) <
@@ -137,6 +141,7 @@ void ContactShares<Dim, Tracker>::join(const Visit& visit) {
       return std::pair(x.share->is_edge, -x.share->found.measure) <
              std::pair(y.share->is_edge, -y.share->found.measure);
     });
+    for (const Joined& it : of_bodies) take(*it.share->pair, it.share->found);
     for (const Joined& it : of_bodies)
       visit(*it.share->pair, it.share->found, it.area.facets().size() > 1 ? &it.area : nullptr);
     of_bodies.clear();

@@ -45,11 +45,11 @@ template <class CutOf>
 ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies& bodies,
                                                   const std::vector<std::uint32_t>* moved,
                                                   const std::vector<BodyRole>& roles,
-                                                  CutOf&& cut_of, double& gained) {
+                                                  CutOf&& cut_of, UpdateEnergy& energy) {
   // Bodies may have come since.
   rates_.resize(bodies.size());
   Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
-                                     cut_of,  gained, !sums_.is_listed(bodies.size())};
+                                     cut_of,  energy, !sums_.is_listed(bodies.size())};
   detail::ContactShares<Dim, Tracker> shares(tracker);
   std::vector<Left> left;
   const auto leave = [&](Pair& pair) {
@@ -70,16 +70,22 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
       },
       leave);
   std::sort(left.begin(), left.end());
-  // What all contacts of two bodies have held is for all those that they have now.
+  // A contact may hold what it held, and what those of the same two bodies held that are no more.
   std::pair<int, int> bodies_of_last{-1, -1};
-  double held = 0;
-  shares.join([&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
-    const std::pair<int, int> both = std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b));
-    if (std::exchange(bodies_of_last, both) != both) held = detail::energy_left(left, both);
-    take_nearest(update, left, pair, found);
-    renew(update, pair, found, area, held);
-    held = std::max(0.0, held - energy_of(update, pair));
-  });
+  double spare = 0;
+  shares.join(
+      [&](Pair& pair, const Contact<Dim>& found) {
+        const std::pair<int, int> both =
+            std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b));
+        if (std::exchange(bodies_of_last, both) != both) spare = detail::energy_left(left, both);
+        take_nearest(update, left, pair, found);
+        spare = std::max(0.0, spare - energy_of(update, pair));
+      },
+      [&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
+        const double held = energy_of(update, pair) + spare;
+        renew(update, pair, found, area, held);
+        spare = std::max(0.0, held - energy_of(update, pair));
+      });
   for (const Left& it : left)
     if (it.contact >= 0) drop(update, it);
   former_ = {};
@@ -121,7 +127,7 @@ template <int Dim, class Detector>
 template <class U>
 void ContactNetwork<Dim, Detector>::drop(U& update, const Left& it) {
   Group& group = groups_[it.kind];
-  update.gained -= group.stored_energy(index(it.contact), update.bodies);
+  update.energy.given -= group.stored_energy(index(it.contact), update.bodies);
   auto& contact = group.contacts()[index(it.contact)];
   contact.last = contact.first;
   ++unused_;
@@ -160,6 +166,8 @@ void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<D
     contact.law = law_of(update.cut_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal)));
   else if (kind == 2)
     contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
+  // As far in as it was: what shear there is depends on how much of it is pressed.
+  if (known && renewal.keeps_history()) detail::uncount(old->uncounted, contact, points);
   if (renewal.keeps_history())
     detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
                             !known, contact, bodies, points);
@@ -171,10 +179,10 @@ void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<D
       detail::widen(contact, points);
       detail::limit_energy<Dim>(group, contact, bodies, points, held);
     }
-    if (viscous_damping_ > 0)
+    if (viscous_damping_ > 0 && !points.empty())
       contact.viscosity = impact.viscosity(viscous_damping_, per_area * detail::area_of(points));
   }
-  const bool in_place = put(update, group, pair, contact, points);
+  const bool in_place = put(update, group, pair, contact, points, held);
   update.relisted = update.relisted || !in_place;
   update.changed = true;
 }
@@ -183,16 +191,19 @@ template <int Dim, class Detector>
 template <class U>
 bool ContactNetwork<Dim, Detector>::put(U& update, Group& group, Pair& pair,
                                         const typename Group::Contact& contact,
-                                        const std::vector<typename Group::Point>& points) {
+                                        const std::vector<typename Group::Point>& points,
+                                        double held) {
   const Bodies& bodies = update.bodies;
   const bool known = pair.contact >= 0;
   const typename Group::Contact* const old =
       known ? &group.contacts()[index(pair.contact)] : nullptr;
   const bool same_side = known && contact.a == old->a;
-  if (known) update.gained -= group.stored_energy(index(pair.contact), bodies);
+  if (known) update.energy.given -= group.stored_energy(index(pair.contact), bodies);
   const bool fits = group.put(pair.contact, contact, points);
   if (known && !fits) ++unused_;
-  update.gained += group.stored_energy(index(pair.contact), bodies);
+  const double now = group.stored_energy(index(pair.contact), bodies);
+  update.energy.given += now;
+  if (has_started_) update.energy.made += std::max(0.0, now - held);
   for (const int b : {contact.a, contact.b}) rates_.forget(b);
   return same_side && fits;
 }
