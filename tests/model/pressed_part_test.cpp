@@ -20,6 +20,7 @@
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/geometry/tangent_basis.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/detail/moving_contacts_view.hpp>
 #include <voussoir/model/moving_contacts.hpp>
 
 #include "support/degree.hpp"
@@ -157,7 +158,7 @@ double shear_off(const Area& area, Random& random) {
                               .cohesion = 3e5,
                               .tensile_strength = 2.5e5,
                               .residual_friction_angle = 20 * degree});
-  MovingContacts<Dim, MohrCoulombJoint> group({law});
+  MovingContacts<Dim> group({law});
   std::vector<MovingBody<Dim>> bodies(2);
   for (auto& body : bodies) body.pose.rotation = diagonal_of<Dim>(1);
   bodies[1].pose.position = area.centre();
@@ -168,10 +169,10 @@ double shear_off(const Area& area, Random& random) {
   contact.a = 0;
   contact.b = 1;
   const auto place = [&] { return contact.place(bodies[0].pose, bodies[1].pose); };
-  std::vector<MovingContactPoint<Dim, MohrCoulombJoint::State<Dim>>> points;
+  std::vector<typename MovingContacts<Dim>::Point> points;
   std::vector<FacetPoint<Dim>> offsets;
   for (const FacetPoint<Dim>& p : area.gauss_points()) {
-    MovingContactPoint<Dim, MohrCoulombJoint::State<Dim>> point{};
+    typename MovingContacts<Dim>::Point point{};
     point.place = area.centre() + p.offset - bodies[1].pose.position;
     point.zero = zeros<Vec<Dim>>();
     const PointMotion<Dim> there = point.motion(place());
@@ -202,7 +203,8 @@ double shear_off(const Area& area, Random& random) {
     stored = group.stored_energy(0, bodies);
     work += done;
     turned_over += std::abs(done) + stored;
-    for (const auto& p : group.points()) is_off = is_off || p.state.failed;
+    const MovingContactsView<Dim, MohrCoulombJoint> view(group);
+    for (const auto& p : view.points()) is_off = is_off || p.state.failed;
     const double pulled = std::max(0.0, reaction.force[Dim - 1] * -1);
     tension = 0.5 * pulled * pulled / (k_n * area.measure());
   }
