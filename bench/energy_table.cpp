@@ -4,6 +4,8 @@
 // One line a case as CSV; counts at the end on the error stream.
 //   energy_table [FIRST] [COUNT] [THREADS] [STEPS]      default: 0 1000 1 20000
 //   energy_table stages [FIRST] [COUNT] [THREADS]       default: 0 200 1
+//   energy_table flat [FIRST] [COUNT] [PERCENT]         default: 0 200 50
+// The last drops one block flat, without any damping, with a step of so much of the stable one.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -86,6 +88,78 @@ int loose_blocks(int argc, char** argv) {
   return 0;
 }
 
+/// A block of 0.4 to 2 m that comes down flat from 1 mm to 1 m, half of them near the edge of the
+/// floor and half along it at up to 2 m/s: for 3 000 steps of half the stable one.
+template <int Dim>
+Line drop_flat(int number, double safety) {
+  Random random(static_cast<std::uint64_t>(number), 5100 + Dim);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * random.uniform();
+  };
+  const double normal = std::pow(10.0, between(9, 10));
+  const CoulombJoint joint(
+      {normal, normal * between(0.1, 1), between(0, 45) * voussoir_test::degree});
+  Dynamics<Dim, CoulombJoint> run(joint, {.safety = safety});
+  Vec<Dim> size, middle = zeros<Vec<Dim>>(), floor = all_entries<Dim>(8), below = middle;
+  for (int k = 0; k < Dim; ++k) size[k] = between(0.4, 2);
+  floor[Dim - 1] = 1;
+  below[Dim - 1] = -0.5;
+  for (int k = 0; k < Dim - 1; ++k) middle[k] = between(-1, 1);
+  middle[Dim - 1] = 0.5 * size[Dim - 1] + std::pow(10.0, between(-3, 0));
+  if (random.below(2) == 0) middle[0] = 4 - 0.45 * size[0] * random.uniform();
+  const auto box = [](const Vec<Dim>& centre, const Vec<Dim>& lengths) {
+    if constexpr (Dim == 2)
+      return voussoir_test::rectangle(centre, lengths[0], lengths[1]);
+    else
+      return voussoir_test::brick(centre, lengths);
+  };
+  run.add_fixed_block(box(below, floor));
+  const int block = run.add_block(box(middle, size), 2700);
+  Vec<Dim> velocity = zeros<Vec<Dim>>();
+  if (random.below(2) == 0) velocity[0] = between(-2, 2);
+  run.set_velocity(block, velocity);
+  const double kinetic = run.kinetic_energy();
+  Line line;
+  double stake = 0, most = 0;
+  try {
+    for (int k = 0; k < std::lround(15 / safety); ++k) {
+      run.advance_steps(100);
+      const EnergyBalance now = run.energy();
+      stake = std::max(stake, kinetic + now.gravity);
+      most = std::max(most, now.above_start());
+      line.made = most / stake;
+      line.given = now.made_by_updates / stake;
+      line.updates = now.contact_updates / stake;
+    }
+  } catch (const NumericalFault& fault) {
+    line.fault = fault.what();
+  }
+  return line;
+}
+
+int flat(int argc, char** argv) {
+  const int first = argument(argc, argv, 2, 0), count = argument(argc, argv, 3, 200);
+  const double safety = 1e-2 * argument(argc, argv, 4, 50);
+  int faults = 0, above = 0;
+  double worst = 0, given = 0;
+  std::puts("case,dim,made_percent,updates_percent,given_by_updates,fault");
+  for (int number = first; number < first + count; ++number) {
+    const int dim = 2 + number % 2;
+    const Line line = dim == 2 ? drop_flat<2>(number, safety) : drop_flat<3>(number, safety);
+    faults += line.fault.empty() ? 0 : 1;
+    above += line.made > 0.01 ? 1 : 0;
+    worst = std::max(worst, line.made);
+    given = std::max(given, line.given);
+    std::printf("%d,%d,%.3g,%.3g,%.2g,\"%s\"\n", number, dim, 100 * line.made, 100 * line.updates,
+                line.given, line.fault.c_str());
+  }
+  std::fprintf(stderr,
+               "%d drops: %d with a fault, %d above their start by 1 %%, the worst by %.3g %%; "
+               "updates gave %.2g of it at most\n",
+               count, faults, above, 100 * worst, given);
+  return 0;
+}
+
 /// The stage in which a tunnel is excavated: the same in motion by every solution procedure.
 EquilibriumReport stage_of(const voussoir_bench::FailureCase& from) {
   Solver<> tunnel(voussoir_bench::rock_of(from), CoulombJoint(from.joint), from.in_situ);
@@ -133,6 +207,9 @@ int stages(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
-  const bool is_stages = argc > 1 && std::strcmp(argv[1], "stages") == 0;
-  return is_stages ? stages(argc, argv) : loose_blocks(argc, argv);
+  const auto is_asked = [&](const char* what) {
+    return argc > 1 && std::strcmp(argv[1], what) == 0;
+  };
+  if (is_asked("stages")) return stages(argc, argv);
+  return is_asked("flat") ? flat(argc, argv) : loose_blocks(argc, argv);
 }

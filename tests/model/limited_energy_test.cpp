@@ -155,6 +155,19 @@ void check(const Law& law, double from) {
         // It may hold more: it is let in as far as that goes.
         CHECK(joint.limit(again, most + 0.1 * before, uncounted) <= uncounted);
         CHECK(joint.energy(again) <= most + 0.1 * before + 1e-11 * before);
+        // What has parted touches where it touches: nothing is left out of the overlap any more.
+        auto parted = points;
+        for (auto& p : parted) p.zero[0] -= 1;
+        const bool has_let_go = joint.energy(parted) == 0;
+        if (has_let_go) CHECK(joint.limit(parted, 0, uncounted) == 0);
+        // What is counted as farther apart than it need be comes to touch again.
+        auto touching = found;
+        if (const double way = joint.limit(touching, 0); has_let_go && way > 0) {
+          auto apart = found;
+          for (auto& p : apart) p.zero[0] -= way + 1e-6;
+          CHECK(joint.limit(apart, 0, way + 1e-6) == doctest::Approx(way).scale(0).epsilon(1e-6));
+          CHECK(joint.energy(apart) == 0);
+        }
         counted_again += joint.energy(again) > (1 + 1e-3) * most ? 1 : 0;
       }
     }
@@ -197,12 +210,13 @@ TEST_SUITE("model/limited_energy") {
                                 .kelvin_viscosity = 1e14}));
   }
   TEST_CASE("of rough joints") {
-    check_in_both(BartonBandisJoint({.roughness = 10,
-                                     .wall_strength = 100e6,
-                                     .residual_friction_angle = 28 * degree,
-                                     .initial_stiffness = 20e9,
-                                     .maximum_closure = 2e-4,
-                                     .damage_coefficient = 2}));
+    check_in_both(
+        BartonBandisJoint({.roughness = 10,
+                           .wall_strength = 100e6,
+                           .residual_friction_angle = 28 * degree,
+                           .initial_stiffness = 20e9,
+                           .maximum_closure = 2e-4,
+                           .damage_coefficient = std::numeric_limits<double>::infinity()}));
   }
 }
 

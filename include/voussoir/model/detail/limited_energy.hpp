@@ -58,6 +58,7 @@ class EasedContact {
     }
     if (points_.size() == count) most = PressedPart<Dim>::deepest(normal_.data(), contact_.outline);
     full_ = is_bonded ? 1 : std::max(0.0, most) + rounding;
+    gap_ = std::max(0.0, -most - rounding);
     if (!is_bonded) normal_.assign(points_.size(), 1);
     is_bonded_ = is_bonded;
     shear_.assign(points_.size(), zeros<Vec<Dim - 1>>());
@@ -83,6 +84,8 @@ class EasedContact {
   /// The points as eased last.
   [[nodiscard]] const Points& points() const { return eased_; }
   [[nodiscard]] double full() const { return full_; }
+  /// Between faces that touch nowhere [m].
+  [[nodiscard]] double gap() const { return gap_; }
   [[nodiscard]] bool is_bonded() const { return is_bonded_; }
 
  private:
@@ -115,7 +118,7 @@ class EasedContact {
   Points eased_;
   std::vector<double> normal_;       ///< how far it is moved by a way of 1 [m]
   std::vector<Vec<Dim - 1>> shear_;  ///< [N]
-  double full_ = 0;
+  double full_ = 0, gap_ = 0;
   bool is_bonded_ = false;
 };
 
@@ -165,11 +168,19 @@ void limit_energy(const Group& group, typename Group::Contact& contact,
   const double as_found = eased.root(), uncounted = contact.uncounted;
   if (as_found <= wanted) {
     // It may count more again, unless it holds what it did.
-    if (uncounted == 0 || wanted - as_found <= 1e-9 * wanted) return;
+    if (uncounted == 0 || (wanted > 0 && wanted - as_found <= 1e-9 * wanted)) return;
     eased.prepare();
     const auto root_at = [&](double part) { return eased.root_at(-part * uncounted, 1); };
     const double all = root_at(1);
-    uncount(-uncounted * (all > wanted ? part_with(wanted, all, root_at) : 1.0), contact, points);
+    double less = uncounted;
+    if (all > wanted && wanted > 0) {
+      less *= part_with(wanted, all, root_at);
+    } else if (all > 0) {
+      // Up to where they touch; a joint that slips may lift itself into contact before.
+      const double part = std::min(1.0, eased.gap() / uncounted);
+      less *= root_at(part) > 0 ? 0 : part;
+    }
+    uncount(-less, contact, points);
     return;
   }
   eased.prepare();
