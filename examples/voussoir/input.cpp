@@ -538,6 +538,10 @@ void check_opening(Checker& checker, const Input& input) {
     checker.report("diagram.thickness", "fills the opening", below);
 }
 
+std::string counted(double count) {
+  return count < 1e15 ? std::to_string(std::llround(count)) : std::string("1e15 or more");
+}
+
 /// Nodes are close enough together for a bond, see `node_spacing.hpp`.
 void check_bond(Checker& checker, const Input& input) {
   if (!input.lining || !(input.lining->tensile_bond > 0)) return;
@@ -558,9 +562,8 @@ void check_bond(Checker& checker, const Input& input) {
   const std::string why = "the bond of a lining " + metres(thinnest) +
                           " thick acts over L = (4 E I / kn)^(1/4) = " + metres(length);
   const std::string others = "a softer interface, or no tensile_bond";
-  const std::string enough = format_quantity(least, dimension::number) +
-                             " to 2000, no farther apart than " +
-                             format_quantity(coarsest_bonded_spacing, dimension::number) + " L";
+  const std::string enough = counted(least) + " to 2000, no farther apart than " +
+                             shortest_text(coarsest_bonded_spacing) + " L";
   if (lining.nodes ? *lining.nodes >= least : chosen <= 2000) return;
   const std::string accepted = least > 2000 ? "a thicker lining, " + others : enough;
   if (lining.nodes)
@@ -571,10 +574,10 @@ void check_bond(Checker& checker, const Input& input) {
                                : least > 2000 ? ""
                                               : ", or " + others));
   else
-    checker.report("support.lining",
-                   "has no key nodes, and " + format_quantity(chosen, dimension::number) +
-                       " would be chosen, more than 2000: " + why,
-                   least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
+    checker.report(
+        "support.lining",
+        "has no key nodes, and " + counted(chosen) + " would be chosen, more than 2000: " + why,
+        least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
 }
 
 void check_boundary(Checker& checker, const Input& input) {
@@ -601,9 +604,6 @@ void check_size(Checker& checker, const Input& input) {
   for (const char* key : {"model", "tunnel", "joint_set", "blocks"})
     if (checker.faulty(key)) return;
   const SizeEstimate size = estimate_size(input);
-  const auto counted = [](double count) {
-    return count < 1e15 ? std::to_string(std::llround(count)) : std::string("1e15 or more");
-  };
   if (size.joints > largest_count) {
     checker.report("joint_set", "would come to about " + counted(size.joints) + " joints",
                    "at most 1000000 in the domain: a smaller domain, or fewer joints");
