@@ -313,7 +313,7 @@ TEST_SUITE("program/run") {
 
   // 24 chords of a circle 4 m wide; 8 cm of 25 GPa on 1 GPa/m.
   TEST_CASE("a bonded lining has the nodes that its bond needs, and the run says how many") {
-    const double perimeter = 24 * 4 * std::sin(7.5 * deg),
+    const double perimeter = 24 * 4 * std::sin(std::numbers::pi / 24),
                  length = std::pow(4 * 25e9 * 0.08 * 0.08 * 0.08 / 12 / 1e9, 0.25);
     const int chosen = static_cast<int>(std::ceil(perimeter / (0.4 * length)));
     REQUIRE(chosen == 123);
