@@ -37,7 +37,7 @@ constexpr double k_n = 5e9;
 template <int Dim, class Law>
 class Joint {
  public:
-  using Group = MovingContacts<Dim, Law>;
+  using Group = MovingContacts<Dim>;
   using Points = std::vector<typename Group::Point>;
 
   /// @param stress  in situ, normal [Pa];  @param size  of the motions [m], and of the turns [rad]
@@ -79,6 +79,22 @@ class Joint {
   }
 
   [[nodiscard]] Points points() const { return group_.points(); }
+  /// Points with another history each.
+  /// @param change  change(state of the law)
+  template <class Change>
+  [[nodiscard]] Points points_with_other_histories(Change&& change) {
+    Points points = group_.points();
+    detail::StateColumn states;
+    states.set_model(group_.laws().front().model().states());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      auto state = *static_cast<const typename Law::template State<Dim>*>(group_.memory_of(k));
+      change(state);
+      states.push_back(static_cast<const void*>(&state));
+      points[k].state.number = -2 - static_cast<int>(k);
+    }
+    group_.adopt(std::move(states));
+    return points;
+  }
   [[nodiscard]] double energy(const Points& points) const {
     const auto& c = group_.contacts().front();
     return group_.stored_energy(c, points, c.place(bodies_[0].pose, bodies_[1].pose));
@@ -121,8 +137,11 @@ void check(const Law& law, double from) {
     CAPTURE(n);
     const double stress = n % 3 == 0 ? 0.0 : 2e6 * random.uniform(),
                  size = 1e-5 * std::pow(30, random.uniform());
-    const Joint<Dim, Law> joint(law, stress, size, random);
+    Joint<Dim, Law> joint(law, stress, size, random);
     auto found = joint.points();
+    if constexpr (std::is_same_v<Law, BurgersJoint>)
+      found = joint.points_with_other_histories(
+          [&](auto& state) { state.delayed_slip[0] = size * random.uniform(); });
     const double area = 0.3 + 2 * random.uniform(), deeper = size * random.uniform();
     for (auto& p : found) {
       p.weight *= area;
@@ -130,8 +149,6 @@ void check(const Law& law, double from) {
       p.initial.tangential *= 1 + random.uniform();
       p.zero[0] += deeper;
     }
-    if constexpr (std::is_same_v<Law, BurgersJoint>)
-      for (auto& p : found) p.state.delayed_slip[0] = size * random.uniform();
     const double before = joint.energy(found);
     for (const double part : {0.0, 1e-6, 0.3, 0.999, 1.0, 2.0}) {
       CAPTURE(part);
