@@ -46,7 +46,7 @@ struct MotionTuning {
   double safety = 0.9;         ///< of the stable step [-], > 0 and <= 1
   double inert_share = 0.5;    ///< of the bodies get more inertia, for longer steps [-]
   double ramp = 2;             ///< its duration over the time of a fall through the limit [-], > 0
-  double rest_ratio = 1e-2;    ///< out-of-balance force ratio at rest [-], > 0
+  double rest_ratio = 1e-2;    ///< out-of-balance force ratio at rest [-], > 0; less if accepted
   double patience = 2;         ///< at rest nothing would come off within so long [s], > 0
   double longest = 30;         ///< after which no end is expected [s], > 0
   int looks_in_ramp = 200;     ///< times that the load is changed, and what has come off looked for
@@ -112,6 +112,7 @@ class UnloadingInMotion {
         tuning_(tuning),
         limit_(context.acceptance.displacement_limit),
         reach_(limit_ - context.carried),
+        rest_ratio_(std::min(tuning.rest_ratio, context.acceptance.unbalance_over_weight)),
         run_(set_in_motion(system, {.gravity = context.gravity,
                                     .local_damping = tuning.local_damping,
                                     .safety = tuning.safety,
@@ -123,7 +124,7 @@ class UnloadingInMotion {
     run_.add_inertia(tuning.inert_share);
     if (tuning.rings >= 0) rest_of_rock_.emplace(start_, context);
     way_.limit = limit_;
-    way_.settled_at = tuning.rest_ratio;
+    way_.settled_at = rest_ratio_;
   }
 
   /// Carries the stage out, and leaves the model where it ends.
@@ -276,8 +277,7 @@ class UnloadingInMotion {
   }
   [[nodiscard]] bool is_fast(int b) const { return run_.velocity(b).norm() > quiet_speed(); }
   [[nodiscard]] bool is_restless(int b) {
-    return is_fast(b) ||
-           run_.unbalance_of(b) > (run_.moves(b) ? tuning_.rest_ratio : way_.settled_at);
+    return is_fast(b) || run_.unbalance_of(b) > (run_.moves(b) ? rest_ratio_ : way_.settled_at);
   }
   /// Whether those that move have brought others out of balance, or have come to rest themselves.
   [[nodiscard]] bool is_to_choose() {
@@ -330,7 +330,7 @@ class UnloadingInMotion {
         });
     }
     run_.move_only(way_.moving);
-    way_.settled_at = (way_.done < 1 ? 1 : tuning_.looseness) * tuning_.rest_ratio;
+    way_.settled_at = (way_.done < 1 ? 1 : tuning_.looseness) * rest_ratio_;
   }
   void balance(double settled_at, EquilibriumReport& report) {
     rest_of_rock_->balance(
@@ -394,11 +394,11 @@ class UnloadingInMotion {
   [[nodiscard]] bool rests(EquilibriumReport& report) {
     const auto rests = [this](int b) {
       return run_.velocity(b).norm() * tuning_.patience <= reach_ &&
-             run_.unbalance_of(b) < tuning_.rest_ratio;
+             run_.unbalance_of(b) < rest_ratio_;
     };
     if (rest_of_rock_) {
       if (!std::all_of(way_.moving.begin(), way_.moving.end(), rests)) return false;
-      way_.settled_at = tuning_.rest_ratio;
+      way_.settled_at = rest_ratio_;
       balance(way_.settled_at, report);
     }
     for (int b = 0; b < run_.body_count(); ++b)
@@ -422,8 +422,11 @@ class UnloadingInMotion {
   const System& start_;  ///< what the stage begins with
   const SearchContext& context_;
   const MotionTuning& tuning_;
-  double limit_;         ///< [m]
-  double reach_;         ///< of which a block moves itself, beyond what it is carried [m]
+  double limit_;  ///< [m]
+  double reach_;  ///< of which a block moves itself, beyond what it is carried [m]
+  /// A block that slides, out of balance by less than the tuning's ratio, is not at rest where that
+  /// much is more than is accepted [-].
+  double rest_ratio_;
   double duration_ = 0;  ///< of the ramp [s]
   Run run_;
   std::optional<ElasticBalance<System>> rest_of_rock_;
