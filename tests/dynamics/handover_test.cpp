@@ -297,6 +297,7 @@ TEST_SUITE("dynamics/handover") {
     context.measures = &measures;
     context.acceptance.displacement_limit = 0.5;
     context.acceptance.collapse_measure = 1;
+    context.acceptance.unbalance_over_weight = 0.5;
     const MotionTuning tuning{.rest_ratio = 0.5, .patience = 20, .rings = -1};
     const auto start = system;
     detail::UnloadingInMotion<Solver<>::SystemType> stage(system, start, context, tuning);
