@@ -85,6 +85,11 @@ struct MotionTuning {
 
 namespace detail {
 
+/// Local damping is no property of rock: what holds with one only is not held [-].
+[[nodiscard]] constexpr double other_damping(double local_damping) {
+  return local_damping > 0.5 ? 0.3 : 0.7;
+}
+
 /// Whether a model can be set in motion: it knows the shapes of its blocks, and their masses.
 template <class System>
 [[nodiscard]] bool can_be_set_in_motion(const System& system, const SearchContext& context) {
@@ -178,7 +183,7 @@ class UnloadingInMotion {
     // The cheap ones first.
     const double damping = tuning_.local_damping;
     vary(half_, context_.carried + 0.5 * reach_, 1, damping);
-    vary(slow_ ? slow_ : half_, limit_, 1, damping > 0.5 ? 0.3 : 0.7);
+    vary(slow_ ? slow_ : half_, limit_, 1, other_damping(damping));
     vary(off_, context_.carried + 3 * reach_, 1, damping);
     vary(slow_, limit_, 2, damping);
     return range;
