@@ -428,7 +428,7 @@ class UnloadingInMotion {
   std::optional<ElasticBalance<System>> rest_of_rock_;
   Way way_;
   std::optional<Fork> half_, off_, slow_;
-  bool is_varied_ = false;  ///< the stage itself is over
+  bool is_varied_ = false;                  ///< the stage itself is over
   static constexpr int sound_every = 2000;  ///< steps between run diagnostics, which look at all
 };
 
