@@ -93,6 +93,7 @@ int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimpleP
   const double needed = std::ceil(opening.perimeter() / joint_spacing);
   const int count = static_cast<int>(
       std::clamp(needed, static_cast<double>(std::max(input.tunnel.facets, 8)), 2000.0));
+  if (!(lining.tensile_bond > 0)) return count;
   return std::max(
       count, *with_chosen_nodes<2>({}, opening, section_of(lining, thickness), interface_of(lining))
                   .nodes);
