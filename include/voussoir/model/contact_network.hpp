@@ -27,6 +27,7 @@ namespace voussoir {
 struct UpdateEnergy {
   double given = 0;  ///< < 0: lost
   double made = 0;   ///< of it, to contacts that got more than those of their bodies had: rounding
+  double held = 0;   ///< by the contacts that were updated, before: what rounding is of
 };
 
 /// What a contact update has changed: nothing; contacts in their places; or these, too.

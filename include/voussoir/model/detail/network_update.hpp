@@ -203,7 +203,10 @@ bool ContactNetwork<Dim, Detector>::put(U& update, Group& group, Pair& pair,
   if (known && !fits) ++unused_;
   const double now = group.stored_energy(index(pair.contact), bodies);
   update.energy.given += now;
-  if (has_started_) update.energy.made += std::max(0.0, now - held);
+  if (has_started_) {
+    update.energy.held += held;
+    update.energy.made += std::max(0.0, now - held);
+  }
   for (const int b : {contact.a, contact.b}) rates_.forget(b);
   return same_side && fits;
 }
