@@ -41,8 +41,8 @@ Said said(const Row& row, const std::string& name) {
   return {cell(row, name), std::atof(cell(row, name + "_m2").c_str())};
 }
 
-/// The same answer: the verdict, and a tenth of the area. Of a collapse the verdict alone, which is
-/// ended at whatever moment its limit is passed.
+/// Whether two answers agree: the verdict, and a tenth of the area. Of a collapse the verdict
+/// alone, which is ended at whatever moment its limit is passed.
 bool is_same(const Said& a, const Said& b) {
   constexpr double tenth = 0.1;
   if (a.verdict != b.verdict) return false;

@@ -192,12 +192,12 @@ double shear_off(const Area& area, Random& random) {
   group.react(0, 1, bodies, &reaction, lost);
   double stored = group.stored_energy(0, bodies), work = 0, turned_over = stored, tension = 0;
   const double start = stored;
-  const Vec<Dim> home = bodies[1].pose.position;
+  const Vec<Dim> start_position = bodies[1].pose.position;
   bool is_off = false;
   for (int k = 0; k < 200 && !is_off; ++k) {
     const Vec<Dim> before = reaction.force, from = bodies[1].pose.position;
     for (int i = 0; i < Dim; ++i) bodies[1].pose.position[i] += 2e-4 * (2 * random.uniform() - 1);
-    bodies[1].pose.position[Dim - 1] = home[Dim - 1] + 4e-5 * (2 * random.uniform() - 1);
+    bodies[1].pose.position[Dim - 1] = start_position[Dim - 1] + 4e-5 * (2 * random.uniform() - 1);
     group.react(0, 1, bodies, &reaction, lost);
     const double done = -0.5 * (before + reaction.force).dot(bodies[1].pose.position - from);
     stored = group.stored_energy(0, bodies);

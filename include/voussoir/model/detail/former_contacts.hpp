@@ -70,7 +70,7 @@ class FormerContacts {
     order_ = order_of_pairs(bodies_, static_cast<int>(frames.size()));
   }
 
-  /// The same with what their laws remember.
+  /// Contacts and points of a group, with what their laws remember.
   template <class Geometry>
   FormerContacts(const ContactGroup<Geometry>& group, const std::vector<Pose<Dim>>& frames,
                  const double* u)

@@ -70,7 +70,7 @@ class EasedContact {
 
   /// Root of the energy of the springs as they are [J^0.5].
   [[nodiscard]] double root() const { return root_of(points_); }
-  /// The same, eased: where all points are closed it falls in proportion to the way.
+  /// Root of the energy, eased: where all points are closed it falls in proportion to the way.
   /// @param way    0 to `full`: all of what the normal springs carry
   /// @param shear  part of the shear that is left, 0 to 1
   /// @pre  prepared
