@@ -81,6 +81,12 @@ class EasedContact {
     }
     return root_of(eased_);
   }
+  /// Root of the energy with all faces moved apart by a way, or together, < 0 [m].
+  /// @pre  prepared
+  [[nodiscard]] double root_apart(double way) {
+    for (std::size_t k = 0; k < eased_.size(); ++k) eased_[k].zero[0] = points_[k].zero[0] - way;
+    return root_of(eased_);
+  }
   /// The points as eased last.
   [[nodiscard]] const Points& points() const { return eased_; }
   [[nodiscard]] double full() const { return full_; }
@@ -170,7 +176,8 @@ void limit_energy(const Group& group, typename Group::Contact& contact,
     // It may count more again, unless it holds what it did.
     if (uncounted == 0 || (wanted > 0 && wanted - as_found <= 1e-9 * wanted)) return;
     eased.prepare();
-    const auto root_at = [&](double part) { return eased.root_at(-part * uncounted, 1); };
+    // All of the contact comes back, where a bond holds at some of its points, too.
+    const auto root_at = [&](double part) { return eased.root_apart(-part * uncounted); };
     const double all = root_at(1);
     double less = uncounted;
     if (all > wanted && wanted > 0) {
