@@ -174,7 +174,8 @@ class Motion : public MovingBodies<Dim> {
   /// search for equilibrium amid the motion. Joints slip on the way as they would.
   /// @param step  for every body its shift [m] and turn [rad], world axes; those that are fixed or
   ///              gone stay
-  void displace(const Eigen::VectorXd& step);
+  /// @return  that energy [J]; < 0: the step went too far, and has given some
+  double displace(const Eigen::VectorXd& step);
 
   // ---- what it does ----------------------------------------------------------------------------
 

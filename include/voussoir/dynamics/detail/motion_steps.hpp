@@ -78,7 +78,7 @@ void Motion<Dim, Detector>::move_only(const std::vector<int>& bodies) {
 }
 
 template <int Dim, class Detector>
-void Motion<Dim, Detector>::displace(const Eigen::VectorXd& step) {
+double Motion<Dim, Detector>::displace(const Eigen::VectorXd& step) {
   constexpr int dof = Dim + spin_count<Dim>;
   require(step.size() == dof * static_cast<Eigen::Index>(bodies_.size()), "values of a step",
           static_cast<double>(step.size()), "those of all bodies");
@@ -89,6 +89,7 @@ void Motion<Dim, Detector>::displace(const Eigen::VectorXd& step) {
         visit(b, Vec<Dim>(voussoir::part<Dim>(step, dof * static_cast<Eigen::Index>(b))),
               Spin<Dim>(voussoir::part<dof - Dim>(step, dof * static_cast<Eigen::Index>(b) + Dim)));
   };
+  const double before = audit_.damping;
   // What is taken away is the work of the forces out of balance, by the mean of both ends.
   const auto work = [&](std::size_t b, const Vec<Dim>& shift, const Spin<Dim>& turn) {
     const Load<Dim> load = forces().total(b);
@@ -107,6 +108,7 @@ void Motion<Dim, Detector>::displace(const Eigen::VectorXd& step) {
   fresh_ = only_part_has_moved_ = false;
   audit_.friction += freshen().friction;
   each(work);
+  return audit_.damping - before;
 }
 
 template <int Dim, class Detector>

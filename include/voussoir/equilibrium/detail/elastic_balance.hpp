@@ -19,7 +19,8 @@ namespace voussoir::detail {
 ///
 /// The stiffness is that of the model where it was set in motion, all contacts closed and sticking:
 /// factored once. A body for which that is no longer true stays out of balance, and is to be
-/// stepped.
+/// stepped. Where much has closed since, the rock is stiffer than that, and a step may go too far:
+/// one that gives the rock energy is taken back.
 template <class System>
 class ElasticBalance {
  public:
@@ -52,7 +53,9 @@ class ElasticBalance {
     }
     (void)solver_->solve_in_place(f, {.relative = exactness}, context_.progress);
     ++report.elastic_solves;
-    run.displace(f);
+    if (run.displace(f) >= 0) return;
+    set_to_sum(f, f, -2, f);
+    (void)run.displace(f);
   }
 
  private:
