@@ -26,10 +26,10 @@ class AllBlocksInMotion {
   static constexpr const char* name = "AllBlocksInMotion";
 
   struct Params {
-    double local_damping = 0.7;
-    double safety = 0.9;     ///< of the stable step
-    double duration = 1;     ///< of the unloading [s]
-    double limit_share = 1;  ///< of the displacement limit that the rock has
+    double local_damping = 0.1;  ///< besides dashpots at contacts
+    double safety = 0.9;         ///< of the stable step
+    double duration = 1;         ///< of the unloading [s]
+    double limit_share = 1;      ///< of the displacement limit that the rock has
   };
   AllBlocksInMotion() = default;
   explicit AllBlocksInMotion(const Params& params) : params_(params) {}
@@ -67,6 +67,7 @@ class AllBlocksInMotion {
     const double from = system.wall_fraction, to = context.wall_fraction;
     auto run = set_in_motion(system, {.gravity = context.gravity,
                                       .local_damping = params_.local_damping,
+                                      .viscous_damping = 0.3,
                                       .safety = params_.safety});
     std::vector<int> gone;
     const auto has_left = [&](int b) {
@@ -131,6 +132,7 @@ struct Variation {
 inline constexpr Variation variations[] = {
     {"reference", {}},
     {"damping_03", {.local_damping = 0.3}},
+    {"damping_07", {.local_damping = 0.7}},
     {"half_step", {.safety = 0.45}},
     {"half_rate", {.duration = 2}},
     {"limit_x3", {.limit_share = 3}},

@@ -151,7 +151,7 @@ TEST_SUITE("equilibrium/rock_failure") {
       other.displacement_limit = share * report.displacement_limit;
       check_holds(report_of(tuning_for(share), other));
     }
-    check_holds(report_of({.local_damping = 0.3}, asked));
+    check_holds(report_of({.local_damping = 0.7}, asked));
     const EquilibriumReport brief = report_of({.range = RangeSought::until_marginal}, asked);
     REQUIRE(brief.rockfall);
     CHECK(brief.rockfall->is_marginal() == range.is_marginal());

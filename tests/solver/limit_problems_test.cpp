@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/core/errors.hpp>
@@ -179,8 +180,10 @@ TEST_SUITE("solver/limit_problems") {
     const LaidProblem whole = circular_arch(31, 1.5);
     const double most = limit_factor(whole, tan_friction, whole.pushed(Vec2(1, 0))).value();
     CHECK(arch_stands<Method>(whole, 0));
-    CHECK(arch_stands<Method>(whole, 0.9 * most));
-    CHECK(!arch_stands<Method>(whole, 1.05 * most));
+    // `Relaxation` sways for longer than its steps allow from 0.92 on, and is undecided.
+    const double sure = std::is_same_v<Method, Relaxation> ? 0.9 : 0.98;
+    CHECK(arch_stands<Method>(whole, sure * most));
+    CHECK(!arch_stands<Method>(whole, 1.02 * most));
     CHECK(!arch_stands<Method>(circular_arch(31, 1.0), 0));
     // Oppenheim (1992): seven voussoirs over 157.5 degrees, 0.37 g. Hinges a per mille inside of
     // the edges, and 1 % of a block's weight that may be out of balance.

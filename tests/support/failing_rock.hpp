@@ -84,7 +84,8 @@ template <class Tunnel>
 [[nodiscard]] FailureAnswer all_blocks_in_motion(const Tunnel& tunnel, double limit,
                                                  double collapse, double duration, double safety,
                                                  EnergyBalance* energy = nullptr) {
-  auto run = set_in_motion(tunnel, {.local_damping = 0.7, .safety = safety});
+  auto run =
+      set_in_motion(tunnel, {.local_damping = 0.1, .viscous_damping = 0.3, .safety = safety});
   std::vector<int> fallen;
   while (run.time() < 30) {
     const double done = std::min(run.time() / duration, 1.0);

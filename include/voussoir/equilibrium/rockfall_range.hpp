@@ -8,8 +8,8 @@ namespace voussoir {
 
 /// How much rock comes off in a stage that is followed in motion, and how much more or less it is
 /// with half and with three times the displacement limit, and, from where blocks begin to move,
-/// with other damping (0.3 for 0.7) and with the walls unloaded at half the rate. Where these
-/// differ the rock is marginal by nature, and no single figure is its answer.
+/// with local damping of 0.7 besides dashpots and with the walls unloaded at half the rate. Where
+/// these differ the rock is marginal by nature, and no single figure is its answer.
 ///
 /// What they are was chosen by holding them against all blocks in motion, varied from the beginning
 /// on: docs/failure-patterns.md has how many marginal tunnels they find.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
 #include <utility>
 #include <vector>
-#include <voussoir/core/long_vectors.hpp>
-#include <voussoir/core/message.hpp>
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
@@ -31,10 +28,8 @@ enum class AtAFall { gives_up_early, gives_up, goes_on };
 /// once more from its beginning, in motion (`UnloadingInMotion`), which tells what comes off; and
 /// from its beginning again by the search, without that, so that the state found has neither the
 /// overshoot nor the rounding of the motion in it. Only where more would then come off that has
-/// been caught in motion does the search go on from where the motion came to rest. Blocks that have
-/// been caught on a long way, with nothing coming off, are held only if they are caught with other
-/// damping, too: shaking leaves shear across their way that may wedge them in. A model that cannot
-/// be set in motion is searched as it is.
+/// been caught in motion does the search go on from where the motion came to rest. A model that
+/// cannot be set in motion is searched as it is.
 /// @param context  its limits are numbers
 /// @param search   search(AtAFall, start, report): the procedure, from where the system is, which
 ///                 is the state `start`
@@ -96,35 +91,8 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
           (report.reason.empty() ? "" : ": " + report.reason) +
           "; raise error_estimate or the step limit of the method";
   };
-  // Of a state in which rock has come off the range tells as much.
-  const auto check_what_was_caught = [&] {
-    if (report.verdict != Verdict::stable || report.fallen.size() != fallen_before.size() ||
-        !report.lost_nodes.empty())
-      return;
-    Eigen::VectorXd way;
-    set_to_sum(way, system.displacement, -1, start.displacement);
-    if (!report.is_from_motion && system.largest_translation(way) <= context.seldom_moved) return;
-    MotionTuning varied = *tuning;
-    varied.local_damping = other_damping(tuning->local_damping);
-    varied.range = RangeSought::none;
-    System other(start);
-    EquilibriumReport of_other = report;
-    const bool rests = UnloadingInMotion<System>(other, start, context, varied).go(of_other);
-    report.steps = of_other.steps;
-    report.elastic_solves = of_other.elastic_solves;
-    if (rests && of_other.fallen.size() == fallen_before.size() && of_other.lost_nodes.empty())
-      return;
-    report.verdict = Verdict::undecided;
-    report.reason =
-        message({"blocks were caught on their way, but with local damping ", varied.local_damping,
-                 " in place of ", tuning->local_damping, " they ",
-                 of_other.fallen.size() > fallen_before.size() || !of_other.lost_nodes.empty()
-                     ? "come off"
-                     : "do not come to rest"});
-  };
   try {
     if (stage.go(report)) settle();
-    check_what_was_caught();
     report.rockfall = stage.range(report);
   } catch (const Stopped&) {
     back_to(start, fallen_before, measure_before);
