@@ -64,7 +64,7 @@ void let_go_slowly(auto& run) {
 /// not standing, which is safe by some per cent.
 bool stands_in_motion(const LaidProblem& problem, double stiffness, double tan_friction) {
   auto run = problem.run(CoulombJoint({stiffness, stiffness, std::atan(tan_friction)}),
-                         {.local_damping = 0.7});
+                         {.local_damping = 0.1, .viscous_damping = 0.3});
   let_go_slowly(run);
   for (int look = 0; look < 5000; ++look) {
     run.advance_steps(200);
@@ -151,7 +151,6 @@ double sag_at_rest(int span) {
   auto solver = beam.solver<Solver<Method, MohrCoulombJoint>>(roof_joint(span));
   Acceptance near;
   near.displacement_limit = 1;
-  near.contact_update_limit = 2e-3;
   if (solver.equilibrium(0, Method{}, near).verdict != Verdict::stable) return NAN;
   return sag_of(beam, [&](std::size_t b) {
     const Vec2 centre = beam.centre(b);

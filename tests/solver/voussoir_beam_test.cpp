@@ -40,12 +40,11 @@ double by_fibres(int span, int fibres = 64) {
 }
 
 template <class Method>
-double at_rest(int span, double update_limit) {
+double at_rest(int span) {
   const LaidProblem beam = voussoir_beam(span);
   auto solver = beam.solver<Solver<Method, MohrCoulombJoint>>(roof_joint(span));
   Acceptance near;
   near.displacement_limit = 1;  // it sags by a quarter of its height before it snaps through
-  near.contact_update_limit = update_limit;
   REQUIRE(solver.equilibrium(0, Method{}, near).verdict == Verdict::stable);
   REQUIRE(solver.fallen().empty());
   double sag = 0;
@@ -104,12 +103,13 @@ double by_their_iteration(double span, double modulus) {
 TEST_SUITE("solver/voussoir_beam") {
   TEST_CASE("the published sags are those of 10/3 GPa") {
     for (const auto& [span, published] : spans)
-      CHECK(by_their_iteration(span, 1e10 / 3) == doctest::Approx(published).epsilon(3e-3));
+      CHECK(by_their_iteration(span, 1e10 / 3) ==
+            doctest::Approx(published).scale(0).epsilon(3e-3));
   }
 
   TEST_CASE("the fibres are enough of them") {
     for (const auto& [span, published] : spans)
-      CHECK(by_fibres(span) == doctest::Approx(by_fibres(span, 256)).epsilon(2e-3));
+      CHECK(by_fibres(span) == doctest::Approx(by_fibres(span, 256)).scale(0).epsilon(2e-3));
     // Of 21 m the middle is to snap through.
     FibreBeam wide{.span = 21,
                    .normal = voussoir_beam_stiffness(21),
@@ -122,10 +122,13 @@ TEST_SUITE("solver/voussoir_beam") {
     for (const auto& [span, published] : spans) {
       CAPTURE(span);
       // An arch whose joints close to a third; how far hangs on rotations of finite size, which are
-      // linear between contact updates: 2 mm of 1 m are 2e-6. States are 1 % of a block's weight
-      // out of balance at most. `Relaxation` slips on its way, which stays.
+      // linear since the last contact update. States are 1 % of a block's weight out of balance at
+      // most. `Relaxation` slips on its way, which stays. 20 m are near to where it snaps through:
+      // blocks may move by 5 mm of 229 between the last update and rest.
       const double slip = std::is_same_v<Method, Relaxation> && span == 5 ? 0.06 : 0;
-      CHECK(at_rest<Method>(span, 2e-3) == doctest::Approx(by_fibres(span)).epsilon(0.02 + slip));
+      const double near_snap = span == 20 ? 0.005 : 0;
+      CHECK(at_rest<Method>(span) ==
+            doctest::Approx(by_fibres(span)).scale(0).epsilon(0.02 + slip + near_snap));
     }
   }
   TEST_CASE_TEMPLATE_APPLY(sags, Procedures);
@@ -133,7 +136,7 @@ TEST_SUITE("solver/voussoir_beam") {
   TEST_CASE("it sags so in motion, too") {
     for (const auto& [span, published] : spans) {
       CAPTURE(span);
-      CHECK(in_motion(span) == doctest::Approx(by_fibres(span)).epsilon(0.02));
+      CHECK(in_motion(span) == doctest::Approx(by_fibres(span)).scale(0).epsilon(0.02));
     }
   }
 }

@@ -37,11 +37,11 @@ class ActiveSet {
     VOUSSOIR_ASSERT(f.size() == dof * static_cast<Eigen::Index>(system.body_count()),
                     "forces are those of all bodies");
     VOUSSOIR_ASSERT(threshold >= 0 && rings >= 0, "who is out of balance can be told");
-    lightest_ = system.lightest_weight();
+    scale_ = system.weight_scale();
     Eigen::VectorXd own;
     set_to_sum(own, f, -1, elsewhere);
     for (int b = 0; b < system.body_count(); ++b)
-      active_[static_cast<std::size_t>(b)] = system.unbalance_of(own, b, lightest_) > threshold;
+      active_[static_cast<std::size_t>(b)] = system.unbalance_of(own, b, scale_) > threshold;
     for (int ring = 0; ring < rings; ++ring) grow();
     for (int b = 0; b < system.body_count(); ++b)
       if (active(b) && system.body(b).movable) {
@@ -71,14 +71,14 @@ class ActiveSet {
   /// Largest out-of-balance force ratio of an active body.
   [[nodiscard]] double worst_unbalance(const Eigen::VectorXd& f) const {
     double worst = 0;
-    for (const int b : bodies_) worst = std::max(worst, system_->unbalance_of(f, b, lightest_));
+    for (const int b : bodies_) worst = std::max(worst, system_->unbalance_of(f, b, scale_));
     return worst;
   }
   /// Sum of the squared out-of-balance force ratios: what the Newton steps bring down.
   [[nodiscard]] double squared_unbalance(const Eigen::VectorXd& f) const {
     double sum = 0;
     for (const int b : bodies_) {
-      const double one = system_->unbalance_of(f, b, lightest_);
+      const double one = system_->unbalance_of(f, b, scale_);
       sum += one * one;
     }
     return sum;
@@ -107,7 +107,7 @@ class ActiveSet {
     TangentMatrix<dof> matrix;
     for (const int b : bodies_) {
       const auto& body = system_->body(b);
-      const double spring = (body.weight > 0 ? body.weight : lightest_) / reach[b];
+      const double spring = (body.weight > 0 ? body.weight : scale_.weight) / reach[b];
       VOUSSOIR_ASSERT(spring > 0 && std::isfinite(spring), "an anchor holds a body");
       Block anchor = diagonal_of<dof>(spring);
       for (int k = dim; k < dof; ++k) anchor(k, k) *= body.gyration * body.gyration;
@@ -177,7 +177,7 @@ class ActiveSet {
   }
 
   System* system_;
-  double lightest_ = 0;
+  typename System::WeightScale scale_{};
   BodyMarks active_;
   std::vector<int> number_;  ///< among the active bodies, -1: fixed
   std::vector<int> bodies_, joints_, boundary_, interface_;

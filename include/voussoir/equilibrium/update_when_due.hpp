@@ -21,8 +21,9 @@ template <class System>
 
 /// Updates contacts if it is due.
 ///
-/// Where contacts have been updated before, an equilibrium is looked at from near by: rotations
-/// are finite there, and linear ones are off by half their square.
+/// An equilibrium is looked at from near by, where contacts have been updated before or a block has
+/// turned: rotations are finite, and linear ones, between updates, are off by half their square. A
+/// roof beam of 15 blocks that turn by 6e-3 sags a tenth too little with those.
 /// @param report   is told what the update has done
 /// @param at_rest  the search is about to end here
 /// @return  true if it has
@@ -31,9 +32,11 @@ template <class System>
 template <class System>
 bool update_when_due(System& system, const SearchContext& context, EquilibriumReport& report,
                      bool at_rest = false) {
-  constexpr int most = 500;  // a stage in which rock fails has some tens
+  constexpr int most = 500;              // a stage in which rock fails has some tens
+  constexpr double linear_up_to = 1e-3;  // rotations at rest [rad]
   const Acceptance& acceptance = context.acceptance;
-  const bool near_by = at_rest && system.has_updated_contacts();
+  const bool near_by =
+      at_rest && (system.has_updated_contacts() || system.turned_since_update() > linear_up_to);
   if (!is_due(system, acceptance, near_by ? 0.05 : 1.0)) return false;
   if (report.contact_updates.count >= most)
     throw InvalidInput(

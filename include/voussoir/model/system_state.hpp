@@ -108,6 +108,9 @@ class SystemState {
   /// How far the block that has moved most has done so since contacts were last updated; turning
   /// counts at the radius of gyration [m].
   [[nodiscard]] double moved_since_update() const;
+  /// By how much the block that has turned most has since contacts were last updated, of those that
+  /// weigh half as much as the mean or more: slivers turn further, and carry little [rad].
+  [[nodiscard]] double turned_since_update() const;
 
   [[nodiscard]] std::vector<int> movable_bodies() const {
     std::vector<int> movable;
@@ -140,26 +143,38 @@ class SystemState {
     return sum;
   }
 
-  /// Weight of the lightest block: the scale for weightless lining nodes [N].
-  [[nodiscard]] double lightest_weight() const {
-    double lightest = std::numeric_limits<double>::infinity();
+  /// What the forces on a body without weight are held against: the lightest block, or where a
+  /// lining has many nodes under such a block, the part of it that stands on one of them. With the
+  /// whole block for each, a lining of 800 nodes may miss a block's weight and be called balanced.
+  struct WeightScale {
+    double weight;  ///< of the lightest block that can move [N]; infinite without any
+    double edge;    ///< of a cube or square with its radius of gyration [m]
+
+    [[nodiscard]] double of(const Body& body) const {
+      return body.weight > 0 ? body.weight : weight * std::min(1.0, body.gyration / edge);
+    }
+  };
+  [[nodiscard]] WeightScale weight_scale() const {
+    WeightScale least{std::numeric_limits<double>::infinity(), 1};
     for (const Body& b : bodies_)
-      if (b.movable && b.weight > 0) lightest = std::min(lightest, b.weight);
-    return lightest;
+      if (b.movable && b.weight > 0 && b.weight < least.weight)
+        least = {b.weight, std::sqrt(dim == 2 ? 6.0 : 12.0) * b.gyration};
+    return least;
   }
   /// Out-of-balance force of one body over its weight; a moment counts as a force at the radius of
   /// gyration. Zero for a body that cannot move.
-  [[nodiscard]] double unbalance_of(const Eigen::VectorXd& f, int b, double lightest) const {
+  [[nodiscard]] double unbalance_of(const Eigen::VectorXd& f, int b,
+                                    const WeightScale& scale) const {
     const Body& it = body(b);
     if (!it.movable) return 0.0;
     const double force = part<dim>(f, dof * b).norm();
     const double moment = part<dof - dim>(f, dof * b + dim).norm() / it.gyration;
-    return (force + moment) / (it.weight > 0 ? it.weight : lightest);
+    return (force + moment) / scale.of(it);
   }
   [[nodiscard]] double unbalance_over_weight(const Eigen::VectorXd& f) const {
-    const double lightest = lightest_weight();
+    const WeightScale scale = weight_scale();
     double worst = 0;
-    for (int b = 0; b < body_count(); ++b) worst = std::max(worst, unbalance_of(f, b, lightest));
+    for (int b = 0; b < body_count(); ++b) worst = std::max(worst, unbalance_of(f, b, scale));
     return worst;
   }
 
@@ -275,6 +290,26 @@ double SystemState<Geometry>::moved_since_update() const {
                         part<dim>(u, 0).norm() + body(b).gyration * part<dof - dim>(u, dim).norm());
   }
   return farthest;
+}
+
+template <class Geometry>
+double SystemState<Geometry>::turned_since_update() const {
+  double weight = 0;
+  int count = 0;
+  const auto is_there = [this](int b) { return !body(b).is_gone && body(b).is_block; };
+  for (int b = 0; b < body_count(); ++b)
+    if (is_there(b)) {
+      weight += body(b).weight;
+      ++count;
+    }
+  double most = 0;
+  for (int b = 0; b < body_count(); ++b) {
+    if (!is_there(b) || 2 * count * body(b).weight < weight) continue;
+    Spin<dim> turn = part<dof - dim>(displacement, dof * b + dim);
+    if (has_updated_contacts()) turn -= part<dof - dim>(updated_at_, dof * b + dim);
+    most = std::max(most, turn.norm());
+  }
+  return most;
 }
 
 }  // namespace voussoir

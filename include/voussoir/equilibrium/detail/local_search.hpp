@@ -134,13 +134,13 @@ class LocalSearch {
   /// all if none stands out. `f` forces before the step, `worse` after it.
   void hold_back(const std::vector<int>& bodies, const Eigen::VectorXd& f,
                  const Eigen::VectorXd& worse) {
-    const double lightest = system_.lightest_weight();
+    const auto scale = system_.weight_scale();
     bool found = false;
     for (const bool everybody : {false, true}) {
       if (found) return;
       for (const int b : bodies) {
-        if (!everybody && !(system_.unbalance_of(worse, b, lightest) >
-                            tuning_.spoilt_factor * system_.unbalance_of(f, b, lightest) +
+        if (!everybody && !(system_.unbalance_of(worse, b, scale) >
+                            tuning_.spoilt_factor * system_.unbalance_of(f, b, scale) +
                                 tuning_.spoilt_addition))
           continue;
         reach_[b] = std::max(tuning_.reach_shrinkage * reach_[b], tuning_.shortest_reach);
