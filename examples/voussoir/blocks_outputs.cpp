@@ -274,8 +274,9 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
 std::string blocks_summary(const Input& input, const BlocksRun& run) {
   const LaidInput& laid = *input.laid;
   std::string out = "models   " + composition_of(input) + "\n";
-  out += "blocks   " + std::to_string(laid.blocks.size()) + ", " +
-         std::to_string(run.solver.system().joints.contacts().size()) + " contacts\n";
+  const std::size_t contacts = run.solver.system().joints.contacts().size();
+  out += "blocks   " + std::to_string(laid.blocks.size()) + ", " + std::to_string(contacts) +
+         (contacts == 1 ? " contact\n" : " contacts\n");
   out += std::string("stage    weight: ") + to_string(run.weight.verdict) + "\n";
   if (!run.steps.empty())
     out += "stage    loading: " + std::to_string(run.steps.size()) + " of " +
