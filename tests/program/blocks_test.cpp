@@ -159,6 +159,20 @@ TEST_SUITE("program/blocks") {
           doctest::Approx(0.49).epsilon(0.03));  // a step is 0.02
   }
 
+  TEST_CASE("an arch stands up to its limit, and falls beyond it") {
+    // The joints of examples/blocks/arch.csv bear kh = 0.1446 by limit analysis; k_n of 1e12 Pa/m.
+    for (const auto& [part, verdict] : {std::pair{0.98, "stands"}, std::pair{1.02, "falls"}}) {
+      CAPTURE(part);
+      const Folder folder;
+      const Outcome outcome = run_program({"run", VOUSSOIR_TEST_EXAMPLES "/blocks/arch.toml",
+                                           "--set", "seismic.kh=" + std::to_string(part * 0.1446),
+                                           "--set", "loading.steps=1", "--out", folder / "out"});
+      INFO(outcome.err);
+      const Json json = Json::parse(read_file(folder / "out/run.json"));
+      CHECK(json.at("verdict") == verdict);
+    }
+  }
+
   TEST_CASE("what makes no sense is refused with place and remedy, all at once") {
     struct Fault {
       std::string from, to;

@@ -61,7 +61,8 @@ class Handover {
       for (std::size_t k = 0; k < lining.surface.node_count(); ++k) {
         const auto& body = system_.body(lining.first + static_cast<int>(k));
         // Without weight: as inert as the lightest block, and carried.
-        const double mass = (body.weight > 0 ? body.weight : system_.weight_scale().weight) / gravity;
+        const double mass =
+            (body.weight > 0 ? body.weight : system_.weight_scale().weight) / gravity;
         nodes.push_back({body.centre, lining.surface.tiles(k), mass,
                          all_entries<dof - dim>(node_inertia(mass, body.gyration, lining.thickness,
                                                              lining.is_pinned))});

@@ -139,9 +139,9 @@ class LocalSearch {
     for (const bool everybody : {false, true}) {
       if (found) return;
       for (const int b : bodies) {
-        if (!everybody && !(system_.unbalance_of(worse, b, scale) >
-                            tuning_.spoilt_factor * system_.unbalance_of(f, b, scale) +
-                                tuning_.spoilt_addition))
+        if (!everybody &&
+            !(system_.unbalance_of(worse, b, scale) >
+              tuning_.spoilt_factor * system_.unbalance_of(f, b, scale) + tuning_.spoilt_addition))
           continue;
         reach_[b] = std::max(tuning_.reach_shrinkage * reach_[b], tuning_.shortest_reach);
         VOUSSOIR_ASSERT(reach_[b] > 0, "a body that is held back can still move");
