@@ -162,7 +162,7 @@ TEST_SUITE("program/blocks") {
   TEST_CASE("an arch stands up to its limit, and falls beyond it") {
     // The joints of examples/blocks/arch.csv bear kh = 0.1446 by limit analysis; k_n of 1e12 Pa/m.
     // In ten steps: all of it at once would swing the arch over at 0.98.
-    for (const auto& [part, verdict] : {std::pair{0.98, "stands"}, std::pair{1.02, "falls"}}) {
+    for (const double part : {0.98, 1.02}) {
       CAPTURE(part);
       const Folder folder;
       const Outcome outcome =
@@ -170,7 +170,7 @@ TEST_SUITE("program/blocks") {
                        "seismic.kh=" + std::to_string(part * 0.1446), "--out", folder / "out"});
       INFO(outcome.err);
       const Json json = Json::parse(read_file(folder / "out/run.json"));
-      CHECK(json.at("verdict") == verdict);
+      CHECK(json.at("verdict") == (part < 1 ? "stands" : "falls"));
     }
   }
 
