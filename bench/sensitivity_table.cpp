@@ -154,6 +154,7 @@ void add_parts(std::vector<Knob>& all) {
 
   const Members<MotionTuning> motion{all, "MotionTuning", &TwoLevel::Params::motion};
   using M = MotionTuning;
+  motion.add("viscous_damping", &M::viscous_damping);
   motion.add("local_damping", &M::local_damping, 0, 0.9);
   motion.add("safety", &M::safety, 0, 1);
   motion.add("inert_share", &M::inert_share, 0, 0.9);

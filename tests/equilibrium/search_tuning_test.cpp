@@ -44,6 +44,7 @@ TEST_SUITE("equilibrium/search_tuning") {
                              [](Params& p) { p.path.halvings = -1; },
                              [](Params& p) { p.path.open = -1; },
                              [](Params& p) { p.path.jump = 0; },
+                             [](Params& p) { p.motion.viscous_damping = -0.1; },
                              [](Params& p) { p.motion.local_damping = 1; },
                              [](Params& p) { p.motion.safety = 0; },
                              [](Params& p) { p.motion.inert_share = 1; },
