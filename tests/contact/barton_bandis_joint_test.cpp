@@ -10,6 +10,8 @@
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/core/random.hpp>
 
+#include "support/near.hpp"
+
 namespace barton_bandis_joint_test {
 
 using namespace voussoir;
@@ -67,8 +69,8 @@ class ShearBox {
     rise_ = load_.motion.opening - start_;
     const PointForce<Dim> force = law_.force(load_, state_);
     law_.commit(load_, state_);
-    REQUIRE(force.normal == doctest::Approx(stress_ * w).epsilon(1e-9));
-    REQUIRE(law_.force(load_, state_).normal == doctest::Approx(force.normal).epsilon(1e-12));
+    REQUIRE(force.normal == voussoir_test::near(stress_ * w).epsilon(1e-9));
+    REQUIRE(law_.force(load_, state_).normal == voussoir_test::near(force.normal).epsilon(1e-12));
     REQUIRE((law_.force(load_, state_).tangential - force.tangential).norm() <=
             1e-12 * stress_ * w);
   }
@@ -124,25 +126,26 @@ TEST_SUITE("contact/barton_bandis_joint") {
   TEST_CASE("the closure curve is the hyperbola through its three known points") {
     const BartonBandisJoint law(params);
     // Slope K_ni at the beginning, V_m / 2 at K_ni V_m, and its own inverse.
-    CHECK(law.stress(1e-9) == doctest::Approx(20.0).epsilon(1e-4));
-    CHECK(law.stress(1e-4) == doctest::Approx(4e6).epsilon(1e-12));
-    CHECK(law.closure(4e6) == doctest::Approx(1e-4).epsilon(1e-12));
+    CHECK(law.stress(1e-9) == voussoir_test::near(20.0).epsilon(1e-4));
+    CHECK(law.stress(1e-4) == voussoir_test::near(4e6).epsilon(1e-12));
+    CHECK(law.closure(4e6) == voussoir_test::near(1e-4).epsilon(1e-12));
     CHECK(law.stress(0) == 0);
     CHECK(law.stress(-1e-5) == 0);
     // Beyond the largest stress it goes on along its tangent.
     const double v = law.closure(5e6), slope = law.joint_normal_stiffness();
-    CHECK((law.stress(v) - law.stress(v - 1e-9)) / 1e-9 == doctest::Approx(slope).epsilon(1e-3));
-    CHECK(law.stress(v + 1e-4) == doctest::Approx(5e6 + slope * 1e-4));
-    CHECK(law.closure(6e6) == doctest::Approx(v + 1e6 / slope));
+    CHECK((law.stress(v) - law.stress(v - 1e-9)) / 1e-9 ==
+          voussoir_test::near(slope).epsilon(1e-3));
+    CHECK(law.stress(v + 1e-4) == voussoir_test::near(5e6 + slope * 1e-4));
+    CHECK(law.closure(6e6) == voussoir_test::near(v + 1e6 / slope));
   }
 
   TEST_CASE("peak strength is phi_r at JCS, phi_r + JRC at a tenth, and no steeper than 70 deg") {
     const BartonBandisJoint law(params);
-    CHECK(law.peak_strength(100e6) == doctest::Approx(100e6 * std::tan(28 * degree)));
-    CHECK(law.peak_strength(10e6) == doctest::Approx(10e6 * std::tan(38 * degree)));
-    CHECK(law.peak_strength(1e6) == doctest::Approx(1e6 * std::tan(48 * degree)));
-    CHECK(law.peak_strength(100) == doctest::Approx(100 * std::tan(70 * degree)));
-    CHECK(law.peak_strength(200e6) == doctest::Approx(200e6 * std::tan(28 * degree)));
+    CHECK(law.peak_strength(100e6) == voussoir_test::near(100e6 * std::tan(28 * degree)));
+    CHECK(law.peak_strength(10e6) == voussoir_test::near(10e6 * std::tan(38 * degree)));
+    CHECK(law.peak_strength(1e6) == voussoir_test::near(1e6 * std::tan(48 * degree)));
+    CHECK(law.peak_strength(100) == voussoir_test::near(100 * std::tan(70 * degree)));
+    CHECK(law.peak_strength(200e6) == voussoir_test::near(200e6 * std::tan(28 * degree)));
   }
 
   TEST_CASE("a joint ten times as long as the sample is smoother and weaker") {
@@ -150,18 +153,19 @@ TEST_SUITE("contact/barton_bandis_joint") {
     longer.sample_length = 0.1;
     longer.joint_length = 1;
     const BartonBandisJoint law(longer);
-    CHECK(law.roughness() == doctest::Approx(10 * std::pow(10, -0.2)));         // 6.31
-    CHECK(law.wall_strength() == doctest::Approx(100e6 * std::pow(10, -0.3)));  // 50.1 MPa
+    CHECK(law.roughness() == voussoir_test::near(10 * std::pow(10, -0.2)));         // 6.31
+    CHECK(law.wall_strength() == voussoir_test::near(100e6 * std::pow(10, -0.3)));  // 50.1 MPa
     // Peak slip of the sample: 0.1/500 (10/0.1)^0.33 = 0.914 mm, about 1 % of its length.
-    CHECK(BartonBandisJoint(params).peak_slip() == doctest::Approx(0.914e-3).epsilon(1e-3));
+    CHECK(BartonBandisJoint(params).peak_slip() == voussoir_test::near(0.914e-3).epsilon(1e-3));
   }
 
   TEST_CASE("stiffness and closure from JRC, JCS and the strength of the rock") {
     // By hand: JRC 10, JCS 100 MPa, sigma_c 150 MPa: a_j = 2 (0.3 - 0.1) = 0.4 mm,
     // K_ni = -7.15 + 17.5 + 0.02 * 250 = 15.35 MPa/mm, V_m = -0.296 - 0.056 + 2.241 * 250^-0.245.
     const auto found = BartonBandisJoint::from_index_tests(10, 100e6, 28 * degree, 150e6);
-    CHECK(found.initial_stiffness == doctest::Approx(15.35e9));
-    CHECK(found.maximum_closure == doctest::Approx(1e-3 * (2.241 * 0.2585 - 0.352)).epsilon(2e-3));
+    CHECK(found.initial_stiffness == voussoir_test::near(15.35e9));
+    CHECK(found.maximum_closure ==
+          voussoir_test::near(1e-3 * (2.241 * 0.2585 - 0.352)).epsilon(2e-3));
   }
 
   TEST_CASE_TEMPLATE("it returns the in-situ force, and follows the curve from there", D,
@@ -172,14 +176,14 @@ TEST_SUITE("contact/barton_bandis_joint") {
     auto load = point<dim>(1e6, 0, 0);
     load.initial.tangential[0] = 1e5;
     const auto force = law.force(load, state);
-    CHECK(force.normal == doctest::Approx(1e6 * w).epsilon(1e-12));
-    CHECK(force.tangential[0] == doctest::Approx(1e5).epsilon(1e-12));
+    CHECK(force.normal == voussoir_test::near(1e6 * w).epsilon(1e-12));
+    CHECK(force.tangential[0] == voussoir_test::near(1e5).epsilon(1e-12));
     // Opened by all its closure it carries nothing, and closes on the same curve.
     load.motion.opening = law.closure(1e6);
     CHECK(std::abs(law.force(load, state).normal) < 1e-6);
     law.commit(load, state);
     load.motion.opening = law.closure(1e6) - law.closure(3e6);
-    CHECK(law.force(load, state).normal == doctest::Approx(3e6 * w).epsilon(1e-12));
+    CHECK(law.force(load, state).normal == voussoir_test::near(3e6 * w).epsilon(1e-12));
     CHECK(law.force(load, state).tangential.norm() < 1e-6);  // it has been open
   }
 
@@ -210,11 +214,11 @@ TEST_SUITE("contact/barton_bandis_joint") {
                 from = ratio;
                 // The box holds its stress to 1e-9; asked for is 0.05.
                 CHECK(box.shear() ==
-                      doctest::Approx(published_shear(joint, stress, ratio)).epsilon(1e-6));
+                      voussoir_test::near(published_shear(joint, stress, ratio)).epsilon(1e-6));
                 // Within a step the angle is its mean: up to a third of it is tan of 0 to 29
                 // degrees, 3 % flatter in one step than in many.
                 CHECK(box.rise() / law.peak_slip() ==
-                      doctest::Approx(published_dilation(joint, stress, ratio))
+                      voussoir_test::near(published_dilation(joint, stress, ratio))
                           .scale(1e-6)
                           .epsilon(steps == 1 ? 0.03 : 0.003));
               }
@@ -238,19 +242,19 @@ TEST_SUITE("contact/barton_bandis_joint") {
       box.shear_to(ratio * slip);
       const double top = box.shear(), rise = box.rise(), back = 0.5 * top / stiffness;
       box.shear_to(ratio * slip - back);
-      CHECK(box.shear() == doctest::Approx(0.5 * top).epsilon(1e-9));
-      CHECK(box.rise() == doctest::Approx(rise).epsilon(1e-6).scale(1e-9));
+      CHECK(box.shear() == voussoir_test::near(0.5 * top).epsilon(1e-9));
+      CHECK(box.rise() == voussoir_test::near(rise).epsilon(1e-6).scale(1e-9));
       box.shear_to(ratio * slip);
-      CHECK(box.shear() == doctest::Approx(top).epsilon(1e-9));
+      CHECK(box.shear() == voussoir_test::near(top).epsilon(1e-9));
       if (ratio < 0.3) continue;
       box.shear_to((ratio + 0.2) * slip);
-      CHECK(box.shear() == doctest::Approx(published_shear(params, stress, ratio + 0.2)));
+      CHECK(box.shear() == voussoir_test::near(published_shear(params, stress, ratio + 0.2)));
       // Back: elastic through twice its strength, then on along the path.
       const double now = box.shear(), elastic = 2 * now / stiffness;
       box.shear_to((ratio + 0.2) * slip - elastic);
-      CHECK(box.shear() == doctest::Approx(-now).epsilon(1e-9));
+      CHECK(box.shear() == voussoir_test::near(-now).epsilon(1e-9));
       box.shear_to((ratio + 0.2 - 1) * slip - elastic);
-      CHECK(box.shear() == doctest::Approx(-published_shear(params, stress, ratio + 1.2)));
+      CHECK(box.shear() == voussoir_test::near(-published_shear(params, stress, ratio + 1.2)));
       CHECK(box.rise() > 1.01 * rise);
     }
   }
@@ -264,12 +268,13 @@ TEST_SUITE("contact/barton_bandis_joint") {
       CAPTURE(ratio);
       const double shear = published_shear(params, stress, ratio);
       ShearBox<dim> box(law, stress, stress, shear);
-      CHECK(box.shear() == doctest::Approx(shear).epsilon(1e-9));
+      CHECK(box.shear() == voussoir_test::near(shear).epsilon(1e-9));
       box.shear_to(0.7 * slip);
-      CHECK(box.shear() == doctest::Approx(published_shear(params, stress, ratio + 0.7)));
-      CHECK(box.rise() / slip == doctest::Approx(published_dilation(params, stress, ratio + 0.7) -
-                                                 published_dilation(params, stress, ratio))
-                                     .epsilon(0.02));
+      CHECK(box.shear() == voussoir_test::near(published_shear(params, stress, ratio + 0.7)));
+      CHECK(box.rise() / slip ==
+            voussoir_test::near(published_dilation(params, stress, ratio + 0.7) -
+                                published_dilation(params, stress, ratio))
+                .epsilon(0.02));
     }
   }
 
@@ -314,12 +319,12 @@ TEST_SUITE("contact/barton_bandis_joint") {
       work += 0.5 * (before + std::exchange(before, now)) * 4 / steps * law.peak_slip();
       lost += law.commit(load, state);
     }
-    CHECK(before == doctest::Approx(published_shear(params, 1e6, 4) * w).epsilon(1e-9));
+    CHECK(before == voussoir_test::near(published_shear(params, 1e6, 4) * w).epsilon(1e-9));
     CHECK(law.force(point<2>(1e6, 0, 4 * law.peak_slip()), state).normal ==
-          doctest::Approx(1e6 * w));
+          voussoir_test::near(1e6 * w));
     const double stored = law.stored_energy(point<2>(1e6, 0, 4 * law.peak_slip()), state) -
                           law.stored_energy(point<2>(1e6, 0, 0), {});
-    CHECK(lost == doctest::Approx(work - stored).epsilon(1e-6));
+    CHECK(lost == voussoir_test::near(work - stored).epsilon(1e-6));
   }
 
   TEST_CASE_TEMPLATE("mirrored, its forces and its history are mirrored to the last bit", D,
@@ -357,7 +362,7 @@ TEST_SUITE("contact/barton_bandis_joint") {
     CHECK(box.report().damage == 0);
     CHECK_FALSE(box.report().is_open);
     box.shear_to(4 * law.peak_slip());
-    CHECK(box.report().damage == doctest::Approx(0.3).epsilon(1e-6));
+    CHECK(box.report().damage == voussoir_test::near(0.3).epsilon(1e-6));
     CHECK(box.report().plastic_slip > 3.3 * law.peak_slip());
     box.shear_to(120 * law.peak_slip());
     CHECK(box.report().damage == 1);
@@ -371,11 +376,12 @@ TEST_SUITE("contact/barton_bandis_joint") {
     constexpr int steps = 2000;
     const double end = 3e-4;  // beyond the largest stress
     for (int k = 0; k < steps; ++k) work += law.stress((k + 0.5) * end / steps) * end / steps * w;
-    CHECK(law.stored_energy(point<2>(0, -end, 0), state) == doctest::Approx(work).epsilon(1e-5));
+    CHECK(law.stored_energy(point<2>(0, -end, 0), state) ==
+          voussoir_test::near(work).epsilon(1e-5));
     const double s = 0.2 * law.peak_slip();
     CHECK(law.stored_energy(point<2>(1e6, 0, s), state) -
               law.stored_energy(point<2>(1e6, 0, 0), state) ==
-          doctest::Approx(0.5 * s * law.force(point<2>(1e6, 0, s), state).tangential.norm()));
+          voussoir_test::near(0.5 * s * law.force(point<2>(1e6, 0, s), state).tangential.norm()));
   }
 
   TEST_CASE("parameters out of range are refused by name") {

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <voussoir/contact/burgers_joint.hpp>
 
+#include "support/near.hpp"
+
 namespace burgers_joint_test {
 
 using namespace voussoir;
@@ -34,20 +36,20 @@ TEST_SUITE("contact/burgers_joint") {
     const double step = 0.1 * day;
     double time = 0;
     for (int k = 0; k < 200; ++k) {
-      REQUIRE(law.force(load, state).tangential.norm() == doctest::Approx(stress * w));
+      REQUIRE(law.force(load, state).tangential.norm() == voussoir_test::near(stress * w));
       law.creep(load, state, step);
       time += step;
       load.motion.slip = state.joint.plastic_slip + stress / ks * along;
     }
     const double exact = stress * (1 / ks + time / eta_m + (1 - std::exp(-time * kk / eta_k)) / kk);
-    CHECK(load.motion.slip[0] == doctest::Approx(exact).epsilon(1e-12));  // the steps are exact
+    CHECK(load.motion.slip[0] == voussoir_test::near(exact).epsilon(1e-12));  // the steps are exact
   }
 
   TEST_CASE("held in place its shear relaxes, without overshoot at a fifth of the creep time") {
     // Maxwell's body alone: T = T0 exp(-k_s t / eta_M); explicit steps, of first order.
     const BurgersJoint maxwell({kn, ks, 35 * degree, eta_m});
-    CHECK(maxwell.creep_time() == doctest::Approx(100 * day));
-    CHECK(law.creep_time() == doctest::Approx(1 / (1 / (100 * day) + ks / eta_k)));
+    CHECK(maxwell.creep_time() == voussoir_test::near(100 * day));
+    CHECK(law.creep_time() == voussoir_test::near(1 / (1 / (100 * day) + ks / eta_k)));
     const auto left = [&](int steps) {
       BurgersJoint::State<2> state;
       PointLoad<2> load{w, {}, {0, Vec<1>(1e-4)}};
@@ -58,7 +60,7 @@ TEST_SUITE("contact/burgers_joint") {
     };
     const double coarse = left(5) - std::exp(-1), fine = left(50) - std::exp(-1);
     CHECK(std::abs(coarse) < 0.05);
-    CHECK(coarse / fine == doctest::Approx(10).epsilon(0.15));
+    CHECK(coarse / fine == voussoir_test::near(10).epsilon(0.15));
   }
 
   TEST_CASE("parameters out of range are refused by name") {

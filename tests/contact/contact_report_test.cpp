@@ -15,6 +15,8 @@
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
 
+#include "support/near.hpp"
+
 namespace contact_report_test {
 
 using namespace voussoir;
@@ -95,13 +97,13 @@ TEST_SUITE("contact/contact_report") {
       CHECK(now.is_slipping);  // and after
       auto further = load;
       further.motion.slip[0] = 2 * beyond;
-      CHECK(report_of(law, further, state).shear == doctest::Approx(now.shear).epsilon(1e-12));
+      CHECK(report_of(law, further, state).shear == voussoir_test::near(now.shear).epsilon(1e-12));
       // Let go: back by the elastic part there is no shear left, and what stays is plastic.
       auto back = load;
       back.motion.slip[0] = now.plastic_slip;
       const ContactReport free = report_of(law, back, state);
       CHECK(free.shear <= 1e-9 * now.shear);
-      CHECK(free.plastic_slip == doctest::Approx(now.plastic_slip).epsilon(1e-9));
+      CHECK(free.plastic_slip == voussoir_test::near(now.plastic_slip).epsilon(1e-9));
       CHECK(!free.is_slipping);
       CHECK(!free.is_open);
     };
@@ -126,10 +128,10 @@ TEST_SUITE("contact/contact_report") {
     CHECK(state.delayed_slip[0] > 1e-4);
     CHECK(report_of(creeping, load, state).plastic_slip <= 1e-15);
     CHECK(report_of(creeping, load, state).shear ==
-          doctest::Approx(creeping.force(load, state).tangential.norm()).epsilon(1e-12));
+          voussoir_test::near(creeping.force(load, state).tangential.norm()).epsilon(1e-12));
     // The force alone would call it plastic: it cannot know.
     CHECK(report_from_force(creeping, load, state).plastic_slip ==
-          doctest::Approx(state.delayed_slip[0]));
+          voussoir_test::near(state.delayed_slip[0]));
   }
 
   TEST_CASE("damage is the bond that broke, or the teeth that are worn") {
@@ -150,7 +152,7 @@ TEST_SUITE("contact/contact_report") {
     const double at_strength = 1e6 * std::tan(35 * degree) / ks;
     load = point<2>(0, at_strength + 1e-3);
     teeth.commit(load, worn);
-    CHECK(report_of(teeth, load, worn).damage == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(report_of(teeth, load, worn).damage == voussoir_test::near(0.5).epsilon(1e-4));
     load = point<2>(0, at_strength + 5e-3);
     teeth.commit(load, worn);
     CHECK(report_of(teeth, load, worn).damage == 1);

@@ -8,6 +8,8 @@
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/core/random.hpp>
 
+#include "support/near.hpp"
+
 namespace mohr_coulomb_joint_test {
 
 using namespace voussoir;
@@ -69,9 +71,10 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
                                         {-2e-5, -1e-3}}) {
       const auto load = point<dim>(1e5, opening, slip);
       const auto mine = law.force(load, state), theirs = plain.force(load, other);
-      CHECK(mine.normal == doctest::Approx(theirs.normal).epsilon(1e-14));
+      CHECK(mine.normal == voussoir_test::near(theirs.normal).epsilon(1e-14));
       CHECK((mine.tangential - theirs.tangential).norm() < 1e-9);
-      CHECK(law.commit(load, state) == doctest::Approx(plain.commit(load, other)).epsilon(1e-9));
+      CHECK(law.commit(load, state) ==
+            voussoir_test::near(plain.commit(load, other)).epsilon(1e-9));
     }
   }
 
@@ -146,12 +149,12 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
     const Path path = slide<D::value>(law, normal, 3e-3, 3000);
     // The peak is met to a step of slip: k_s w 1e-6 m = 200 N.
     CHECK(std::abs(path.peak - (3e5 * w + normal * std::tan(40 * degree))) < 200);
-    CHECK(path.end == doctest::Approx(2e4 * w + normal * std::tan(30 * degree)).epsilon(1e-12));
+    CHECK(path.end == voussoir_test::near(2e4 * w + normal * std::tan(30 * degree)).epsilon(1e-12));
     // Work of the shear force = friction + what failure set free + what the spring still holds.
     const double residual = path.end, spring = ks * w, top = path.peak;
     const double rise = 0.5 * top * top / spring, after = residual * (3e-3 - top / spring);
     CHECK(path.lost + path.stored - 0.5 * normal * normal / (kn * w) ==
-          doctest::Approx(rise + after).epsilon(2e-3));
+          voussoir_test::near(rise + after).epsilon(2e-3));
   }
 
   TEST_CASE("it carries tension up to its strength once") {
@@ -163,13 +166,13 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
     MohrCoulombJoint::State<2> state;
     const auto at = [&](double opening) { return point<2>(0, opening, 0); };
     const double strain = 1e5 / kn;
-    CHECK(law.force(at(0.99 * strain), state).normal == doctest::Approx(-0.99e5 * w));
+    CHECK(law.force(at(0.99 * strain), state).normal == voussoir_test::near(-0.99e5 * w));
     CHECK(law.commit(at(0.99 * strain), state) == 0);
     CHECK(law.force(at(1.01 * strain), state).normal == 0);
     CHECK(law.commit(at(1.01 * strain), state) ==
-          doctest::Approx(0.5 * w * 1e5 * 1e5 / kn));  // what it stored
+          voussoir_test::near(0.5 * w * 1e5 * 1e5 / kn));  // what it stored
     CHECK(law.force(at(0.5 * strain), state).normal == 0);
-    CHECK(law.force(at(-strain), state).normal == doctest::Approx(1e5 * w));
+    CHECK(law.force(at(-strain), state).normal == voussoir_test::near(1e5 * w));
   }
 
   TEST_CASE_TEMPLATE("dilation lifts the joint by tan(psi) per slip, up to its limit", D,
@@ -185,11 +188,12 @@ TEST_SUITE("contact/mohr_coulomb_joint") {
       CAPTURE(steps);
       const Path path = slide<D::value>(law, 1e5, 0.8e-3, steps);
       const double plastic = 0.8e-3 - path.end / (ks * w);
-      CHECK(path.normal == doctest::Approx(1e5 + kn * w * std::tan(psi) * plastic).epsilon(1e-9));
-      CHECK(path.end == doctest::Approx(path.normal * std::tan(40 * degree)).epsilon(1e-9));
+      CHECK(path.normal ==
+            voussoir_test::near(1e5 + kn * w * std::tan(psi) * plastic).epsilon(1e-9));
+      CHECK(path.end == voussoir_test::near(path.normal * std::tan(40 * degree)).epsilon(1e-9));
       const Path far = slide<D::value>(law, 1e5, 8e-3, steps);
-      CHECK(far.normal == doctest::Approx(1e5 + kn * w * std::tan(psi) * limit).epsilon(1e-9));
-      CHECK(far.end == doctest::Approx(far.normal * std::tan(40 * degree)).epsilon(1e-9));
+      CHECK(far.normal == voussoir_test::near(1e5 + kn * w * std::tan(psi) * limit).epsilon(1e-9));
+      CHECK(far.end == voussoir_test::near(far.normal * std::tan(40 * degree)).epsilon(1e-9));
     }
   }
 

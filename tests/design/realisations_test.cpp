@@ -11,6 +11,7 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace realisations_test {
 
@@ -43,12 +44,12 @@ TEST_SUITE("design/realisations") {
   TEST_CASE("mean, its confidence, and what five sound tunnels say of the sixth") {
     RealisedQuantity crown;
     for (const double value : {1e-3, 2e-3, 3e-3}) crown.add(Verdict::stable, 0, value);
-    CHECK(crown.mean() == doctest::Approx(2e-3));
-    CHECK(crown.deviation() == doctest::Approx(1e-3));
+    CHECK(crown.mean() == voussoir_test::near(2e-3));
+    CHECK(crown.deviation() == voussoir_test::near(1e-3));
     // Student's t of two degrees of freedom, 97.5 %: 4.302653 (printed tables).
     const double half = 4.302653e-3 / std::sqrt(3.0);
-    CHECK(crown.confidence().low == doctest::Approx(2e-3 - half).epsilon(1e-6));
-    CHECK(crown.confidence().high == doctest::Approx(2e-3 + half).epsilon(1e-6));
+    CHECK(crown.confidence().low == voussoir_test::near(2e-3 - half).epsilon(1e-6));
+    CHECK(crown.confidence().high == voussoir_test::near(2e-3 + half).epsilon(1e-6));
     crown.add(Verdict::stable, 0.3, 2e-3);
     crown.add(Verdict::stable, 0, std::numeric_limits<double>::quiet_NaN());
     CHECK(crown.complete() == false);
@@ -57,12 +58,12 @@ TEST_SUITE("design/realisations") {
     CHECK(crown.collapse_share() == 0);
     // None of n: the upper end p leaves (1 - p)^n = 2.5 %.
     CHECK(crown.collapse_interval().low == 0);
-    CHECK(crown.collapse_interval().high == doctest::Approx(1 - std::pow(0.025, 0.2)));
+    CHECK(crown.collapse_interval().high == voussoir_test::near(1 - std::pow(0.025, 0.2)));
     crown.add(Verdict::collapse, 20, 1);
     crown.add(Verdict::undecided, 0, 1);
     CHECK(crown.collapsed == 2);
     CHECK(crown.samples == 7);
-    CHECK(crown.mean() == doctest::Approx(2e-3));
+    CHECK(crown.mean() == voussoir_test::near(2e-3));
     CHECK(crown.text(1e3, "mm") ==
           "2.00 ± 0.82 mm (7 realisations; 2 collapsed; 1 have lost that rock; 1 shed rock)");
   }

@@ -9,6 +9,8 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/drawing/round_ticks.hpp>
 
+#include "support/near.hpp"
+
 namespace number_text_test {
 
 using namespace voussoir;
@@ -57,15 +59,15 @@ TEST_SUITE("drawing/number_text") {
 
 TEST_SUITE("io/round_ticks") {
   TEST_CASE("steps are 1, 2 or 5 times a power of ten") {
-    CHECK(round_up_125(0.3) == doctest::Approx(0.5));
+    CHECK(round_up_125(0.3) == voussoir_test::near(0.5));
     CHECK(round_up_125(2.0000000000000004) == 2);
     CHECK(round_up_125(6) == 10);
     CHECK(round_up_125(0) == 1);
     CHECK(round_down_125(6) == 5);
-    CHECK(round_down_125(0.99) == doctest::Approx(0.5));
+    CHECK(round_down_125(0.99) == voussoir_test::near(0.5));
     CHECK(round_down_125(4.9) == 2);
     CHECK(round_down_125(1.9) == 1);
-    CHECK(round_down_125(100) == doctest::Approx(100));
+    CHECK(round_down_125(100) == voussoir_test::near(100));
   }
 
   TEST_CASE("ticks cover the range and are labelled without superfluous digits") {

@@ -14,6 +14,7 @@
 #include <voussoir/tunnel/support_forces.hpp>
 
 #include "support/blocks.hpp"
+#include "support/near.hpp"
 
 namespace bolts_test {
 
@@ -55,12 +56,13 @@ TEST_SUITE("dynamics/bolts") {
     // Let go: it falls by twice m g / K and comes back after 2 pi sqrt(m / K).
     const double period = 2 * std::numbers::pi * std::sqrt(mass / stiffness);
     run.advance(0.5 * period);
-    CHECK(-run.position(block).y() == doctest::Approx(2 * mass * 9.81 / stiffness).epsilon(1e-4));
-    CHECK(bolts->axial_force(0) == doctest::Approx(2 * mass * 9.81).epsilon(1e-4));
+    CHECK(-run.position(block).y() ==
+          voussoir_test::near(2 * mass * 9.81 / stiffness).epsilon(1e-4));
+    CHECK(bolts->axial_force(0) == voussoir_test::near(2 * mass * 9.81).epsilon(1e-4));
     // What is read of it is what acted at the end of the last step, to rounding of poses of 3 m.
     const CrossingForce read = bolt_forces(run, *bolts).front();
-    CHECK(read.report.axial == doctest::Approx(bolts->axial_force(0)).epsilon(1e-12));
-    CHECK(read.extension == doctest::Approx(read.report.axial / stiffness).epsilon(1e-9));
+    CHECK(read.report.axial == voussoir_test::near(bolts->axial_force(0)).epsilon(1e-12));
+    CHECK(read.extension == voussoir_test::near(read.report.axial / stiffness).epsilon(1e-9));
     CHECK(!read.report.has_yielded());
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-4);
     run.advance(0.5 * period);
@@ -79,7 +81,7 @@ TEST_SUITE("dynamics/bolts") {
     run.advance(0.1);
     // Free fall, to rounding; and the energy of the bolt is no loss of the run.
     CHECK(run.position(block).y() ==
-          doctest::Approx(place + 0.1 * speed - 0.5 * 9.81 * 0.01).epsilon(1e-9));
+          voussoir_test::near(place + 0.1 * speed - 0.5 * 9.81 * 0.01).epsilon(1e-9));
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
   }
 
@@ -110,7 +112,7 @@ TEST_SUITE("dynamics/bolts") {
       run.add_support(bolts);
       CHECK(run.stable_step() < 1);
       CHECK(bolts->axial_force(0) ==
-            doctest::Approx(stiffness * (std::sqrt(d * d + s * s) - d)).epsilon(1e-12));
+            voussoir_test::near(stiffness * (std::sqrt(d * d + s * s) - d)).epsilon(1e-12));
     }
   }
 
@@ -148,9 +150,9 @@ TEST_SUITE("dynamics/bolts") {
       const double length = std::hypot(d, s);
       return shear * s + axial * (length - d) * s / length;
     };
-    CHECK(force_along() == doctest::Approx(expected(jump)).epsilon(1e-9));
+    CHECK(force_along() == voussoir_test::near(expected(jump)).epsilon(1e-9));
     u.segment<2>(3) += more * along;
-    CHECK(force_along() == doctest::Approx(expected(jump + more)).epsilon(1e-9));
+    CHECK(force_along() == voussoir_test::near(expected(jump + more)).epsilon(1e-9));
   }
 
   TEST_CASE("turning everything strains no bolt; rupture lets go and keeps the account") {
@@ -183,8 +185,8 @@ TEST_SUITE("dynamics/bolts") {
     torn.advance(0.3);
     CHECK(other->springs()[0].broken);
     CHECK(bolt_forces(torn, *other).front().report.is_broken);
-    CHECK(torn.energy().supports == doctest::Approx(5e4 * 5e4 / (2 * 1e7)).epsilon(0.05));
-    CHECK(-torn.energy().kinetic == doctest::Approx(torn.energy().supports).epsilon(0.01));
+    CHECK(torn.energy().supports == voussoir_test::near(5e4 * 5e4 / (2 * 1e7)).epsilon(0.05));
+    CHECK(-torn.energy().kinetic == voussoir_test::near(torn.energy().supports).epsilon(0.01));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 
 #include "support/blocks.hpp"
+#include "support/near.hpp"
 #include "support/reference.hpp"
 
 namespace free_motion_test {
@@ -83,7 +84,7 @@ TEST_SUITE("dynamics/free_motion") {
     };
     const double coarse = period_error(0.04), fine = period_error(0.02);
     CHECK(coarse < 1e-3);
-    CHECK(coarse / fine == doctest::Approx(4).epsilon(0.05));
+    CHECK(coarse / fine == voussoir_test::near(4).epsilon(0.05));
   }
 
   TEST_CASE("the middle component of a free spin has the period of the elliptic integral") {
@@ -127,7 +128,7 @@ TEST_SUITE("dynamics/free_motion") {
       before = now;
     }
     const double measured = 0.5 * (crossings[4] - crossings[0]);
-    CHECK(measured == doctest::Approx(period).epsilon(1e-5));  // interpolation 1e-2 s of 12 s
+    CHECK(measured == voussoir_test::near(period).epsilon(1e-5));  // interpolation 1e-2 s of 12 s
   }
 
   TEST_CASE("two blocks that meet exchange their velocities, as the scheme keeps energy") {
@@ -140,7 +141,7 @@ TEST_SUITE("dynamics/free_motion") {
         const int b = run.add_block(rectangle({1 + gap, 0}, 1, 1), 2700);
         run.set_velocity(a, {1, 0});
         run.advance(0.02);
-        CHECK(run.velocity(a).x() + run.velocity(b).x() == doctest::Approx(1).epsilon(1e-12));
+        CHECK(run.velocity(a).x() + run.velocity(b).x() == voussoir_test::near(1).epsilon(1e-12));
         worst = std::max(worst, std::abs(run.velocity(b).x() - 1));
       }
       return worst;
@@ -160,9 +161,9 @@ TEST_SUITE("dynamics/free_motion") {
     run.set_velocity(a, {1, 0});
     run.advance(0.01);
     // A dashpot sees the velocity of half a step ago: an error of zeta omega step / 2 = 1e-3.
-    CHECK(run.velocity(b).x() - run.velocity(a).x() == doctest::Approx(exact).epsilon(2e-3));
+    CHECK(run.velocity(b).x() - run.velocity(a).x() == voussoir_test::near(exact).epsilon(2e-3));
     const EnergyBalance energy = run.energy();
-    CHECK(energy.viscosity == doctest::Approx(-energy.kinetic).epsilon(1e-2));
+    CHECK(energy.viscosity == voussoir_test::near(-energy.kinetic).epsilon(1e-2));
   }
 
   TEST_CASE("a closed heap that collides keeps momentum and angular momentum") {
@@ -236,7 +237,7 @@ TEST_SUITE("dynamics/free_motion") {
       return run.position(b);
     };
     const Vec2 a = place(8e-5), b = place(4e-5), c = place(2e-5);
-    CHECK((a - b).norm() / (b - c).norm() == doctest::Approx(4).epsilon(0.1));
+    CHECK((a - b).norm() / (b - c).norm() == voussoir_test::near(4).epsilon(0.1));
   }
 
   // Free fall is exact in velocity Verlet; at rest a joint of length 1 m carries the weight above.
@@ -247,7 +248,7 @@ TEST_SUITE("dynamics/free_motion") {
     run.advance(0.05);
     const int late = run.add_block(rectangle({0, 1.8}, 1, 1), 2700);
     run.advance(0.2);
-    CHECK(run.position(late).y() == doctest::Approx(1.8 - 0.5 * 9.81 * 0.04).epsilon(1e-12));
+    CHECK(run.position(late).y() == voussoir_test::near(1.8 - 0.5 * 9.81 * 0.04).epsilon(1e-12));
     run.advance(0.1);
     // 0.2 % is lost in the impacts, in each of which a joint closes and opens within some steps.
     CHECK(std::abs(run.energy().relative_imbalance()) < 5e-3);
@@ -255,12 +256,12 @@ TEST_SUITE("dynamics/free_motion") {
     run.advance(1);
     // At rest the energy balance is compared with what was at stake: the fall, seen every 100
     // steps.
-    CHECK(run.energy().highest_kinetic == doctest::Approx(2700 * 9.81 * 0.3).epsilon(0.2));
+    CHECK(run.energy().highest_kinetic == voussoir_test::near(2700 * 9.81 * 0.3).epsilon(0.2));
     CHECK(run.energy().scale() >= run.energy().highest_kinetic);
     const double weight = 2700 * 9.81;
     const double fallen = 1.5 - run.position(late).y(), sunk = 0.5 - run.position(lower).y();
-    CHECK(sunk == doctest::Approx(2 * weight / 5e9).epsilon(1e-3));
-    CHECK(fallen - sunk == doctest::Approx(weight / 5e9).epsilon(1e-3));
+    CHECK(sunk == voussoir_test::near(2 * weight / 5e9).epsilon(1e-3));
+    CHECK(fallen - sunk == voussoir_test::near(weight / 5e9).epsilon(1e-3));
     CHECK(run.kinetic_energy() < 1e-9 * weight * 0.3);
   }
 }

@@ -26,6 +26,7 @@
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 
+#include "support/near.hpp"
 #include "support/small_tunnel.hpp"
 
 namespace handover_test {
@@ -254,7 +255,7 @@ TEST_SUITE("dynamics/handover") {
       const double distance =
           detail::squared_distance<2>(bodies, c, points, normal, Vec2(0.3, 0.4));
       if (turn < 60)
-        CHECK(distance == doctest::Approx(0.25));
+        CHECK(distance == voussoir_test::near(0.25));
       else
         CHECK(std::isinf(distance));
     }
@@ -275,7 +276,7 @@ TEST_SUITE("dynamics/handover") {
     CHECK(open_length(carve(small_rock<Planar>(), small_opening<Planar>(), 0.02)) == 1);
     // 3 m through the domain, 4 m wide.
     CHECK(open_length(carve(small_rock<Spatial>(), small_opening<Spatial>(), 0.02)) ==
-          doctest::Approx(3));
+          voussoir_test::near(3));
   }
 
   TEST_CASE("what moves is not at rest, however near to balance it is") {

@@ -20,6 +20,7 @@
 
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
+#include "support/near.hpp"
 
 namespace lining_test {
 
@@ -129,8 +130,8 @@ TEST_SUITE("dynamics/lining") {
       if (now < 0) turning = ring.run.time() - quarter / 200 * now / (now - before);
       before = now;
     }
-    CHECK(turning == doctest::Approx(quarter).epsilon(5e-3));
-    CHECK(ring.run.energy().supports == doctest::Approx(given).epsilon(5e-3));
+    CHECK(turning == voussoir_test::near(quarter).epsilon(5e-3));
+    CHECK(ring.run.energy().supports == voussoir_test::near(given).epsilon(5e-3));
     CHECK(std::abs(ring.run.energy().imbalance()) < 1e-4 * given);
   }
 
@@ -149,8 +150,8 @@ TEST_SUITE("dynamics/lining") {
         largest_moment = std::max(largest_moment, std::abs(at.moment));
       }
     }
-    CHECK(ring.run.body(0).angle == doctest::Approx(1.8).epsilon(1e-3));
-    CHECK(least == doctest::Approx(-2 * hoop).epsilon(0.01));
+    CHECK(ring.run.body(0).angle == voussoir_test::near(1.8).epsilon(1e-3));
+    CHECK(least == voussoir_test::near(-2 * hoop).epsilon(0.01));
     // Rigid turning by 1.8 rad would leave E I / R times that if it were strain: 1.8 MN m.
     CHECK(largest_moment < 1e-4 * hoop * Ring::radius);
     CHECK(std::abs(ring.run.energy().imbalance()) < 1e-4 * ring.run.kinetic_energy());
@@ -175,14 +176,14 @@ TEST_SUITE("dynamics/lining") {
         beam.run.advance(0.0005);
         next = beam.run.position(block).y();
       } while (next < lowest);  // it rebounds
-      CHECK(0.5 - lowest == doctest::Approx(deepest).epsilon(0.01));
+      CHECK(0.5 - lowest == voussoir_test::near(deepest).epsilon(0.01));
       // It comes to rest: moments at the clamps and in the middle F L / 8.
       beam.run.set_local_damping(0.8);
       beam.run.advance(0.3);  // at rest within 1e-4 by then
-      CHECK(beam.deflection() == doctest::Approx(weight / of_beam).epsilon(0.01));
+      CHECK(beam.deflection() == voussoir_test::near(weight / of_beam).epsilon(0.01));
       const auto& member = beam.lining->members().front();
       const auto f = member.end_forces(beam.run.pose(member.i), beam.run.pose(member.j));
-      CHECK(f[2] == doctest::Approx(weight * Beam::span / 8).epsilon(0.02));
+      CHECK(f[2] == voussoir_test::near(weight * Beam::span / 8).epsilon(0.02));
     }
   }
 
@@ -248,10 +249,10 @@ TEST_SUITE("dynamics/lining") {
     b.position += stretch * b.position.normalized();
     const auto force = member.end_forces(a, b);
     const double pull = section.axial_stiffness * stretch / length;
-    CHECK(force[dof] == doctest::Approx(pull).epsilon(1e-9));
-    CHECK(force[0] == doctest::Approx(-pull).epsilon(1e-9));
+    CHECK(force[dof] == voussoir_test::near(pull).epsilon(1e-9));
+    CHECK(force[0] == voussoir_test::near(-pull).epsilon(1e-9));
     CHECK(std::abs(force.squaredNorm() - 2 * pull * pull) <= 1e-8 * pull * pull);
-    CHECK(member.energy(a, b) == doctest::Approx(0.5 * pull * stretch).epsilon(1e-9));
+    CHECK(member.energy(a, b) == voussoir_test::near(0.5 * pull * stretch).epsilon(1e-9));
   }
 
   TEST_CASE("what is not a lining is refused") {

@@ -18,6 +18,7 @@
 
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
+#include "support/near.hpp"
 
 namespace loose_blocks_test {
 
@@ -128,7 +129,7 @@ TEST_SUITE("dynamics/loose_blocks") {
       return sum;
     };
     REQUIRE(run.joints().size() == 1);
-    CHECK(area() == doctest::Approx(width).epsilon(1e-3));
+    CHECK(area() == voussoir_test::near(width).epsilon(1e-3));
     CHECK(width > 0.02);
     // Come down slowly it bears on what there is.
     Dynamics<2, CoulombJoint> slow(CoulombJoint({5e9, 5e8, 0.3}), {.gravity = 0});
@@ -138,7 +139,7 @@ TEST_SUITE("dynamics/loose_blocks") {
     REQUIRE(slow.joints().size() == 1);
     double sum = 0;
     for (const auto& p : slow.joints().points()) sum += p.weight;
-    CHECK(sum == doctest::Approx(1e-3).epsilon(1e-3));
+    CHECK(sum == voussoir_test::near(1e-3).epsilon(1e-3));
   }
 
   // Within 1 %: a dashpot sees the velocity of half a step ago, zeta omega h / 2 = 2e-3, and the
@@ -150,7 +151,7 @@ TEST_SUITE("dynamics/loose_blocks") {
       it.run.add_wall(rectangle({0, -0.5}, 4, 1));
       const int b = it.run.add_block(rectangle({0, 0.5001}, 1, 1), 2700);
       it.run.set_velocity(b, {0, -1});
-      CHECK(it.parting(b, {0, -0.5}, {0, 1}, 0.01) == doctest::Approx(exact).epsilon(0.01));
+      CHECK(it.parting(b, {0, -0.5}, {0, 1}, 0.01) == voussoir_test::near(exact).epsilon(0.01));
     }
     SUBCASE("with a corner on a face, in the middle and beside it") {
       for (const double angle : {0.25 * std::numbers::pi, 0.5, 1.0}) {
@@ -168,7 +169,7 @@ TEST_SUITE("dynamics/loose_blocks") {
         // An edge touches by one of its two faces: the place where it presses wanders inwards as it
         // is driven in, and where both faces are tilted alike it is turned by that.
         const double off = angle > 0.7 && angle < 0.8 ? 0.2 : 0.04;
-        CHECK(it.parting(b, arm, {0, 1}, 0.02) == doctest::Approx(exact).epsilon(off));
+        CHECK(it.parting(b, arm, {0, 1}, 0.02) == voussoir_test::near(exact).epsilon(off));
       }
     }
     SUBCASE("in 3-D with a corner, an edge, and crossing edges") {
@@ -195,7 +196,7 @@ TEST_SUITE("dynamics/loose_blocks") {
         // A corner is driven in farther, and its force grows with the cube of the depth.
         const double off = count == 1 ? 0.2 : 0.04;
         CHECK(it.parting(b, arm, {0, 0, 1}, count == 1 ? 0.2 : 0.02) ==
-              doctest::Approx(exact).epsilon(off));
+              voussoir_test::near(exact).epsilon(off));
       }
       // Two ridges that cross at right angles.
       OneImpact<3> it;
@@ -204,7 +205,8 @@ TEST_SUITE("dynamics/loose_blocks") {
       const int b = it.run.add_block(
           brick({0, 0, half + 1e-3}, {1, 2, 1}, rotation_by(Spin<3>(0, 0.785398, 0))), 2700);
       it.run.set_velocity(b, {0, 0, -1});
-      CHECK(it.parting(b, {0, 0, -half}, {0, 0, 1}, 0.03) == doctest::Approx(exact).epsilon(0.01));
+      CHECK(it.parting(b, {0, 0, -half}, {0, 0, 1}, 0.03) ==
+            voussoir_test::near(exact).epsilon(0.01));
     }
     SUBCASE("on a node of a lining") {
       OneImpact<2> it;
@@ -214,7 +216,7 @@ TEST_SUITE("dynamics/loose_blocks") {
       it.run.set_velocity(b, {0, -1});
       it.run.advance(0.02);
       CHECK(it.run.velocity(node).y() - it.run.velocity(b).y() ==
-            doctest::Approx(-exact).epsilon(0.01));
+            voussoir_test::near(-exact).epsilon(0.01));
     }
   }
 

@@ -11,6 +11,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 
 #include "support/blocks.hpp"
+#include "support/near.hpp"
 
 namespace moving_part_test {
 
@@ -111,7 +112,7 @@ TEST_SUITE("dynamics/moving_part") {
     constexpr int dof = dim + spin_count<dim>;
     auto run = tower<dim>(count, {});
     const double weight = density * 0.5 * gravity, stiffness = normal_stiffness;  // area 1
-    CHECK(run.unbalance_of(1) == doctest::Approx(1));
+    CHECK(run.unbalance_of(1) == voussoir_test::near(1));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(dof * (count + 1));
     double sunk = 0, work = 0;
     for (int b = 1; b <= count; ++b) {
@@ -121,15 +122,15 @@ TEST_SUITE("dynamics/moving_part") {
     }
     // Three times as far springs take nine halves of the work, and gravity gives three of it: the
     // rest is given by hand, and taken again on the way back.
-    CHECK(run.displace(3 * step) == doctest::Approx(-1.5 * work));
-    CHECK(run.displace(-3 * step) == doctest::Approx(1.5 * work));
-    CHECK(run.displace(step) == doctest::Approx(0.5 * work));
+    CHECK(run.displace(3 * step) == voussoir_test::near(-1.5 * work));
+    CHECK(run.displace(-3 * step) == voussoir_test::near(1.5 * work));
+    CHECK(run.displace(step) == voussoir_test::near(0.5 * work));
     // Roundings of springs that carry three weights, of 1e-16 of a metre times their stiffness.
     for (int b = 1; b <= count; ++b) CHECK(run.unbalance_of(b) < 1e-8);
     const EnergyBalance energy = run.energy();
-    CHECK(energy.gravity == doctest::Approx(work));
-    CHECK(energy.contacts == doctest::Approx(0.5 * work));
-    CHECK(energy.damping == doctest::Approx(0.5 * work));
+    CHECK(energy.gravity == voussoir_test::near(work));
+    CHECK(energy.contacts == voussoir_test::near(0.5 * work));
+    CHECK(energy.damping == voussoir_test::near(0.5 * work));
     CHECK(std::abs(energy.relative_imbalance()) < 1e-9);
     CHECK_THROWS_AS(run.displace(Eigen::VectorXd::Zero(3)), InvalidInput);
   }
@@ -141,7 +142,7 @@ TEST_SUITE("dynamics/moving_part") {
     const double kinetic = 0.5 * density * 0.5 * 0.25, before = run.energy().damping;
     run.move_only({1});
     CHECK(run.velocity(2).norm() == 0);
-    CHECK(run.energy().damping - before == doctest::Approx(kinetic).epsilon(1e-3));
+    CHECK(run.energy().damping - before == voussoir_test::near(kinetic).epsilon(1e-3));
   }
 
   TEST_CASE_TEMPLATE("back in an earlier state a run goes on as it did, to the bit", Dimension,
@@ -176,8 +177,8 @@ TEST_SUITE("dynamics/moving_part") {
     CHECK(!run.moves(2));
     CHECK(go_on() == first);
     CHECK(first[4][0] - first[3][0] > 0.03);  // it has slid: contacts were looked for
-    CHECK(run.energy().friction == doctest::Approx(energy.friction));
-    CHECK(run.energy().damping == doctest::Approx(energy.damping));
+    CHECK(run.energy().friction == voussoir_test::near(energy.friction));
+    CHECK(run.energy().damping == voussoir_test::near(energy.damping));
   }
 }
 

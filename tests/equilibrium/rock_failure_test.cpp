@@ -18,6 +18,7 @@
 #include "support/degree.hpp"
 #include "support/failing_rock.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 using namespace voussoir;
 using namespace voussoir_test;
@@ -64,7 +65,7 @@ FailureAnswer answer_of(const Tunnel& tunnel, double collapse, double* limit = n
   if (!report.fallen.empty()) CHECK(report.motion.gravity != 0);  // it was followed in motion
   check_updates(report.motion);
   if (limit != nullptr) *limit = report.displacement_limit;
-  CHECK(report.fallen_measure == doctest::Approx(area_of(tunnel, report.fallen)));
+  CHECK(report.fallen_measure == near(area_of(tunnel, report.fallen)));
   return {report.verdict, report.fallen, report.fallen_measure};
 }
 
@@ -290,6 +291,6 @@ TEST_SUITE("equilibrium/rock_failure") {
     CHECK(tunnel.fallen().empty());
     CHECK(tunnel.system().wall_fraction == 1);
     CHECK(tunnel.equilibrium(0, TwoLevel(params), asked).fallen_measure ==
-          doctest::Approx(area_of(whole, whole.fallen())));
+          near(area_of(whole, whole.fallen())));
   }
 }

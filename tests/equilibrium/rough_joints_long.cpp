@@ -21,6 +21,7 @@
 
 #include "support/blocks.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace rough_joints_long {
 
@@ -87,7 +88,7 @@ TEST_SUITE("equilibrium/rough_joints_long") {
       if (std::is_same_v<Method, Relaxation>)
         CHECK(moved >= 0.99 * ratio * slip);
       else
-        CHECK(moved == doctest::Approx(ratio * slip).epsilon(0.01));
+        CHECK(moved == near(ratio * slip).epsilon(0.01));
     }
     ShearBox<Method> beyond(1.03 * std::tan(28 * degree + angle));
     (void)beyond.blocks.equilibrium();
@@ -107,8 +108,7 @@ TEST_SUITE("equilibrium/rough_joints_long") {
         if (seed > 1) continue;
         auto stepped = tunnel<Explicit>(seed, damage);
         REQUIRE(stepped.equilibrium(0).verdict == Verdict::stable);
-        CHECK(convergence(searched).crown ==
-              doctest::Approx(convergence(stepped).crown).epsilon(0.01));
+        CHECK(convergence(searched).crown == near(convergence(stepped).crown).epsilon(0.01));
       }
   }
 }

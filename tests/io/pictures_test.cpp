@@ -9,6 +9,7 @@
 #include <voussoir/io/interaction_picture.hpp>
 
 #include "io/xml_check.hpp"
+#include "support/near.hpp"
 
 namespace pictures_test {
 
@@ -167,10 +168,11 @@ TEST_SUITE("io/blocks_picture") {
   TEST_CASE("one loosened block does not use up the scale of colours") {
     std::vector<PictureBlock> blocks(200, PictureBlock{{}, 0.009});
     CHECK_FALSE(detail::DisplacementScale(blocks).is_cut());
-    CHECK(detail::DisplacementScale(blocks).top() == doctest::Approx(0.01));  // round, in mm too
+    CHECK(detail::DisplacementScale(blocks).top() ==
+          voussoir_test::near(0.01));  // round, in mm too
     blocks[7].displacement = 2;
     CHECK(detail::DisplacementScale(blocks).is_cut());
-    CHECK(detail::DisplacementScale(blocks).top() == doctest::Approx(0.01));
+    CHECK(detail::DisplacementScale(blocks).top() == voussoir_test::near(0.01));
     blocks[7].is_fallen = true;
     CHECK_FALSE(detail::DisplacementScale(blocks).is_cut());
   }

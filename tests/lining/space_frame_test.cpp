@@ -10,6 +10,7 @@
 #include <voussoir/lining/frame_element.hpp>
 
 #include "support/dense_algebra.hpp"
+#include "support/near.hpp"
 
 namespace space_frame_test {
 
@@ -72,15 +73,15 @@ TEST_SUITE("lining/space_frame") {
     };
     const auto bent = tip(load * y, Vec3::Zero());
     const double cubed = length * length * length;
-    CHECK(bent.head<3>().dot(y) == doctest::Approx(load * cubed / (3 * s.bending_stiffness)));
+    CHECK(bent.head<3>().dot(y) == voussoir_test::near(load * cubed / (3 * s.bending_stiffness)));
     CHECK(bent.tail<3>().dot(z) ==
-          doctest::Approx(load * length * length / (2 * s.bending_stiffness)));
+          voussoir_test::near(load * length * length / (2 * s.bending_stiffness)));
     CHECK(tip(load * z, Vec3::Zero()).head<3>().dot(z) ==
-          doctest::Approx(load * cubed / (3 * s.lateral_bending_stiffness)));
+          voussoir_test::near(load * cubed / (3 * s.lateral_bending_stiffness)));
     CHECK(tip(Vec3::Zero(), load * x).tail<3>().dot(x) ==
-          doctest::Approx(load * length / s.torsional_stiffness));
+          voussoir_test::near(load * length / s.torsional_stiffness));
     CHECK(tip(load * x, Vec3::Zero()).head<3>().dot(x) ==
-          doctest::Approx(load * length / s.axial_stiffness));
+          voussoir_test::near(load * length / s.axial_stiffness));
   }
 
   TEST_CASE("shear deformation adds P l / (kappa G A); a bonded chain tends to it") {
@@ -91,20 +92,20 @@ TEST_SUITE("lining/space_frame") {
     const Vec3 x = length * Vec3::UnitX(), y = Vec3::UnitY();
     const double exact = load * length * length * length / (3 * s.bending_stiffness) +
                          load * length / s.shear_stiffness;
-    CHECK(cantilever<TimoshenkoBeam>(3, x, y, f)[1] == doctest::Approx(exact).epsilon(1e-10));
+    CHECK(cantilever<TimoshenkoBeam>(3, x, y, f)[1] == voussoir_test::near(exact).epsilon(1e-10));
     const double coarse = cantilever<BondedChain>(4, x, y, f)[1] - exact,
                  fine = cantilever<BondedChain>(8, x, y, f)[1] - exact;
     CHECK(std::abs(coarse / exact) < 0.05);
-    CHECK(coarse / fine == doctest::Approx(4).epsilon(0.02));
+    CHECK(coarse / fine == voussoir_test::near(4).epsilon(0.02));
   }
 
   TEST_CASE("a strip has the torsion of a thin rectangle, and of a square") {
     // J of a square of side a: 0.1406 a^4; of a thin strip: b t^3 / 3 (Roark).
     const double g = 25e9 / 2.4;
     CHECK(LiningSection::strip(0.3, 0.3, 25e9).torsional_stiffness ==
-          doctest::Approx(g * 0.1406 * 0.0081).epsilon(3e-3));
+          voussoir_test::near(g * 0.1406 * 0.0081).epsilon(3e-3));
     CHECK(LiningSection::strip(0.01, 2, 25e9).torsional_stiffness ==
-          doctest::Approx(g * 2 * 1e-6 / 3).epsilon(4e-3));
+          voussoir_test::near(g * 2 * 1e-6 / 3).epsilon(4e-3));
     CHECK_THROWS_AS((void)LiningSection::strip(0.1, 0, 25e9), InvalidInput);
   }
 

@@ -24,6 +24,7 @@
 #include <voussoir/model/moving_contacts.hpp>
 
 #include "support/degree.hpp"
+#include "support/near.hpp"
 
 namespace pressed_part_test {
 
@@ -245,16 +246,16 @@ TEST_SUITE("model/pressed_part") {
         const Eigen::VectorXd f = forces_of(group, u);
         const double force = 0.5 * k_n * std::abs(turn) * l * l,
                      place = middle + end * (0.5 * length - l / 3);
-        CHECK(f[4] == doctest::Approx(force).epsilon(1e-6));
-        CHECK(f[5] == doctest::Approx(force * (place - centre.x())).epsilon(1e-6));
+        CHECK(f[4] == voussoir_test::near(force).epsilon(1e-6));
+        CHECK(f[5] == voussoir_test::near(force * (place - centre.x())).epsilon(1e-6));
       }
     // Closed: k_n L^3 / 12 against turning.
     Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
     u[4] = -1e-4;
     u[5] = 1e-5;
     const Eigen::VectorXd f = forces_of(group, u);
-    CHECK(f[4] == doctest::Approx(k_n * 1e-4 * length).epsilon(1e-9));
-    CHECK(f[5] == doctest::Approx(-k_n * std::pow(length, 3) / 12 * 1e-5).epsilon(1e-9));
+    CHECK(f[4] == voussoir_test::near(k_n * 1e-4 * length).epsilon(1e-9));
+    CHECK(f[5] == voussoir_test::near(-k_n * std::pow(length, 3) / 12 * 1e-5).epsilon(1e-9));
   }
 
   TEST_CASE("in 3-D they are those of the pressed polygon") {
@@ -350,7 +351,7 @@ TEST_SUITE("model/pressed_part") {
       const double tolerance = 1e-3 * (largest + k_n * stretch * length);
       CHECK(std::abs(f[4] - force) < tolerance);
       CHECK(std::abs(f[5] - moment) < tolerance * length);
-      CHECK(bond_of(group, u) == doctest::Approx(bonded / count).epsilon(1e-3));
+      CHECK(bond_of(group, u) == voussoir_test::near(bonded / count).epsilon(1e-3));
       between += bonded > 0 && bonded < count ? 1 : 0;
     }
     CHECK(between > 20);
@@ -385,8 +386,8 @@ TEST_SUITE("model/pressed_part") {
     }
     CHECK(before.norm() == 0);
     // By the stretch of a step over that of the bond: some 1e-3.
-    CHECK(work + held == doctest::Approx(surface).epsilon(2e-3));
-    CHECK(lost == doctest::Approx(surface).epsilon(2e-3));
+    CHECK(work + held == voussoir_test::near(surface).epsilon(2e-3));
+    CHECK(lost == voussoir_test::near(surface).epsilon(2e-3));
   }
 
   TEST_CASE("in 3-D it does so while it cracks from one side, and never holds more than they do") {

@@ -13,6 +13,7 @@
 #include <voussoir/voussoir.hpp>
 
 #include "harness.hpp"
+#include "support/near.hpp"
 #include "support/reference.hpp"
 
 namespace {
@@ -112,16 +113,15 @@ TEST_SUITE("program/blocks") {
       const auto cells = row_of(r.files.at("blocks.csv"), name);
       const Vec2 moved = 1e3 * solver.displacement_of(block, solver.system().body(block).centre);
       // The table has 8 digits of millimetres.
-      CHECK(std::stod(cells[5]) == doctest::Approx(moved.x()).epsilon(1e-7));
-      CHECK(std::stod(cells[6]) == doctest::Approx(moved.y()).epsilon(1e-7));
+      CHECK(std::stod(cells[5]) == near(moved.x()).epsilon(1e-7));
+      CHECK(std::stod(cells[6]) == near(moved.y()).epsilon(1e-7));
     }
     // Onto the base: the weight of 2 m2, the dead load, and 5 % of the weight sideways. A state
     // counts as balanced up to 1 % of a block's weight.
     const Json& base = r.json.at("loads_on_fixed_blocks").at(0);
     const double weight = 2 * 2.5 * 9.81;
-    CHECK(base.at("force_y_kN_per_m").get<double>() == doctest::Approx(-weight - 5).epsilon(0.005));
-    CHECK(base.at("force_x_kN_per_m").get<double>() ==
-          doctest::Approx(0.05 * weight + 2).epsilon(0.05));
+    CHECK(base.at("force_y_kN_per_m").get<double>() == near(-weight - 5).epsilon(0.005));
+    CHECK(base.at("force_x_kN_per_m").get<double>() == near(0.05 * weight + 2).epsilon(0.05));
     CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
   }
 
@@ -156,7 +156,7 @@ TEST_SUITE("program/blocks") {
     // The upper block comes off; without it the lower one stands up to kh = 0.7.
     CHECK(r.outcome.status == 6);
     CHECK(r.json.at("stands_up_to_part_of_loading").get<double>() ==
-          doctest::Approx(0.49).epsilon(0.03));  // a step is 0.02
+          near(0.49).epsilon(0.03));  // a step is 0.02
   }
 
   TEST_CASE("an arch stands up to its limit, and falls beyond it") {

@@ -26,6 +26,7 @@
 #include "case_statistics.hpp"
 #include "case_work.hpp"
 #include "harness.hpp"
+#include "support/near.hpp"
 
 using namespace voussoir_test;
 using namespace voussoir::program;
@@ -227,15 +228,15 @@ TEST_SUITE("program/cases") {
           "7 stable, 1 stable after rockfall, 1 collapse, 1 undecided; 2 of these marginal");
     CHECK(r.rockfall().events == 2);
     CHECK(r.rockfall().trials == 9);
-    CHECK(r.crown.mean() == doctest::Approx(4.5e-3));
-    CHECK(r.crown.deviation() == doctest::Approx(std::sqrt(42.0 / 7) * 1e-3));
+    CHECK(r.crown.mean() == near(4.5e-3));
+    CHECK(r.crown.deviation() == near(std::sqrt(42.0 / 7) * 1e-3));
     // Student's t of 7 degrees of freedom, 0.975: 2.3646 (tables).
     REQUIRE(r.crown.mean_between());
     CHECK(r.crown.mean_between()->width() ==
-          doctest::Approx(2 * 2.3646 * std::sqrt(6.0 / 8) * 1e-3).epsilon(1e-4));
+          near(2 * 2.3646 * std::sqrt(6.0 / 8) * 1e-3).epsilon(1e-4));
     // Sorted 1 to 8 mm, then two without a value: the median of ten lies between the 5th and 6th.
-    CHECK(r.crown.quantile(0.5) == doctest::Approx(5.5e-3));
-    CHECK(r.crown.quantile(0) == doctest::Approx(1e-3));
+    CHECK(r.crown.quantile(0.5) == near(5.5e-3));
+    CHECK(r.crown.quantile(0) == near(1e-3));
     CHECK(std::isnan(r.crown.quantile(0.9)));  // among those that did not stand
     CHECK(std::isnan(r.crown.quantile(1)));
     CHECK(Realised(std::vector<TunnelResult>(1)).crown.quantile() !=
@@ -630,7 +631,7 @@ TEST_SUITE("program/cases") {
     };
     // Six digits are written.
     const auto same = [&](const std::string& text) {
-      CHECK(std::stod(text) == doctest::Approx(crown).epsilon(1e-5));
+      CHECK(std::stod(text) == near(crown).epsilon(1e-5));
     };
     REQUIRE(run_program({"realisations", file, "-n", "2", "-o", folder / "r"}).status == 0);
     same(cell(read_file(folder / "r/realisations.csv"), 1, "crown_convergence_mm"));
@@ -650,7 +651,7 @@ TEST_SUITE("program/cases") {
                          std::stod(cell(both, 2, "crown_convergence_mm"))) /
                         2;
     CHECK(std::stod(cell(read_file(folder / "dn/interaction.csv"), 2,
-                         "crown_convergence_mm_mean")) == doctest::Approx(mean).epsilon(1e-5));
+                         "crown_convergence_mm_mean")) == near(mean).epsilon(1e-5));
     for (const char* const name : {"interaction_quantile.svg", "interaction_rockfall.svg"})
       CHECK(read_file(folder / "dn" + std::string("/") + name).ends_with("</svg>\n"));
   }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "io/xml_check.hpp"
+#include "support/near.hpp"
 
 using namespace voussoir::program;
 
@@ -49,7 +50,7 @@ TEST_SUITE("program/patterns") {
     CHECK(first.note.empty());
     CHECK(first.blocks > 1000);
     CHECK(first.stages.size() == 4);
-    CHECK(first.time == doctest::Approx(0.2));
+    CHECK(first.time == voussoir_test::near(0.2));
     CHECK(std::abs(first.imbalance) < 0.01);
     REQUIRE(first.stages.size() == second.stages.size());
     CHECK(first.stages.back().outlines == second.stages.back().outlines);

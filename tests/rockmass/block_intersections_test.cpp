@@ -16,6 +16,7 @@
 #include <voussoir/rockmass/slicing.hpp>
 
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 #include "support/shapes.hpp"
 
 namespace block_intersections_test {
@@ -114,7 +115,7 @@ TEST_SUITE("rockmass/block_intersections") {
     const MassProperties<2> needle = mass_properties(
         std::vector<ConvexPolygon>{ConvexPolygon({Vec2(0, -1e-4), Vec2(3, 0), Vec2(0, 1e-4)})});
     CHECK(squared_length_of(Vec2(3, 0) - needle.centroid) / squared_reach(needle) ==
-          doctest::Approx(1).epsilon(1e-7));
+          voussoir_test::near(1).epsilon(1e-7));
     const Domain<3> space{{-4, -4, -4}, {4, 4, 4}};
     Random random(5);
     std::vector<JointOf<3>> joints;

@@ -16,6 +16,7 @@
 #include "linear/dense_matrix.hpp"
 #include "support/dense_algebra.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace composition_test {
 
@@ -123,8 +124,9 @@ TEST_SUITE("solver/composition") {
       const Vec2 before = midway.system().body(springs[k - 1].b).centre + springs[k - 1].arm_b;
       const Vec2 after = midway.system().body(springs[k].a).centre + springs[k].arm_a;
       CHECK((before - after).norm() <= 1e-12);
-      CHECK(before.y() - 2 ==
-            doctest::Approx(0.5 * (springs[k - 1].position + springs[k].position)).epsilon(1e-9));
+      CHECK(
+          before.y() - 2 ==
+          voussoir_test::near(0.5 * (springs[k - 1].position + springs[k].position)).epsilon(1e-9));
     }
   }
 }

@@ -18,6 +18,7 @@
 
 #include "support/blocks.hpp"
 #include "support/faults.hpp"
+#include "support/near.hpp"
 
 namespace displaced_blocks_test {
 
@@ -94,7 +95,7 @@ TEST_SUITE("solver/displaced_blocks") {
     REQUIRE(now.size() == 2);
     // The search ends within a part of the error that is accepted.
     for (std::size_t k = 0; k < 2; ++k)
-      CHECK(now[k].report.normal == doctest::Approx(forces[k].report.normal).epsilon(1e-6));
+      CHECK(now[k].report.normal == voussoir_test::near(forces[k].report.normal).epsilon(1e-6));
   }
 
   TEST_CASE("one pier settles: the lintel turns about the other, and carries as statics says") {
@@ -111,10 +112,10 @@ TEST_SUITE("solver/displaced_blocks") {
     // Knife edges 4 m apart: the middle between them goes down by half; each presses within its
     // 2 cm, 0.5 % of the way between them.
     const Vec2 moved = frame.displacement_of(2, middle) - before;
-    CHECK(moved.y() == doctest::Approx(-0.005).epsilon(0.005));
+    CHECK(moved.y() == voussoir_test::near(-0.005).epsilon(0.005));
     const double weight = density * 9.81 * 2.5;
     for (const auto& at : joint_states(frame))
-      CHECK(at.report.normal == doctest::Approx(0.5 * weight).epsilon(0.01));
+      CHECK(at.report.normal == voussoir_test::near(0.5 * weight).epsilon(0.01));
   }
 
   TEST_CASE("a base drawn away from under a block that is stopped: friction, all of it") {
@@ -131,7 +132,7 @@ TEST_SUITE("solver/displaced_blocks") {
     for (const auto& at : joint_states(stop)) {
       if (at.a == 2 || at.b == 2) continue;
       // What the stop takes by its own friction is no part of it: both are at rest against it.
-      CHECK(std::abs(at.report.shear) == doctest::Approx(0.4 * at.report.normal).epsilon(1e-6));
+      CHECK(std::abs(at.report.shear) == voussoir_test::near(0.4 * at.report.normal).epsilon(1e-6));
     }
   }
 

@@ -20,6 +20,7 @@
 
 #include "support/elastic_tunnel.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 #include "support/small_tunnel.hpp"
 #include "support/squares.hpp"
 
@@ -94,8 +95,8 @@ TEST_SUITE("solver/far_field") {
                              fine = hole_in_squares(half_width, 0.1, turn, k0);
         const double upright = 2 * fine.upright - coarse.upright,
                      across = 2 * fine.across - coarse.across;
-        CHECK(0.25 * (across + upright) / exact_mean == doctest::Approx(1).epsilon(0.01));
-        CHECK(0.25 * (across - upright) / exact_cos2 == doctest::Approx(1).epsilon(0.01));
+        CHECK(0.25 * (across + upright) / exact_mean == voussoir_test::near(1).epsilon(0.01));
+        CHECK(0.25 * (across - upright) / exact_cos2 == voussoir_test::near(1).epsilon(0.01));
       }
   }
 
@@ -113,10 +114,10 @@ TEST_SUITE("solver/far_field") {
     };
     const auto near = motion(40, 15, true), deep = motion(40, 40, true);
     const SectionClosure of_near = section_closure(near), of_deep = section_closure(deep);
-    CHECK(of_near.upright == doctest::Approx(of_deep.upright).epsilon(0.01));
-    CHECK(of_near.across == doctest::Approx(of_deep.across).epsilon(0.01));
+    CHECK(of_near.upright == voussoir_test::near(of_deep.upright).epsilon(0.01));
+    CHECK(of_near.across == voussoir_test::near(of_deep.across).epsilon(0.01));
     CHECK(convergence_of(near, mean_displacement(near)).crown ==
-          doctest::Approx(convergence_of(deep, mean_displacement(deep)).crown).epsilon(0.01));
+          voussoir_test::near(convergence_of(deep, mean_displacement(deep)).crown).epsilon(0.01));
     // Moved as a whole it is the same wall.
     auto shifted = near;
     const Vec2 by(0.3, -0.7);
@@ -132,7 +133,7 @@ TEST_SUITE("solver/far_field") {
     CHECK(std::abs(is.invert - was.invert) < 0.15);
     CHECK(std::abs(is.left_springing - was.left_springing) < 0.15);
     CHECK(std::abs(is.right_springing - was.right_springing) < 0.15);
-    CHECK(was.rise - is.rise == doctest::Approx(by.y()).epsilon(1e-9));
+    CHECK(was.rise - is.rise == voussoir_test::near(by.y()).epsilon(1e-9));
     // Rollers do not have that.
     CHECK(boundary_bias(motion(24, 9, false), motion(24, 9, true)).largest() > 0.03);
   }

@@ -24,6 +24,7 @@
 
 #include "support/faults.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace lining_feet_test {
 
@@ -117,8 +118,8 @@ TEST_SUITE("solver/lining_feet") {
       // The thrust beside a foot is what the foot bears, but for half a stretch of wall and the
       // bend of the arch there.
       const auto members = lining_members(on_feet);
-      CHECK(members.front().thrust == doctest::Approx(feet.front().bearing).epsilon(0.15));
-      CHECK(members.back().thrust == doctest::Approx(feet.back().bearing).epsilon(0.15));
+      CHECK(members.front().thrust == voussoir_test::near(feet.front().bearing).epsilon(0.15));
+      CHECK(members.back().thrust == voussoir_test::near(feet.back().bearing).epsilon(0.15));
       for (const auto& foot : feet) {
         CHECK(std::abs(foot.place.y()) < 0.4);  // at the springing, within a stretch
         CHECK(foot.direction.y() < -0.99);      // down
@@ -150,8 +151,8 @@ TEST_SUITE("solver/lining_feet") {
                                      .friction_angle = 30 * degree}));
     REQUIRE(weak.equilibrium(0, in_one_step, tight).verdict == Verdict::stable);
     for (const auto& foot : foot_forces(weak)) {
-      CHECK(foot.bearing == doctest::Approx(most).epsilon(1e-9));
-      CHECK(foot.utilisation == doctest::Approx(1).epsilon(1e-9));
+      CHECK(foot.bearing == voussoir_test::near(most).epsilon(1e-9));
+      CHECK(foot.utilisation == voussoir_test::near(1).epsilon(1e-9));
       CHECK(foot.settlement > 0);
     }
     CHECK(load_on_lining(weak).norm() < 1e-3 * most);
@@ -163,9 +164,9 @@ TEST_SUITE("solver/lining_feet") {
       return PointLoad<2>{0.2, {}, {opening, Vec<1>(slip)}};
     };
     CHECK(strong.force(at(1e-3, 0), fresh).normal == 0);
-    CHECK(strong.force(at(-1e-3, 0), fresh).normal == doctest::Approx(5e9 * 0.2 * 1e-3));
+    CHECK(strong.force(at(-1e-3, 0), fresh).normal == voussoir_test::near(5e9 * 0.2 * 1e-3));
     CHECK(strong.force(at(-1e-3, 5e-3), fresh).tangential[0] ==
-          doctest::Approx(-std::tan(30 * degree) * 1e6));
+          voussoir_test::near(-std::tan(30 * degree) * 1e6));
     // A node above rock, pressed by 1 mm and sheared by 0.1 mm; then all is turned by 50 degrees.
     LiningFootSpring<2> spring;
     spring.node = 0;
@@ -184,8 +185,8 @@ TEST_SUITE("solver/lining_feet") {
       return Vec2(f.segment<2>(3));
     };
     const Vec2 before = on_rock();
-    CHECK(before.x() == doctest::Approx(-1e5));
-    CHECK(before.y() == doctest::Approx(-1e6));
+    CHECK(before.x() == voussoir_test::near(-1e5));
+    CHECK(before.y() == voussoir_test::near(-1e6));
     Pose<2> node, rock, turn;
     node.position = {0, 1};
     turn.rotation = rotation_by(Spin<2>(50 * degree));
@@ -208,8 +209,8 @@ TEST_SUITE("solver/lining_feet") {
     const auto after = foot_forces(tunnel);
     for (std::size_t k = 0; k < 2; ++k) {
       // Turns of 1e-3 rad, whose square a small displacement leaves out.
-      CHECK(after[k].bearing == doctest::Approx(before[k].bearing).epsilon(1e-4));
-      CHECK(after[k].shear == doctest::Approx(before[k].shear).epsilon(0.01));
+      CHECK(after[k].bearing == voussoir_test::near(before[k].bearing).epsilon(1e-4));
+      CHECK(after[k].shear == voussoir_test::near(before[k].shear).epsilon(0.01));
       CHECK((after[k].place - before[k].place).norm() < 1e-9);
     }
     // Installed in rock that moves, it comes to bear the same as at rest.
@@ -259,7 +260,7 @@ TEST_SUITE("solver/lining_feet") {
     const auto after = foot_forces(tunnel);
     REQUIRE(after.size() == 1);
     CHECK(after[0].place.x() < 0);
-    CHECK(after[0].bearing == doctest::Approx(before[1 - right].bearing).epsilon(1e-9));
+    CHECK(after[0].bearing == voussoir_test::near(before[1 - right].bearing).epsilon(1e-9));
   }
 
   TEST_CASE("an end that goes on in a lining that stands has no foot") {
@@ -400,7 +401,7 @@ TEST_SUITE("solver/lining_feet") {
     tunnel.take_back(run);
     const auto after = foot_forces(tunnel);
     for (std::size_t k = 0; k < feet.size(); ++k)
-      CHECK(after[k].bearing == doctest::Approx(feet[k].bearing).epsilon(1e-4));
+      CHECK(after[k].bearing == voussoir_test::near(feet[k].bearing).epsilon(1e-4));
   }
 }
 

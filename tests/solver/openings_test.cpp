@@ -19,6 +19,7 @@
 #include "support/elastic_tunnel.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 #include "support/transformed.hpp"
 
 namespace openings_test {
@@ -98,7 +99,7 @@ TEST_SUITE("solver/openings") {
     REQUIRE(one.size() == two.size());
     for (std::size_t k = 0; k < one.size(); ++k) {
       CHECK((map(one[k].from) - two[k].from).norm() < 1e-9);
-      CHECK(two[k].thrust == doctest::Approx(one[k].thrust).epsilon(1e-3));
+      CHECK(two[k].thrust == voussoir_test::near(one[k].thrust).epsilon(1e-3));
     }
     const Convergence a = convergence(north, 2, 1), b = convergence(turned, 2, 1);
     CHECK(std::abs(a.crown - b.crown) < 1e-6 * a.crown);
@@ -119,7 +120,7 @@ TEST_SUITE("solver/openings") {
     Rock lined = in_rounds;
     settle(in_rounds);
     CHECK(difference(at_once, in_rounds) < 1e-6);
-    CHECK(total_volume(at_once.mass()) == doctest::Approx(cube.measure() - 5 * section.area()));
+    CHECK(total_volume(at_once.mass()) == voussoir_test::near(cube.measure() - 5 * section.area()));
 
     // The second round alone, from its beginning 2 m below the collar to its bottom.
     const auto frame = lining_frame(lined.mass(), {.ring = {.nodes = 12}, .spacing = 1});
@@ -127,8 +128,8 @@ TEST_SUITE("solver/openings") {
     double area = 0, deepest = 6;
     for (const auto& c : frame.contacts) area += c.facet.measure();
     for (const Vec3& node : frame.nodes) deepest = std::min(deepest, node.z());
-    CHECK(area == doctest::Approx(3 * section.perimeter()).epsilon(1e-9));
-    CHECK(deepest == doctest::Approx(6 - 4.5));
+    CHECK(area == voussoir_test::near(3 * section.perimeter()).epsilon(1e-9));
+    CHECK(deepest == voussoir_test::near(6 - 4.5));
     lined.install_lining(frame, ribs_sections, CoulombJoint({1e10, 1e10, 35 * degree}));
     settle(lined);
     // The ground closes in from all sides: every ring is compressed.
@@ -149,7 +150,7 @@ TEST_SUITE("solver/openings") {
     drift_first.excavate(tunnel, 0);
     settle(drift_first);
     const double left = total_volume(tunnel_first.mass());
-    CHECK(left == doctest::Approx(total_volume(drift_first.mass())).epsilon(1e-12));
+    CHECK(left == voussoir_test::near(total_volume(drift_first.mass())).epsilon(1e-12));
     // The drift is a dead end at x = 4.5; 1 m above and below the axis the tunnel reaches to
     // x = 1.5 to 1.12, so that what is taken out beside it is a little over 3 m of it.
     const double beside = cube.measure() - 12 * tunnel.section().area() - left;
@@ -170,7 +171,7 @@ TEST_SUITE("solver/openings") {
     up_to.excavate(PrismaticOpening(box(-2, 3, 2, 6)), 0);
     settle(beyond);
     settle(up_to);
-    CHECK(total_volume(beyond.mass()) == doctest::Approx(cube.measure() - 4 * 3 * 12));
+    CHECK(total_volume(beyond.mass()) == voussoir_test::near(cube.measure() - 4 * 3 * 12));
     CHECK(difference(beyond, up_to) < 1e-6);
     CHECK(has(
         refusal([&] { (void)lining_frame(beyond.mass(), {.ring = {.nodes = 24}, .spacing = 2}); }),
@@ -187,7 +188,7 @@ TEST_SUITE("solver/openings") {
     INFO(report.reason);
     CHECK(report.verdict == Verdict::stable);
     CHECK(report.fallen.size() == 1);
-    CHECK(report.fallen_measure == doctest::Approx(0.2 * 1 * 12));
+    CHECK(report.fallen_measure == voussoir_test::near(0.2 * 1 * 12));
   }
 
   TEST_CASE("2-D: a bench is lined as the section that it makes with its heading") {

@@ -30,6 +30,7 @@
 
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace spatial_test {
 
@@ -191,25 +192,25 @@ TEST_SUITE("solver/spatial") {
   TEST_CASE("principal horizontal stresses give the tensor in the axes of the tunnel") {
     // Major 2 towards N 90 E (x): k_x = 2, k_y = 0.5; towards N 45 E: mean on both, shear 0.75.
     const InSitu east = InSitu{.density = 2700}.with_horizontal(2, 0.5, 90 * degree);
-    CHECK(east.k0 == doctest::Approx(2));
-    CHECK(east.k0_y == doctest::Approx(0.5));
+    CHECK(east.k0 == voussoir_test::near(2));
+    CHECK(east.k0_y == voussoir_test::near(0.5));
     CHECK(std::abs(east.k0_xy) < 1e-15);
     const InSitu between = InSitu{.density = 2700}.with_horizontal(2, 0.5, 45 * degree);
-    CHECK(between.k0 == doctest::Approx(1.25));
-    CHECK(between.k0_y == doctest::Approx(1.25));
-    CHECK(between.k0_xy == doctest::Approx(0.75));
+    CHECK(between.k0 == voussoir_test::near(1.25));
+    CHECK(between.k0_y == voussoir_test::near(1.25));
+    CHECK(between.k0_xy == voussoir_test::near(0.75));
   }
 
   TEST_CASE("principal stresses in any direction are met where they were measured") {
     const InSitu in_situ = InSitu{.density = 2700, .k0 = 0.8}.with_measured(measured, 200);
     const Stress<3> there = in_situ.stress<3>(200);
     const Vec3 found = principal_axes(there).moments;
-    CHECK(found[0] == doctest::Approx(5.5e6).epsilon(1e-12));
-    CHECK(found[1] == doctest::Approx(6e6).epsilon(1e-12));
-    CHECK(found[2] == doctest::Approx(8e6).epsilon(1e-12));
+    CHECK(found[0] == voussoir_test::near(5.5e6).epsilon(1e-12));
+    CHECK(found[1] == voussoir_test::near(6e6).epsilon(1e-12));
+    CHECK(found[2] == voussoir_test::near(8e6).epsilon(1e-12));
     for (int k = 0; k < 3; ++k) {
       const Vec3 axis = measured.axes[k].direction();
-      CHECK(axis.dot(there * axis) == doctest::Approx(measured.values[k]).epsilon(1e-12));
+      CHECK(axis.dot(there * axis) == voussoir_test::near(measured.values[k]).epsilon(1e-12));
     }
     // The major one dips to the north-east: it presses a plane that faces there.
     CHECK(measured.axes[0].direction().x() > 0);
@@ -218,9 +219,9 @@ TEST_SUITE("solver/spatial") {
     // With depth rho g times the ratios, and no more.
     const Stress<3> more = in_situ.stress<3>(210) - there;
     const double weight = 2700 * 9.81 * 10;
-    CHECK(more(2, 2) == doctest::Approx(weight).epsilon(1e-9));
-    CHECK(more(0, 0) == doctest::Approx(0.8 * weight).epsilon(1e-9));
-    CHECK(more(1, 1) == doctest::Approx(0.8 * weight).epsilon(1e-9));
+    CHECK(more(2, 2) == voussoir_test::near(weight).epsilon(1e-9));
+    CHECK(more(0, 0) == voussoir_test::near(0.8 * weight).epsilon(1e-9));
+    CHECK(more(1, 1) == voussoir_test::near(0.8 * weight).epsilon(1e-9));
     CHECK(std::abs(more(0, 1)) + std::abs(more(0, 2)) + std::abs(more(1, 2)) < 1e-6 * weight);
     // What ratios alone can say comes out the same.
     const InSitu plain{.density = 2700, .k0 = 2, .surcharge = 1e6, .k0_y = 0.5};
@@ -251,15 +252,15 @@ TEST_SUITE("solver/spatial") {
   TEST_CASE("the friction that the in-situ stress asks for is that of its largest Mohr circle") {
     const InSitu plain{.density = 2700, .k0 = 0.5};
     CHECK(plain.required_friction_angle<3>() ==
-          doctest::Approx(plain.required_friction_angle()).epsilon(1e-12));
+          voussoir_test::near(plain.required_friction_angle()).epsilon(1e-12));
     // Along y alone: the plane x, z sees nothing of it.
     const InSitu along{.density = 2700, .k0 = 1, .k0_y = 2};
     CHECK(along.required_friction_angle() == 0);
-    CHECK(along.required_friction_angle<3>() == doctest::Approx(std::asin(1.0 / 3)));
+    CHECK(along.required_friction_angle<3>() == voussoir_test::near(std::asin(1.0 / 3)));
     // sigma_xy 0.3: horizontal principal stresses 1.3 and 0.7.
     const InSitu turned{.density = 2700, .k0 = 1, .k0_y = 1, .k0_xy = 0.3};
-    CHECK(turned.required_friction_angle<3>() == doctest::Approx(std::asin(0.6 / 2)));
-    CHECK(turned.required_friction_angle<3>(0) == doctest::Approx(std::asin(0.6 / 2)));
+    CHECK(turned.required_friction_angle<3>() == voussoir_test::near(std::asin(0.6 / 2)));
+    CHECK(turned.required_friction_angle<3>(0) == voussoir_test::near(std::asin(0.6 / 2)));
     // By brute force over directions of joints, in a measured stress.
     const InSitu in_situ = InSitu{.density = 2700}.with_measured(measured, 200);
     const Stress<3> s = in_situ.stress<3>(200);
@@ -286,7 +287,7 @@ TEST_SUITE("solver/spatial") {
     // Whole degrees are no fault, and do not change the sum of the stresses.
     PrincipalStresses rounded = measured;
     rounded.axes[1] = {120.6 * degree, 0.4 * degree};
-    CHECK(rounded.tensor().trace() == doctest::Approx(19.5e6).epsilon(1e-12));
+    CHECK(rounded.tensor().trace() == voussoir_test::near(19.5e6).epsilon(1e-12));
     CHECK_THROWS_AS((void)InSitu{.density = 2700}.with_measured(measured, 1000), InvalidInput);
     // More is taken off on the way up than there is.
     CHECK_THROWS_AS((InSitu{.density = 2700, .k0 = 3}.with_measured(measured, 200).check()),
@@ -333,19 +334,19 @@ TEST_SUITE("solver/spatial") {
   TEST_CASE("what is dropped at the wall, and what is a collapse, follow the rock and the tunnel") {
     // Of blocks of a metre what a cube of 0.272 m is; of small blocks a tenth.
     const auto coarse = blocks(cube, 2.5);
-    CHECK(smallest_piece_of(coarse) == doctest::Approx(std::pow(0.074, 1.5)));
+    CHECK(smallest_piece_of(coarse) == voussoir_test::near(std::pow(0.074, 1.5)));
     RockMass<Spatial> fine = coarse;
     while (fine.bodies.size() < 20000)
       fine.bodies.insert(fine.bodies.end(), coarse.bodies.begin(), coarse.bodies.end());
     CHECK(smallest_piece_of(fine) ==
-          doctest::Approx(0.1 * cube.measure() / static_cast<double>(fine.bodies.size())));
+          voussoir_test::near(0.1 * cube.measure() / static_cast<double>(fine.bodies.size())));
     CHECK(smallest_piece_of(voussoir_test::jointed_rock({{-5, -5}, {5, 5}}, 1)) == 0.074);
     // Rock lost is counted over the open length, but no more than the width.
     CHECK(open_length(coarse) == 1);
     CHECK(open_length(carve(coarse, PrismaticOpening(circular_opening(4)), 0.1)) ==
-          doctest::Approx(4));
+          voussoir_test::near(4));
     CHECK(open_length(carve(coarse, PrismaticOpening(circular_opening(4), 3.5), 0.1)) ==
-          doctest::Approx(2.5));
+          voussoir_test::near(2.5));
     // Asked for nothing, the solver drops what this says.
     Cavern by_default(coarse, joint, {.density = 2700}), told = by_default;
     by_default.excavate(PrismaticOpening(circular_opening(5, 30)));
@@ -364,13 +365,13 @@ TEST_SUITE("solver/spatial") {
           {PrismaticOpening(circular_opening(6, 24), 1, 4.25), 3.25}}) {
       const auto mass = carve(blocks(cube, 1.5), opening, 0.0);
       const double volume = opening.section().area() * length;
-      CHECK(mass.carving.removed_measure == doctest::Approx(volume).epsilon(1e-12));
+      CHECK(mass.carving.removed_measure == voussoir_test::near(volume).epsilon(1e-12));
       double left = 0;
       for (const auto& body : mass.bodies) left += body.properties.measure;
-      CHECK(left + volume == doctest::Approx(cube.measure()).epsilon(1e-12));
+      CHECK(left + volume == voussoir_test::near(cube.measure()).epsilon(1e-12));
       double wall = 0;
       for (const auto& piece : wall_pieces(mass)) wall += piece.facet.measure();
-      CHECK(wall == doctest::Approx(opening.section().perimeter() * length).epsilon(1e-9));
+      CHECK(wall == voussoir_test::near(opening.section().perimeter() * length).epsilon(1e-9));
     }
   }
 
@@ -457,7 +458,7 @@ TEST_SUITE("solver/spatial") {
       CHECK((frame.nodes[static_cast<std::size_t>(c.node)] - p).norm() < 0.8);
     }
     for (const auto& piece : wall_pieces(bare.mass())) wall += piece.facet.measure();
-    CHECK(area == doctest::Approx(wall).epsilon(1e-6));
+    CHECK(area == voussoir_test::near(wall).epsilon(1e-6));
     double panels = 0;
     for (const auto& panel : frame.panels) {
       panels += panel.facet.measure();
@@ -465,7 +466,7 @@ TEST_SUITE("solver/spatial") {
       CHECK(panel.facet.area_vector().dot(Vec3(p.x(), 0, p.z())) > 0);
       CHECK((frame.nodes[static_cast<std::size_t>(panel.node)] - p).norm() < 0.8);
     }
-    CHECK(panels == doctest::Approx(6 * opening.section().perimeter()).epsilon(1e-9));
+    CHECK(panels == voussoir_test::near(6 * opening.section().perimeter()).epsilon(1e-9));
     lined.install_lining(frame,
                          {LiningSection::strip(0.1, 1, 25e9), LiningSection::strip(0.1, 0.5, 25e9)},
                          CoulombJoint({1e10, 1e10, 35 * degree}));

@@ -22,6 +22,7 @@
 #include "support/blocks.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace tunnel_state_test {
 
@@ -105,22 +106,22 @@ TEST_SUITE("tunnel/tunnel_state") {
       const double weight = 2700 * 9.81 * 0.2;
       CHECK(std::min(j.a, j.b) == 0);
       CHECK(std::max(j.a, j.b) == block);
-      CHECK(j.measure == doctest::Approx(1).epsilon(1e-6));
-      CHECK(std::abs(j.normal.dot(up)) == doctest::Approx(1).epsilon(1e-3));
+      CHECK(j.measure == voussoir_test::near(1).epsilon(1e-6));
+      CHECK(std::abs(j.normal.dot(up)) == voussoir_test::near(1).epsilon(1e-3));
       CHECK(!j.report.is_open);
       const double slid = (run.home(block).position - run.position(block)).dot(along);
       if (friction >
           30) {  // held, W coming suddenly: T = W sin, N = W cos within a per cent by then
-        CHECK(j.report.normal == doctest::Approx(weight * std::cos(slope)).epsilon(0.01));
-        CHECK(j.report.shear == doctest::Approx(weight * std::sin(slope)).epsilon(0.01));
+        CHECK(j.report.normal == voussoir_test::near(weight * std::cos(slope)).epsilon(0.01));
+        CHECK(j.report.shear == voussoir_test::near(weight * std::sin(slope)).epsilon(0.01));
         CHECK(!j.report.is_slipping);
         CHECK(j.report.plastic_slip < visible_slip);
       } else {  // T = N tan phi; the contact has followed the block and its slip is what it slid
         CHECK(j.report.is_slipping);
         CHECK(j.report.shear ==
-              doctest::Approx(j.report.normal * std::tan(friction * degree)).epsilon(1e-9));
+              voussoir_test::near(j.report.normal * std::tan(friction * degree)).epsilon(1e-9));
         CHECK(slid > 0.05);
-        CHECK(j.report.plastic_slip == doctest::Approx(slid).epsilon(0.01));
+        CHECK(j.report.plastic_slip == voussoir_test::near(slid).epsilon(0.01));
       }
       // The middle of the contact is under the block.
       CHECK((j.centre - (run.position(block) - 0.1 * up)).norm() < 0.01);
