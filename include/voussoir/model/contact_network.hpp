@@ -240,8 +240,8 @@ class ContactNetwork {
   }
   /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
   template <class U>
-  void take_nearest(const U& update, std::vector<Left>& left, Pair& pair,
-                    const Contact<Dim>& found);
+  void take_nearest(const U& update, std::vector<Left>& left, Pair& pair, const Contact<Dim>& found,
+                    const ContactArea<Dim>* joined);
 
   template <class U>
   void drop(U& update, const Left& it);
@@ -268,12 +268,6 @@ class ContactNetwork {
   /// -1: no node of a lining.
   [[nodiscard]] std::int32_t interface_law_of(int body) const {
     return index(body) < interface_law_of_.size() ? interface_law_of_[index(body)] : -1;
-  }
-
-  [[nodiscard]] static Vec<Dim> middle_of(const Contact<Dim>& found) {
-    Vec<Dim> sum = zeros<Vec<Dim>>();
-    for (const Vec<Dim>& p : found.polygon) sum += p;
-    return sum / static_cast<double>(found.polygon.size());
   }
 
   /// Lists every body's contacts; those without points are on no list.

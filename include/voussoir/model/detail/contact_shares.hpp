@@ -38,7 +38,6 @@ template <int Dim, class Tracker>
 class ContactShares {
  public:
   using Pair = typename Tracker::Pair;
-  using Take = std::function<void(Pair&, const Contact<Dim>&)>;
   using Visit = std::function<void(Pair&, const Contact<Dim>&, const ContactArea<Dim>*)>;
 
   /// @param tracker  that finds the pairs; it outlives this
@@ -60,13 +59,13 @@ class ContactShares {
          is_edge ? -1 : cut});
   }
 
-  /// Calls take(pair, found) for all contacts of two bodies, then visit(pair, found, area): the
-  /// largest first, which so is the first to find what it was before; edges last. Where several
+  /// Calls take(pair, found, area) for all contacts of two bodies, then visit(pair, found, area):
+  /// the largest first, which so is the first to find what it was before; edges last. Where several
   /// pairs share it, `area` is what all have of it, on the polygon's side, counted as it is from
   /// the grid point of the pair's first shape and with the measure of all, and else null.
-  void join(const Take& take, const Visit& visit);
+  void join(const Visit& take, const Visit& visit);
   void join(const Visit& visit) {
-    join([](Pair&, const Contact<Dim>&) {}, visit);
+    join([](Pair&, const Contact<Dim>&, const ContactArea<Dim>*) {}, visit);
   }
 
  private:
@@ -128,7 +127,7 @@ class ContactShares {
 };
 
 template <int Dim, class Tracker>
-void ContactShares<Dim, Tracker>::join(const Take& take, const Visit& visit) {
+void ContactShares<Dim, Tracker>::join(const Visit& take, const Visit& visit) {
   // The largest of a contact tells its plane: it comes first. Edges come last.
   std::sort(shares_.begin(), shares_.end(), [](const Share& x, const Share& y) {
     return std::tuple(x.bodies, x.is_edge, x.cut, -x.found.measure, x.pair->a, x.pair->b) <
@@ -141,9 +140,10 @@ void ContactShares<Dim, Tracker>::join(const Take& take, const Visit& visit) {
       return std::pair(x.share->is_edge, -x.share->found.measure) <
              std::pair(y.share->is_edge, -y.share->found.measure);
     });
-    for (const Joined& it : of_bodies) take(*it.share->pair, it.share->found);
-    for (const Joined& it : of_bodies)
-      visit(*it.share->pair, it.share->found, it.area.facets().size() > 1 ? &it.area : nullptr);
+    for (const Visit* visit_all : {&take, &visit})
+      for (const Joined& it : of_bodies)
+        (*visit_all)(*it.share->pair, it.share->found,
+                     it.area.facets().size() > 1 ? &it.area : nullptr);
     of_bodies.clear();
   };
   for (std::size_t k = 0; k < shares_.size();) {
@@ -168,8 +168,10 @@ void ContactShares<Dim, Tracker>::join(const Take& take, const Visit& visit) {
       const Vec<Dim> shift = origin(share) - origin(first);
       for (Vec<Dim>& p : corners) p += shift;
       auto facet = facet_of(std::move(corners), normal);
-      // Less than what is seen of it along the normal: roundings are all there is of it.
-      const bool is_sliver = !(facet.measure() > 0.999 * share.found.measure);
+      // No area, or less than what is seen of it along the normal: roundings are all there is of
+      // it.
+      const double seen = share.found.measure;
+      const bool is_sliver = !(seen > 0 && facet.measure() > 0.999 * seen);
       if (share.cut >= 0 && normal.dot(outward) > 0.99 && !is_sliver &&
           (i == k || !area.facets().empty())) {
         area.add(std::move(facet));

@@ -12,6 +12,8 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/detection/contact.hpp>
+#include <voussoir/geometry/contact_area.hpp>
 #include <voussoir/model/contact_group.hpp>
 #include <voussoir/model/detail/contact_frames.hpp>
 #include <voussoir/model/moving_body.hpp>
@@ -19,19 +21,35 @@
 
 namespace voussoir::detail {
 
-/// Squared distance of a place from the nearest point of a contact [m^2]; infinite if its normal
-/// has turned by more than 60 degrees from the one given: it is another contact then.
+/// The middle of a contact that has been found, counted as that is.
+/// @param joined  all of it where several pairs of shapes share it, or null
+template <int Dim>
+[[nodiscard]] Vec<Dim> middle_of(const Contact<Dim>& found, const ContactArea<Dim>* joined) {
+  if (joined != nullptr) return joined->centre();
+  Vec<Dim> sum = zeros<Vec<Dim>>();
+  for (const Vec<Dim>& p : found.polygon) sum += p;
+  return sum / static_cast<double>(found.polygon.size());
+}
+
+/// Squared distance of a place from the middle of a contact [m^2]; infinite if its normal has
+/// turned by more than 60 degrees from the one given: it is another contact then. Not from its
+/// nearest point: a sliver between the points of a large contact would be taken for that.
 template <int Dim, class Points>
 [[nodiscard]] double squared_distance(const std::vector<MovingBody<Dim>>& bodies,
                                       const MovingContact<Dim>& c, const Points& points,
                                       const Vec<Dim>& normal, const Vec<Dim>& place) {
-  double least = std::numeric_limits<double>::infinity();
+  constexpr double least = std::numeric_limits<double>::infinity();
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
   const Vec<Dim> was = bodies[index(c.a)].pose.rotation * column(c.frame, 0);
   if (std::abs(was.dot(normal)) < 0.5) return least;
-  for (auto k = index(c.first); k < index(c.last); ++k)
-    least = std::min(least, (bodies[index(c.b)].pose(points[k].place) - place).squaredNorm());
-  return least;
+  Vec<Dim> middle = zeros<Vec<Dim>>();
+  double whole = 0;
+  for (auto k = index(c.first); k < index(c.last); ++k) {
+    middle += points[k].weight * points[k].place;
+    whole += points[k].weight;
+  }
+  if (!(whole > 0)) return least;
+  return (bodies[index(c.b)].pose(middle / whole) - place).squaredNorm();
 }
 
 /// The contacts of one kind that bodies had before, in their frames, to be carried on by those that

@@ -243,11 +243,8 @@ void ContactUpdate<Dim, Detector>::renew(const Former& former, const Pair& pair,
   const bool of_a = found.touch != Touch::face_b;
   const std::size_t owner = of_a ? pair.a : pair.b;
   const int a = tracker_.body_of(owner), b = tracker_.body_of(of_a ? pair.b : pair.a);
-  Vec<Dim> middle = zeros<Vec<Dim>>();
-  for (const Vec<Dim>& p : found.polygon) middle += p;
-  middle /= static_cast<double>(found.polygon.size());
-  middle += from;
-  const Contact* const old = former.nearest(bodies_, a, b, found.normal, middle);
+  const Contact* const old =
+      former.nearest(bodies_, a, b, found.normal, middle_of<Dim>(found, joined) + from);
   std::vector<Point> points;
   using Renewal = ContactRenewal<Dim>;
   Contact contact =

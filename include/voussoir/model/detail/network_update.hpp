@@ -74,11 +74,11 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
   std::pair<int, int> bodies_of_last{-1, -1};
   double spare = 0;
   shares.join(
-      [&](Pair& pair, const Contact<Dim>& found) {
+      [&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
         const std::pair<int, int> both =
             std::minmax(tracker.body_of(pair.a), tracker.body_of(pair.b));
         if (std::exchange(bodies_of_last, both) != both) spare = detail::energy_left(left, both);
-        take_nearest(update, left, pair, found);
+        take_nearest(update, left, pair, found, area);
         spare = std::max(0.0, spare - energy_of(update, pair));
       },
       [&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
@@ -103,10 +103,12 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
 template <int Dim, class Detector>
 template <class U>
 void ContactNetwork<Dim, Detector>::take_nearest(const U& update, std::vector<Left>& left,
-                                                 Pair& pair, const Contact<Dim>& found) {
+                                                 Pair& pair, const Contact<Dim>& found,
+                                                 const ContactArea<Dim>* joined) {
   const std::pair<int, int> wanted =
       std::minmax(update.tracker.body_of(pair.a), update.tracker.body_of(pair.b));
-  const Vec<Dim> place = middle_of(found) + update.tracker.shapes().grid_point(pair.a);
+  const Vec<Dim> place =
+      detail::middle_of<Dim>(found, joined) + update.tracker.shapes().grid_point(pair.a);
   auto best = left.end();
   double least = std::numeric_limits<double>::infinity();
   const Group& group = groups_[update.kind_of(pair)];
@@ -151,7 +153,8 @@ void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<D
   std::vector<typename Group::Point> points;
   const typename Group::Contact* const old =
       known ? &group.contacts()[index(pair.contact)]
-            : former.nearest(bodies, a, b, found.normal, middle_of(found) + from);
+            : former.nearest(bodies, a, b, found.normal,
+                             detail::middle_of<Dim>(found, joined) + from);
   const std::vector<typename Group::Point>& old_points = known ? group.points() : former.points();
   detail::ContactRenewal<Dim> renewal(bodies, old_points);
   if (!is_everything_new_) renewal.start_at_rest();
