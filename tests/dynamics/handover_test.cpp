@@ -243,7 +243,7 @@ TEST_SUITE("dynamics/handover") {
   TEST_CASE("blocks of several parts keep their stress while their contacts are updated") {
     // They touch in the plane of one joint, part by part, and beside it over slivers of no area.
     // Where one of these took up the joint's springs, 1.9 m2 lost their in-situ stress at the first
-    // update, and a block was squeezed out by 12 mm.
+    // update, and a block was squeezed out by 12 mm (solver/detectors_long).
     Solver<Spatial> tunnel(small_rock<Spatial>(), CoulombJoint({5e9, 5e8, 35 * degree}),
                            small_in_situ);
     tunnel.excavate(small_opening<Spatial>(), 0.02);
@@ -254,7 +254,8 @@ TEST_SUITE("dynamics/handover") {
       run.set_held(held);
       run.advance_steps(400);
     }
-    // Work of the walls and the weight is 1.2 kJ; updates lost 1.1 kJ.
+    // Of 412 J of work updates lose 0.05 J. Rest found at once and rest come to differ by 4 % of
+    // the largest displacement.
     const EnergyBalance& energy = run.energy();
     CHECK(-energy.contact_updates < 1e-3 * std::abs(energy.gravity + energy.loads));
     CHECK(tunnel.equilibrium(0.7).verdict == Verdict::stable);
@@ -262,7 +263,7 @@ TEST_SUITE("dynamics/handover") {
     tunnel.take_back(run);
     const double largest = tunnel.system().largest_translation(at_rest);
     const Eigen::VectorXd apart = tunnel.system().displacement - at_rest;
-    CHECK(tunnel.system().largest_translation(apart) < 0.25 * largest);
+    CHECK(tunnel.system().largest_translation(apart) < 0.1 * largest);
   }
 
   TEST_CASE("a contact is the one before until its normal has turned by 60 degrees") {

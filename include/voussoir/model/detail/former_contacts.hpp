@@ -38,17 +38,17 @@ template <int Dim, class Points>
 [[nodiscard]] double squared_distance(const std::vector<MovingBody<Dim>>& bodies,
                                       const MovingContact<Dim>& c, const Points& points,
                                       const Vec<Dim>& normal, const Vec<Dim>& place) {
-  constexpr double least = std::numeric_limits<double>::infinity();
+  constexpr double another = std::numeric_limits<double>::infinity();
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
   const Vec<Dim> was = bodies[index(c.a)].pose.rotation * column(c.frame, 0);
-  if (std::abs(was.dot(normal)) < 0.5) return least;
+  if (std::abs(was.dot(normal)) < 0.5) return another;
   Vec<Dim> middle = zeros<Vec<Dim>>();
   double whole = 0;
   for (auto k = index(c.first); k < index(c.last); ++k) {
     middle += points[k].weight * points[k].place;
     whole += points[k].weight;
   }
-  if (!(whole > 0)) return least;
+  if (!(whole > 0)) return another;
   return (bodies[index(c.b)].pose(middle / whole) - place).squaredNorm();
 }
 
