@@ -100,7 +100,7 @@ int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimpleP
 }
 
 LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, double thickness) {
-  LiningRing ring{.nodes = nodes};
+  LiningRing ring{.nodes = nodes, .fill_depth = lining.fill_depth};
   if (lining.arc) {
     ring.from = lining.arc->from;
     ring.to = lining.arc->to;
@@ -252,7 +252,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   if (mass.carving.dropped_pieces > 0)
     warn(std::to_string(mass.carving.dropped_pieces) + " pieces at the wall below " +
          number(input.blocks.min_wall_area) + " m2 were dropped, " +
-         number(mass.carving.dropped_measure) + " m2 in all");
+         number(mass.carving.dropped_measure) + " m2 in all; the wall is the rock behind them" +
+         (input.lining ? ", a lining fills the holes to " + number(input.lining->fill_depth) + " m"
+                       : std::string()));
   const double needed = run.tunnel.in_situ().required_friction_angle();
   double friction = input.joint.friction_angle;
   for (const JointSetInput& set : input.joint_sets)

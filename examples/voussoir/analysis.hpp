@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -119,7 +120,11 @@ struct TunnelResult {
   [[nodiscard]] std::string word() const {
     return failed ? "failed" : to_string(verdict, fallen, lost_lining);
   }
-  [[nodiscard]] bool is_decided() const { return !failed && verdict != Verdict::undecided; }
+  /// It has a verdict and, where no rock has fallen, a number for the crown.
+  [[nodiscard]] bool is_decided() const {
+    return !failed && verdict != Verdict::undecided &&
+           (verdict == Verdict::collapse || fallen > 0 || std::isfinite(convergence.crown));
+  }
   /// It stands, and all of its rock and its lining with it.
   [[nodiscard]] bool is_whole() const {
     return verdict == Verdict::stable && fallen == 0 && !lost_lining;

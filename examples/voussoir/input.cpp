@@ -332,6 +332,8 @@ void read_lining(Section& s, LiningInput& lining) {
                              : "with a key shear_bond, at most shear_bond / tan(friction)");
   });
   s.integer("nodes", lining.nodes, 8, 2000);
+  s.quantity("fill_depth", lining.fill_depth, dimension::length, {.low = 0, .high = 10},
+             Need::optional);
   lining.arc = read_arc(s);
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();

@@ -210,6 +210,8 @@ struct LiningInput {
   /// `coarsest_bonded_spacing`; left out: as many as facets, or more where joints are closer or the
   /// bond needs them.
   std::optional<int> nodes;
+  /// How far behind the outline it fills the holes of dropped pieces [m], 0 to 10.
+  double fill_depth = default_fill_depth;
   std::optional<ArcInput> arc;    ///< default: the full ring
   std::optional<FeetInput> feet;  ///< of an arc alone
 };

@@ -329,10 +329,13 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += "wall     crown " + millimetres_text(c.crown) + " mm, springings " +
          millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
          " mm, invert " + millimetres_text(c.invert) + " mm";
-  const bool fallen = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
+  const bool has_gap = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
   if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
     out += ", against the opening as a whole, which rises by " + millimetres_text(c.rise) + " mm";
-  out += fallen ? " (-: the wall there is detached)\n" : "\n";
+  if (has_gap)
+    out += run.fallen_measure() > 0 ? " (-: the wall there is detached)"
+                                    : " (-: there is no wall there)";
+  out += "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +

@@ -27,7 +27,7 @@ TEST_SUITE("dynamics/lining_tiles") {
     const auto rock = carve(jointed_rock(domain_around(opening, 20, 7, 7), 4), opening, 0.3);
     REQUIRE(rock.carving.dropped_pieces > 0);
     const auto run = moving_rock(rock, CoulombJoint({5e9, 5e8, 35 * degree}), {.density = 2700});
-    const auto frame = lining_frame(rock, {.nodes = 36});
+    const auto frame = lining_frame(rock, {.nodes = 36, .fill_depth = 0});
     const LiningSurface<Planar> tiles(
         frame, thickness, [&](int b) { return run.motion(b); },
         [&](int b) { return run.body(b).is_gone; });

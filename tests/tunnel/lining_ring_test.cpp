@@ -141,13 +141,60 @@ TEST_SUITE("tunnel/lining_ring") {
     }
   }
 
-  TEST_CASE("where a piece of rock was dropped there is a gap, and no contact") {
+  TEST_CASE("where a piece of rock was dropped the lining fills the hole and bears behind it") {
     const auto mass = tunnel_wall(0.3);
     REQUIRE(mass.carving.dropped_pieces > 0);
-    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36});
-    CHECK(wall_length(mass) < mass.openings.back().perimeter() - 0.1);
-    CHECK(std::abs(contact_length(frame) - wall_length(mass)) <= 1e-9);
-    CHECK(frame.members.size() == 36);  // the ring bridges the gap
+    const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36, .fill_depth = 10});
+    CHECK(frame.gaps.empty());
+    // It bears all along the outline, which is 1e-9 of slicing's tolerance wide at every corner.
+    CHECK(contact_length(frame) ==
+          voussoir_test::near(mass.openings.back().perimeter()).epsilon(1e-7));
+    // What fills is what was dropped, less what lies behind a ledge.
+    double filled = 0;
+    for (const auto& fill : frame.fills) {
+      filled += mass_properties(fill.shape).measure;
+      // Behind it, seen from the tunnel, is the body that it sticks to.
+      const Vec2 middle = mass_properties(fill.shape).centroid, out = middle.normalized();
+      int first = -1;
+      for (double d = 0; first < 0 && d < 2; d += 1e-3)
+        first = detail::body_at<Planar>(mass, middle + d * out);
+      CHECK(first == fill.body);
+    }
+    CHECK(filled <= mass.carving.dropped_measure * (1 + 1e-9));
+    CHECK(filled > 0.9 * mass.carving.dropped_measure);
+    // A pressure that is the same everywhere presses every node as on whole rock.
+    std::vector<Vec2> force(36, Vec2::Zero());
+    for (const auto& c : frame.contacts)
+      force[static_cast<std::size_t>(c.node)] += c.facet.area_vector();
+    const double facet = 5 * std::sin(pi / 36);
+    for (std::size_t k = 0; k < 36; ++k)
+      CHECK((force[k] - facet * frame.nodes[k].normalized()).norm() <= 1e-6);
+  }
+
+  TEST_CASE("a hole deeper than the lining fills is a gap, and said") {
+    const auto mass = tunnel_wall(0.3);
+    const LiningFrame<Planar> on_outline = lining_frame(mass, {.nodes = 36, .fill_depth = 0});
+    double on_wall = 0, gaps = 0;
+    for (const auto& piece : wall_pieces(mass))
+      if (piece.hole < 0) on_wall += piece.facet.length();
+    CHECK(std::abs(contact_length(on_outline) - on_wall) <= 1e-9);
+    CHECK(on_outline.fills.empty());
+    const double stretch = mass.openings.back().perimeter() / 36;
+    for (const LiningGap& gap : on_outline.gaps) gaps += gap.share * stretch;
+    CHECK(gaps == voussoir_test::near(36 * stretch - on_wall).epsilon(1e-9));
+    // In between, the deeper it fills the less is left.
+    double before = gaps;
+    for (const double depth : {0.1, 0.3, 1.0}) {
+      const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 36, .fill_depth = depth});
+      for (const auto& fill : frame.fills)
+        for (const Vec2& p : fill.shape.vertices()) CHECK(p.norm() < 5 + depth + 0.02);
+      double left = 0;
+      for (const LiningGap& gap : frame.gaps) left += gap.share * stretch;
+      CHECK(left < before);
+      before = left;
+    }
+    CHECK_THROWS_WITH_AS((void)lining_frame(mass, {.nodes = 36, .fill_depth = -0.1}),
+                         "fill depth of a lining = -0.1: must be >= 0 m and finite", InvalidInput);
   }
 
   TEST_CASE("contacts belong to the blocks that form the wall there") {

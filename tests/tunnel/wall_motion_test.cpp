@@ -93,7 +93,7 @@ TEST_SUITE("tunnel/wall_motion") {
                             opening, 0);
     const auto parts = detail::wall_motion_of(
         mass, opening, [](int) { return true; }, [](int, const Vec3&) { return zeros<Vec3>(); },
-        {0, 0, -0.6, 0.9});
+        {-0.6, 0.9});
     for (int k = 0; k < 60; ++k) {
       CAPTURE(k);
       CHECK(std::abs(measure_in(parts, k * ray, (k + 1) * ray) -

@@ -359,6 +359,7 @@ class Motion : public MovingBodies<Dim> {
   using Base::fresh_;
   using Base::home_;
   using Base::index;
+  using Base::is_filling_;
   using Base::kinetic_given_;
   using Base::loads_;
   using Base::origin_;

@@ -141,6 +141,7 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
         {places.back(), surface.tiles(k), shares[k].mass, all_entries<dof - dim>(inertia)});
   }
   const int first = run.add_lining_nodes(nodes, interface_law);
+  for (const auto& fill : frame.fills) run.add_filling(fill.body, fill.shape);
   std::vector<int> numbers(nodes.size());
   std::iota(numbers.begin(), numbers.end(), first);
   auto lining = std::make_shared<LiningMembers<Geometry>>(

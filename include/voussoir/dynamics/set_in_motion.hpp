@@ -68,6 +68,7 @@ class Handover {
                                                              lining.is_pinned))});
       }
       run.add_lining_nodes(nodes, lining.law);
+      for (const auto& fill : lining.fills) run.add_filling(fill.body, fill.shape);
     }
     for (int b = 0; b < system_.body_count(); ++b) {
       run.place(b, system_.motion_of(b));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
@@ -59,6 +60,17 @@ struct SpatialFacet {
   /// From the first vertex to the centroid.
   [[nodiscard]] Vec3 centroid_arm() const;
 };
+
+namespace detail {
+
+[[nodiscard]] inline std::span<const Vec2> corners_of(const Segment& facet) {
+  return {&facet.start, 2};
+}
+[[nodiscard]] inline std::span<const Vec3> corners_of(const SpatialFacet& facet) {
+  return facet.vertices;
+}
+
+}  // namespace detail
 
 #if VOUSSOIR_BODIES
 

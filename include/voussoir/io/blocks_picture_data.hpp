@@ -61,6 +61,7 @@ struct PictureLining {
   bool is_ring = true;                   ///< the last node is joined to the first
   double thickness = 0;                  ///< [m]
   std::vector<PictureFoot> feet{};
+  std::vector<std::vector<Vec2>> fills{};  ///< outlines of holes in the wall that it fills [m]
   /// In-situ stress times radius [N/m]: thrust of less than 1/200 of it, and moments of such a
   /// thrust at the edge of the core of the section, are drawn as small as they are; 0: the largest
   /// value fills the diagram, whatever it is.

@@ -45,7 +45,7 @@ struct TunnelPictureText {
                                                                      const std::string& unit,
                                                                      bool lost_lining = false);
 
-/// "3.29" for 3.29e-3 m; "-" where the wall is detached.
+/// "3.29" for 3.29e-3 m; "-" where there is no wall, or none any more.
 [[nodiscard]] inline std::string millimetres_text(double metres) {
   return std::isfinite(metres) ? fixed_text(1e3 * metres, 2) : "-";
 }

@@ -88,6 +88,7 @@ namespace detail {
     lining.thickness = lining_thickness;
     for (const FootForce<2>& foot : state.feet)
       lining.feet.push_back({foot.place, foot.direction, foot.width, foot.bearing});
+    for (const ConvexPolygon& fill : state.fills) lining.fills.push_back(fill.vertices());
     picture.lining = std::move(lining);
   }
   return picture;
@@ -106,6 +107,7 @@ namespace detail {
   for (std::size_t k = 0; k < bars.size(); ++k)
     view.bolts.push_back({bars[k].start, bars[k].end, pull[k]});
   for (const MemberForces<3>& m : state.members) view.lining.push_back({m.from, m.to, m.thrust});
+  view.fills = state.fills;
   return view;
 }
 

@@ -33,6 +33,7 @@ struct TunnelView {
   std::vector<double> displacement;  ///< of every body of the mass [m]; colours the rock
   std::vector<char> is_gone;         ///< bodies that are detached; none if empty
   std::vector<SupportLine> bolts, lining;
+  std::vector<ConvexPolyhedron> fills{};     ///< holes in the wall that the lining fills
   double section_x = 0;                      ///< the rock at higher x is left out [m]
   double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
   double elevation = 0.12 * std::numbers::pi;
@@ -103,42 +104,47 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   const ColourMap colours = ColourMap::straw_to_blue();
 
   // What can be seen: the section, the wall of the tunnel, the sides of the model, and where a
-  // block is detached the faces around it.
+  // block is detached or was dropped the faces around it.
   std::vector<char> is_bare(mass.cuts.size(), 0);
   for (std::size_t c = 0; c < mass.cuts.size(); ++c)
     is_bare[c] = mass.cuts[c].kind != Cut::Kind::joint;
+  const auto lay_bare = [&](const Body<Spatial>& body) {
+    for (const auto& part : body.parts)
+      for (std::size_t k = 0; k < part.size(); ++k)
+        is_bare[static_cast<std::size_t>(part.cut(k))] = 1;
+  };
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
-    if (is_gone(b))
-      for (const auto& part : mass.bodies[b].parts)
-        for (std::size_t k = 0; k < part.size(); ++k)
-          is_bare[static_cast<std::size_t>(part.cut(k))] = 1;
+    if (is_gone(b)) lay_bare(mass.bodies[b]);
+  for (const Body<Spatial>& body : mass.dropped) lay_bare(body);
   std::vector<std::pair<double, VisibleFace>> faces;
+  const auto add_faces = [&](const ConvexPolyhedron& whole, const Colour& colour) {
+    ConvexPolyhedron part = whole;
+    if (auto halves = whole.split(section, -1, tolerance))
+      part = std::move(halves->first);
+    else if (lies_before(whole, scene.section_x))
+      return;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const Vec3& normal = part.half_space(k).normal;
+      const bool is_section = part.cut(k) < 0;
+      if (normal.dot(view.towards()) <= 1e-9 ||
+          !(is_section || is_bare[static_cast<std::size_t>(part.cut(k))]))
+        continue;
+      VisibleFace face{{}, is_section ? colour : shaded(colour, normal, view)};
+      double depth = 0;
+      for (const int v : part.loop(k)) {
+        const Vec3& p = part.vertex(static_cast<std::size_t>(v));
+        face.corners.push_back(view(p));
+        depth += view.towards().dot(p);
+      }
+      faces.emplace_back(depth / static_cast<double>(face.corners.size()), std::move(face));
+    }
+  };
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     if (is_gone(b)) continue;
     const Colour colour = colours(largest > 0 ? scene.displacement[b] / largest : 0);
-    for (const ConvexPolyhedron& whole : mass.bodies[b].parts) {
-      ConvexPolyhedron part = whole;
-      if (auto halves = whole.split(section, -1, tolerance))
-        part = std::move(halves->first);
-      else if (lies_before(whole, scene.section_x))
-        continue;
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        const Vec3& normal = part.half_space(k).normal;
-        const bool is_section = part.cut(k) < 0;
-        if (normal.dot(view.towards()) <= 1e-9 ||
-            !(is_section || is_bare[static_cast<std::size_t>(part.cut(k))]))
-          continue;
-        VisibleFace face{{}, is_section ? colour : shaded(colour, normal, view)};
-        double depth = 0;
-        for (const int v : part.loop(k)) {
-          const Vec3& p = part.vertex(static_cast<std::size_t>(v));
-          face.corners.push_back(view(p));
-          depth += view.towards().dot(p);
-        }
-        faces.emplace_back(depth / static_cast<double>(face.corners.size()), std::move(face));
-      }
-    }
+    for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour);
   }
+  for (const ConvexPolyhedron& fill : scene.fills) add_faces(fill, {0x9a, 0xa3, 0xab});
   if (faces.empty()) throw InvalidInput("draw_tunnel_view: no rock lies behind the section");
   std::stable_sort(faces.begin(), faces.end(),
                    [](const auto& p, const auto& q) { return p.first < q.first; });

@@ -21,6 +21,20 @@ struct LiningContact {
   typename Geometry::Facet facet;  ///< node on its left (2-D): anticlockwise round the opening
 };
 
+/// Where a lining fills a hole in the wall: from the outline to the body behind. It sticks to that
+/// body, and the node bears on it as on rock.
+template <class Geometry>
+struct LiningFill {
+  int node, body;
+  typename Geometry::Shape shape;
+};
+
+/// Where a node has no rock behind it as far as it fills holes.
+struct LiningGap {
+  int node;
+  double share;  ///< of what stands for the node, 0 to 1
+};
+
 /// A straight member of a lining.
 template <class Geometry>
 struct LiningMember {
@@ -57,6 +71,8 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> members;
   std::vector<LiningContact<Geometry>> contacts;
   std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
+  std::vector<LiningFill<Geometry>> fills{};
+  std::vector<LiningGap> gaps{};  ///< in the order of the nodes
   /// Places beside its ends where nodes of a lining that stands may be [m].
   std::vector<Vec<Geometry::dim>> neighbours{};
   /// Members that join it to those: the number of neighbour m is nodes.size() + m. Where nothing
@@ -156,6 +172,16 @@ template <class Geometry, class Stands>
     if (!is_shared(c.node)) {
       c.node = number[static_cast<std::size_t>(c.node)];
       rest.contacts.push_back(c);
+    }
+  for (auto f : frame.fills) {
+    if (is_shared(f.node)) continue;  // it stands already
+    f.node = number[static_cast<std::size_t>(f.node)];
+    rest.fills.push_back(std::move(f));
+  }
+  for (auto g : frame.gaps)
+    if (!is_shared(g.node)) {
+      g.node = number[static_cast<std::size_t>(g.node)];
+      rest.gaps.push_back(g);
     }
   for (auto p : frame.panels)
     if (!is_shared(p.node)) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
@@ -70,13 +71,15 @@ class ContactTracker {
   /// @param centre    of the body, in the coordinates in which the shape is given [m]
   /// @param rotation  from the body's frame to these
   /// @param family    shapes of one family never touch: the parts of a body, or of a lining
+  /// @param touches   the only family that it touches; none: all others
   void add(const Shape& shape, const Vec<Dim>& centre, int body, const Rotation<Dim>& rotation,
-           int family) {
+           int family, std::optional<int> touches = {}) {
     shapes_.add(shape, centre);
     body_of_.push_back(body);
     if (part_count_.size() <= index(body)) part_count_.resize(index(body) + 1, 0);
     ++part_count_[index(body)];
     family_of_.push_back(family);
+    touches_.push_back(touches);
     home_.push_back(transposed(rotation));
   }
 
@@ -121,7 +124,13 @@ class ContactTracker {
   double reach_, refresh_, margin_;
   double since_looked_ = 0;  ///< path of the fastest body since the list was looked at [m]
   PlacedShapes<Dim> shapes_;
+  [[nodiscard]] bool may_touch(std::uint32_t a, std::uint32_t b) const {
+    const int of_a = family_of_[a], of_b = family_of_[b];
+    return of_a != of_b && touches_[a].value_or(of_b) == of_b && touches_[b].value_or(of_a) == of_a;
+  }
+
   std::vector<int> body_of_, family_of_;
+  std::vector<std::optional<int>> touches_;
   std::vector<int> part_count_;      ///< of every body
   std::vector<std::size_t> shared_;  ///< pairs of bodies of several parts, by their bodies
   std::vector<Rotation<Dim>> home_;  ///< from the shape's own frame to that of its body
@@ -250,7 +259,7 @@ void ContactTracker<Dim, Detector>::carry_over(const Bodies& bodies, const Parts
   };
   for (const auto& pair : neighbours_.pairs()) {
     const auto a = index(body_of_[pair.a]), b = index(body_of_[pair.b]);
-    if (family_of_[pair.a] == family_of_[pair.b]) continue;
+    if (!may_touch(pair.a, pair.b)) continue;
     if (!(bodies[a].movable() || bodies[b].movable())) continue;
     while (old != pairs_.end() && before(*old, pair)) leave_behind();
     if (old != pairs_.end() && old->a == pair.a && old->b == pair.b)

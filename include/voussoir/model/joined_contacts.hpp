@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/vec.hpp>
@@ -17,12 +16,6 @@ namespace voussoir {
 
 namespace detail {
 
-[[nodiscard]] inline std::span<const Vec2> corners_of(const Segment& facet) {
-  return {&facet.start, 2};
-}
-[[nodiscard]] inline std::span<const Vec3> corners_of(const SpatialFacet& facet) {
-  return facet.vertices;
-}
 /// The same facet seen from the other side.
 [[nodiscard]] inline Segment seen_from_behind(const Segment& facet) {
   return {facet.end, facet.start};

@@ -35,9 +35,9 @@ namespace detail {
 /// What rock touches of a lining where bodies move freely, node by node, as it lies when it is
 /// installed.
 ///
-/// On rock lies a slab for every piece of wall, as sprayed; where rock is missing, or is further
-/// away than the thickness, a slab on the whole panel of the node, set back by a fifth of the
-/// thickness so that what touches the one does not touch the other.
+/// On rock, and on what fills a hole in it, lies a slab for every piece of wall, as sprayed; where
+/// rock is missing, or is further away than the thickness, a slab on the whole panel of the node,
+/// set back by a fifth of the thickness so that what touches the one does not touch the other.
 template <class Geometry>
 class LiningSurface {
  public:
@@ -50,8 +50,11 @@ class LiningSurface {
   template <class MotionOf, class IsGone>
   LiningSurface(const LiningFrame<Geometry>& frame, double thickness, MotionOf&& motion_of,
                 IsGone&& is_gone)
-      : tiles_(frame.nodes.size()), shift_(frame.nodes.size(), zeros<Vec<dim>>()) {
+      : tiles_(frame.nodes.size()),
+
+        shift_(frame.nodes.size(), zeros<Vec<dim>>()) {
     std::vector<double> covered(frame.nodes.size(), 0.0), whole(frame.nodes.size(), 0.0);
+
     for (const auto& c : frame.contacts) {
       const Pose<dim> motion = motion_of(c.body);
       auto facet = detail::moved(c.facet, motion);
@@ -83,6 +86,7 @@ class LiningSurface {
               "> 0 m: its section needs a bending stiffness");
       slabs.push_back(slab_behind(tile.facet, tile.thickness));
     }
+
     return slabs;
   }
   /// How far a node has come with the wall.
@@ -94,6 +98,7 @@ class LiningSurface {
     double thickness;                ///< [m]
   };
   std::vector<std::vector<Tile>> tiles_;
+
   std::vector<Vec<dim>> shift_;
 };
 
@@ -105,6 +110,8 @@ struct InstalledLining {
   bool is_pinned;    ///< its nodes do not turn
   double thickness;  ///< [m]
   LiningSurface<Geometry> surface;
+  std::vector<LiningFill<Geometry>> fills;  ///< of holes in the wall
+  std::vector<LiningGap> gaps;              ///< nodes are counted from the first
 };
 
 /// The members of a lining between its nodes.

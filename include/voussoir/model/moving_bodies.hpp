@@ -64,6 +64,15 @@ class MovingBodies {
     require(density > 0 && std::isfinite(density), "density", density, "> 0 kg/m^3");
     return add(parts, moving_body(mass_properties(parts), density));
   }
+  /// What linings touch of a body besides its shape, where it was added: it has no mass.
+  void add_filling(int b, const Shape& part) {
+    Body& body = bodies_[index(b)];
+    for (const auto& v : part.vertices())
+      body.radius = std::max(body.radius, (v - origin_ - home_[index(b)].position).norm());
+    shapes_.emplace_back(part, b);
+    is_filling_.push_back(1);
+    fresh_ = false;
+  }
   /// Adds a block that stays where it is.
   int add_fixed_block(const Shape& shape) { return add_fixed({shape}, BodyRole::block); }
   /// Adds a smooth wall: a block that stays, and against which nothing rubs.
@@ -178,6 +187,7 @@ class MovingBodies {
 
   Vec<Dim> origin_ = zeros<Vec<Dim>>();
   std::vector<std::pair<Shape, int>> shapes_;  ///< where they were added, with their body
+  std::vector<char> is_filling_;               ///< of every shape
   std::vector<Body> bodies_;
   std::vector<Pose<Dim>> home_;  ///< where they were added
   std::vector<BodyRole> roles_;
@@ -206,7 +216,10 @@ int MovingBodies<Dim>::add(const std::vector<Shape>& parts, Body body, BodyRole 
       body.radius = std::max(body.radius, (v - body.pose.position).norm());
   body.pose.position -= origin_;
   const int b = body_count();
-  for (const Shape& part : parts) shapes_.emplace_back(part, b);
+  for (const Shape& part : parts) {
+    shapes_.emplace_back(part, b);
+    is_filling_.push_back(0);
+  }
   bodies_.push_back(body);
   home_.push_back(body.pose);
   roles_.push_back(role);

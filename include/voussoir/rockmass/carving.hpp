@@ -107,7 +107,8 @@ template <class Shape>
 ///
 /// The pieces of a block that remain outside stay one rigid body as long as they touch each other;
 /// where a block falls apart each connected group becomes a body of its own. Outline cuts do not
-/// obey the block limits, so bodies at the wall smaller than `smallest` are dropped, and counted.
+/// obey the block limits, so bodies at the wall smaller than `smallest` are dropped: they leave
+/// holes in the wall, which lie in `RockMass::dropped`.
 /// New corners are welded with the corners nearby; bodies that no edge of the outline cuts stay as
 /// they are, bit for bit. Of which body each is what is left: `RockMass::origins`.
 ///
@@ -198,6 +199,7 @@ template <class Geometry>
       if (rest.properties.measure < smallest) {
         ++report.dropped_pieces;
         report.dropped_measure += rest.properties.measure;
+        mass.dropped.push_back(std::move(rest));
       } else {
         cut.push_back(kept.size());
         keep(std::move(rest), b);

@@ -77,6 +77,8 @@ struct RockMass {
   SlicingReport slicing;
   CarvingReport carving;
   std::vector<typename Geometry::Opening> openings;  ///< carved so far
+  /// Bodies at the walls that carving dropped. No rock is there: the wall is what lies behind them.
+  std::vector<Body<Geometry>> dropped;
   /// Of every body, its number before the last opening was carved, ascending; empty: none was.
   std::vector<int> origins;
 };

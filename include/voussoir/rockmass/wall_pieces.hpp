@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
@@ -13,6 +16,7 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/opening_box.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/rockmass/wall_outline.hpp>
 
 namespace voussoir {
 
@@ -20,28 +24,67 @@ namespace voussoir {
 template <class Geometry>
 struct WallPiece {
   int body;
-  typename Geometry::Facet facet;
-  int edge;         ///< index of the outline edge
-  double from, to;  ///< arc length along the outline, anticlockwise from vertex 0 [m]
+  typename Geometry::Facet facet;  ///< the opening on its left (2-D); looks into the rock (3-D)
+  int edge;                        ///< index of the outline edge that it lies behind
+  double from,
+      to;  ///< places that it lies behind, along the outline anticlockwise from vertex 0 [m]
+  double depth = 0;  ///< of its centre behind the edge; 0: on the outline [m]
+  int hole = -1;     ///< that it bounds, an index; -1: it lies on the outline
+
+  /// What of the outline, or of the area of its edges, it stands for: as wide as it is seen from
+  /// the opening. Nothing where it overhangs [m], [m^2].
+  [[nodiscard]] double seen_measure(const WallOutline& outline) const {
+    return seen_measure(outline, facet);
+  }
+  /// Of a part of it.
+  [[nodiscard]] double seen_measure(const WallOutline& outline,
+                                    const typename Geometry::Facet& part) const {
+    if (hole < 0) return part.measure();
+    const auto e = static_cast<std::size_t>(edge);
+    const double seen = dot_product(part.area_vector(),
+                                    outline.in_space<Geometry::dim>(outline.within(e, 0)).normal);
+    return std::max(0.0, seen) /
+           outline.widening(e, outline.depth(e, outline.in_section(part.centre())));
+  }
 };
 
-/// The faces of the remaining rock that lie on the outline of an opening, in the order of the
-/// outline. Where a piece of rock was dropped there is a gap, and where the outline runs through
-/// another opening. The opening need not be one that was carved: the outline of a section that was
-/// taken out in rounds has the wall that these left.
+/// Void behind the outline where a piece of rock was dropped, as far as it lies behind one edge.
+template <class Geometry>
+struct WallHole {
+  int group;  ///< holes of one number are parts of one void
+  int edge;
+  typename Geometry::Shape shape;
+};
+
+/// The wall of an opening.
+template <class Geometry>
+struct Wall {
+  std::vector<WallPiece<Geometry>> pieces;  ///< in the order of the outline
+  std::vector<WallHole<Geometry>> holes;
+};
+
+/// The surface of the remaining rock that bounds an opening, in the order of the outline: its faces
+/// on the outline and, where a piece of rock was dropped, those around the hole that it has left.
+/// There are gaps where the outline runs through another opening. The opening need not be one that
+/// was carved: the outline of a section that was taken out in rounds has the wall that these left.
 ///
-/// Found by their place, not by the cut they come from: where the outline runs along a joint, the
-/// wall is a face of that joint.
+/// Faces on the outline are found by their place, not by the cut they come from: where it runs
+/// along a joint, the wall is a face of that joint. Those around a hole are the other sides of its
+/// cuts.
 ///
 /// @cost  one bounding test per body; faces x outline edges near the opening only
-[[nodiscard]] VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(
-    const RockMass<Planar>& mass, const SimplePolygon& opening);
+[[nodiscard]] VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass,
+                                                   const SimplePolygon& opening);
+/// The sides of an opening in 3-D, not its ends.
+[[nodiscard]] VOUSSOIR_INLINE Wall<Spatial> wall_of(const RockMass<Spatial>& mass,
+                                                    const PrismaticOpening& opening);
 
-/// The same in 3-D: pieces of the faces of the rock on the sides of the opening (not on its ends);
-/// `from` and `to` are those of the edge that they belong to.
-[[nodiscard]] VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(
-    const RockMass<Spatial>& mass, const PrismaticOpening& opening);
-
+/// Its pieces alone.
+template <class Geometry>
+[[nodiscard]] std::vector<WallPiece<Geometry>> wall_pieces(
+    const RockMass<Geometry>& mass, const typename Geometry::Opening& opening) {
+  return wall_of(mass, opening).pieces;
+}
 /// Those of the last opening; none before one was carved.
 template <class Geometry>
 [[nodiscard]] std::vector<WallPiece<Geometry>> wall_pieces(const RockMass<Geometry>& mass) {
@@ -51,87 +94,205 @@ template <class Geometry>
 
 #if VOUSSOIR_BODIES
 
-VOUSSOIR_INLINE std::vector<WallPiece<Planar>> wall_pieces(const RockMass<Planar>& mass,
-                                                           const SimplePolygon& opening) {
-  const double tolerance = mass.domain.tolerance();
-  std::vector<double> start(opening.size() + 1, 0.0);
-  for (std::size_t e = 0; e < opening.size(); ++e)
-    start[e + 1] = start[e] + opening.edge(e).length();
-  const detail::OpeningBox box(opening, tolerance);
-  std::vector<WallPiece<Planar>> pieces;
-  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
-    for (const ConvexPolygon& part : mass.bodies[b].parts) {
-      if (box.is_apart_from(part)) continue;
-      for (std::size_t k = 0; k < part.size(); ++k)
-        for (std::size_t e = 0; e < opening.size(); ++e) {
-          const Segment edge = opening.edge(e), face = part.face(k);
-          const Vec2 along = (edge.end - edge.start) / edge.length();
-          // The outline is anticlockwise round the opening, the face round the rock: opposite ways.
-          const double from = std::max(0.0, dot_product(along, face.end - edge.start));
-          const double to = std::min(edge.length(), dot_product(along, face.start - edge.start));
-          if (to - from <= tolerance) continue;
-          const HalfSpace<2> line = left_of(edge.start, edge.end);
-          if (std::abs(line.distance(face.start)) > tolerance ||
-              std::abs(line.distance(face.end)) > tolerance)
-            continue;
-          pieces.push_back({static_cast<int>(b),
-                            {edge.start + from * along, edge.start + to * along},
-                            static_cast<int>(e),
-                            start[e] + from,
-                            start[e] + to});
-        }
-    }
-  std::vector<double> starts;
-  starts.reserve(pieces.size());
-  for (const auto& piece : pieces) starts.push_back(piece.from);
-  std::vector<WallPiece<Planar>> along;
-  along.reserve(pieces.size());
-  for (const std::size_t k : order_of_values(starts)) along.push_back(pieces[k]);
-  VOUSSOIR_ASSERT(along.empty() || (along.front().from >= 0 && along.back().from <= start.back()),
-                  "pieces of wall lie on the outline");
-  return along;
+namespace detail {
+
+/// What two faces of one cut share, seen from the second.
+[[nodiscard]] inline std::optional<Segment> shared_face(const Segment& face, const Segment& other,
+                                                        double tolerance) {
+  const Vec2 along = normalized(other.end - other.start);
+  const auto place = [&](const Vec2& p) { return dot_product(along, p - other.start); };
+  const double from = std::max(0.0, place(face.end)),
+               to = std::min(other.length(), place(face.start));
+  if (to - from <= tolerance) return {};
+  return Segment{from > 0 ? face.end : other.start, to < other.length() ? face.start : other.end};
+}
+[[nodiscard]] inline std::optional<SpatialFacet> shared_face(const SpatialFacet& face,
+                                                             const SpatialFacet& other,
+                                                             double tolerance) {
+  auto common = common_part(face, other, tolerance);
+  if (!common || common->area() <= tolerance * std::sqrt(face.measure())) return {};
+  std::reverse(common->corners.begin(), common->corners.end());
+  return SpatialFacet{std::move(common->corners)};
 }
 
-VOUSSOIR_INLINE std::vector<WallPiece<Spatial>> wall_pieces(const RockMass<Spatial>& mass,
-                                                            const PrismaticOpening& opening) {
-  const SimplePolygon& section = opening.section();
-  const double tolerance = mass.domain.tolerance();
-  std::vector<double> start(section.size() + 1, 0.0);
-  for (std::size_t e = 0; e < section.size(); ++e)
-    start[e + 1] = start[e] + section.edge(e).length();
-  const detail::OpeningBox box(opening, tolerance);
-  std::vector<JointPlane> sides;
-  for (std::size_t e = 0; e < section.size(); ++e)
-    sides.push_back(detail::outline_piece(opening, e, mass.domain));
-  std::vector<std::vector<WallPiece<Spatial>>> at_edge(section.size());
-  for (std::size_t b = 0; b < mass.bodies.size(); ++b)
-    for (const ConvexPolyhedron& part : mass.bodies[b].parts) {
-      if (box.is_apart_from(part)) continue;
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        const SpatialFacet face = part.face(k);
-        const Vec3 normal = part.half_space(k).normal;
-        for (std::size_t e = 0; e < section.size(); ++e) {
-          // The face looks into the opening: the same way as the half space on its left.
-          if (!(dot_product(normal, sides[e].plane.normal) < -0.5)) continue;
-          if (std::any_of(face.vertices.begin(), face.vertices.end(), [&](const Vec3& v) {
-                return std::abs(sides[e].plane.distance(v)) > tolerance;
-              }))
+/// Finds the wall of one opening.
+template <class Geometry>
+class WallFinder {
+ public:
+  static constexpr int dim = Geometry::dim;
+  using Shape = typename Geometry::Shape;
+  using Facet = typename Geometry::Facet;
+  using Opening = typename Geometry::Opening;
+
+  WallFinder(const RockMass<Geometry>& mass, const Opening& opening)
+      : mass_(mass),
+        outline_(opening),
+        box_(opening, mass.domain.tolerance()),
+        tolerance_(mass.domain.tolerance()) {
+    for (std::size_t e = 0; e < outline_.size(); ++e)
+      sides_.push_back(outline_piece(opening, e, mass.domain));
+  }
+
+  [[nodiscard]] Wall<Geometry> find() {
+    for (std::size_t b = 0; b < mass_.bodies.size(); ++b)
+      for (const Shape& part : mass_.bodies[b].parts)
+        on_outline(part, [&](std::size_t e, Facet facet, double from, double to) {
+          const double start = outline_.start(e);
+          wall_.pieces.push_back({static_cast<int>(b), std::move(facet), static_cast<int>(e),
+                                  start + from, start + to});
+        });
+    // Pieces that lay side by side have left one hole.
+    std::vector<Shape> dropped;
+    for (const Body<Geometry>& body : mass_.dropped)
+      dropped.insert(dropped.end(), body.parts.begin(), body.parts.end());
+    int number = 0;
+    for (const auto& group : connected_groups(dropped, tolerance_)) add_holes(group, number++);
+    if (!faces_.empty()) add_faces_of_holes();
+    sort();
+    return std::move(wall_);
+  }
+
+ private:
+  /// Faces of a shape that lie on the outline: visit(edge, what of the face lies on it, from, to).
+  template <class Visit>
+  void on_outline(const Shape& shape, Visit&& visit) const {
+    if (box_.is_apart_from(shape)) return;
+    for (std::size_t k = 0; k < shape.size(); ++k) {
+      const Facet face = shape.face(k);
+      for (std::size_t e = 0; e < outline_.size(); ++e) {
+        if constexpr (dim == 2) {
+          const Segment& edge = outline_.edge(e);
+          const double length = outline_.start(e + 1) - outline_.start(e);
+          const Vec2 along = (edge.end - edge.start) / edge.length();
+          // The outline is anticlockwise round the opening, the face round the rock.
+          const double from = std::max(0.0, dot_product(along, face.end - edge.start));
+          const double to = std::min(length, dot_product(along, face.start - edge.start));
+          if (to - from <= tolerance_) continue;
+          const HalfSpace<2> line = plane_of(sides_[e]);
+          if (std::abs(line.distance(face.start)) > tolerance_ ||
+              std::abs(line.distance(face.end)) > tolerance_)
             continue;
-          // Towards the rock, as the left side of a planar facet.
-          const auto common = detail::common_part(face, {sides[e].corners}, tolerance);
-          if (!common || common->area() <= tolerance * std::sqrt(face.measure())) continue;
-          SpatialFacet facet;
-          for (std::size_t c = common->corners.size(); c-- > 0;)
-            facet.vertices.push_back(common->corners[c]);
-          at_edge[e].push_back(
-              {static_cast<int>(b), std::move(facet), static_cast<int>(e), start[e], start[e + 1]});
+          visit(e, Segment{edge.start + from * along, edge.start + to * along}, from, to);
+        } else {
+          const HalfSpace<3>& plane = plane_of(sides_[e]);
+          // The face looks into the opening: the same way as the half space on its left.
+          if (!(dot_product(shape.half_space(k).normal, plane.normal) < -0.5)) continue;
+          if (std::any_of(face.vertices.begin(), face.vertices.end(),
+                          [&](const Vec3& v) { return std::abs(plane.distance(v)) > tolerance_; }))
+            continue;
+          if (auto facet = shared_face(face, SpatialFacet{sides_[e].corners}, tolerance_)) {
+            const auto [from, to] = places(e, *facet);
+            visit(e, std::move(*facet), from, to);
+          }
         }
       }
     }
-  std::vector<WallPiece<Spatial>> pieces;
-  for (auto& of_edge : at_edge)
-    for (auto& piece : of_edge) pieces.push_back(std::move(piece));
-  return pieces;
+  }
+
+  /// The places of an edge that a facet lies behind.
+  [[nodiscard]] std::pair<double, double> places(std::size_t e, const Facet& facet) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& corner : corners_of(facet)) {
+      const double s = outline_.place(e, outline_.in_section(corner));
+      low = std::min(low, s);
+      high = std::max(high, s);
+    }
+    return {low, high};
+  }
+
+  /// A face of what was dropped, and the holes that its part has left.
+  struct HoleFace {
+    Facet facet;
+    std::size_t first_hole, end_hole;
+  };
+
+  /// Of what was dropped, in one piece; nothing if it did not lie at this outline.
+  void add_holes(const std::vector<Shape>& dropped, int number) {
+    std::vector<std::size_t> edges;
+    for (const Shape& part : dropped)
+      on_outline(part, [&](std::size_t e, const Facet&, double, double) { edges.push_back(e); });
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    // Behind the edges next to those it may reach behind rock: it is a hole of these, then.
+    const auto is_edge = [&](std::size_t e) {
+      return std::binary_search(edges.begin(), edges.end(), e % outline_.size());
+    };
+    for (const Shape& part : dropped) {
+      const std::size_t first = wall_.holes.size();
+      for (const std::size_t e : edges) {
+        constexpr double endless = std::numeric_limits<double>::infinity();
+        const Bounds bounds{is_edge(e + outline_.size() - 1) ? 0.0 : -endless,
+                            is_edge(e + 1) ? outline_.start(e + 1) - outline_.start(e) : endless};
+        auto shape = outline_.template part_between<dim>(std::optional(part), e, bounds.low,
+                                                         bounds.high, tolerance_);
+        if (!shape) continue;
+        wall_.holes.push_back({number, static_cast<int>(e), std::move(*shape)});
+        bounds_.push_back(bounds);
+      }
+      for (std::size_t k = 0; k < part.size(); ++k)
+        faces_[part.cut(k)].push_back({part.face(k), first, wall_.holes.size()});
+    }
+  }
+
+  void add_faces_of_holes() {
+    for (std::size_t b = 0; b < mass_.bodies.size(); ++b)
+      for (const Shape& part : mass_.bodies[b].parts)
+        for (std::size_t k = 0; k < part.size(); ++k) {
+          const auto of_cut = faces_.find(part.cut(k));
+          if (of_cut == faces_.end()) continue;
+          const Facet face = part.face(k);
+          for (const HoleFace& hole : of_cut->second)
+            if (dot_product(face.area_vector(), hole.facet.area_vector()) < 0)
+              if (const auto common = shared_face(face, hole.facet, tolerance_))
+                for (std::size_t h = hole.first_hole; h < hole.end_hole; ++h)
+                  add_face_of_hole(static_cast<int>(b), *common, h);
+        }
+  }
+  void add_face_of_hole(int body, const Facet& face, std::size_t hole) {
+    const auto e = static_cast<std::size_t>(wall_.holes[hole].edge);
+    auto facet = outline_.template part_between<dim>(std::optional(face), e, bounds_[hole].low,
+                                                     bounds_[hole].high, tolerance_);
+    if (!facet) return;
+    const auto [from, to] = places(e, *facet);
+    const double depth = outline_.depth(e, outline_.in_section(facet->centre()));
+    wall_.pieces.push_back({body, std::move(*facet), static_cast<int>(e), outline_.start(e) + from,
+                            outline_.start(e) + to, std::max(0.0, depth), static_cast<int>(hole)});
+  }
+
+  /// Along the outline; in 3-D edge by edge, as they were found.
+  void sort() {
+    std::vector<double> keys;
+    keys.reserve(wall_.pieces.size());
+    for (const auto& piece : wall_.pieces) keys.push_back(dim == 2 ? piece.from : piece.edge);
+    std::vector<WallPiece<Geometry>> along;
+    along.reserve(keys.size());
+    for (const std::size_t k : order_of_values(keys)) along.push_back(std::move(wall_.pieces[k]));
+    wall_.pieces = std::move(along);
+  }
+
+  struct Bounds {
+    double low, high;  ///< places of the edge [m]
+  };
+
+  const RockMass<Geometry>& mass_;
+  WallOutline outline_;
+  OpeningBox box_;
+  double tolerance_;
+  std::vector<decltype(outline_piece(std::declval<const Opening&>(), 0, mass_.domain))> sides_;
+  Wall<Geometry> wall_;
+  std::vector<Bounds> bounds_;                  ///< of every hole
+  std::map<int, std::vector<HoleFace>> faces_;  ///< of dropped bodies, by their cuts
+};
+
+}  // namespace detail
+
+VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass, const SimplePolygon& opening) {
+  return detail::WallFinder<Planar>(mass, opening).find();
+}
+
+VOUSSOIR_INLINE Wall<Spatial> wall_of(const RockMass<Spatial>& mass,
+                                      const PrismaticOpening& opening) {
+  return detail::WallFinder<Spatial>(mass, opening).find();
 }
 
 #endif

@@ -12,7 +12,6 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
-#include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 
 namespace voussoir {
@@ -51,7 +50,10 @@ namespace detail {
 class RibBuilder {
  public:
   RibBuilder(const RockMass<Spatial>& mass, const PrismaticOpening& opening, const LiningRibs& ribs)
-      : mass_(mass), opening_(opening), nodes_(ring_nodes(opening.section(), ribs.ring)) {
+      : mass_(mass),
+        opening_(opening),
+        nodes_(ring_nodes(opening.section(), ribs.ring)),
+        fill_depth_(ribs.ring.fill_depth) {
     const auto [low, high] = stretch_inside(opening, mass.domain);
     from_ = std::max(ribs.from, low);
     const double to = std::min(ribs.to, high);
@@ -83,7 +85,10 @@ class RibBuilder {
       }
     add_neighbours(tied);
     add_panels();
-    for (const WallPiece<Spatial>& wall : wall_pieces(mass_, opening_)) add_contacts(wall);
+    LiningOnWall<Spatial>(mass_, opening_, nodes_, fill_depth_)
+        .put_on(frame_, [this](int ring_node, const SpatialFacet& facet, auto&& add) {
+          each_row(ring_node, facet, add);
+        });
     return std::move(frame_);
   }
 
@@ -157,39 +162,31 @@ class RibBuilder {
       }
   }
 
-  /// Parts a piece of wall among the stretches of the ring, and these among the ribs.
-  void add_contacts(const WallPiece<Spatial>& wall) {
+  /// Parts a facet in a stretch of the ring among the ribs: add(number of the node, part).
+  template <class Add>
+  void each_row(int ring_node, const SpatialFacet& facet, Add&& add) const {
     const double tolerance = mass_.domain.tolerance();
-    const Segment edge = opening_.section().edge(static_cast<std::size_t>(wall.edge));
-    const Vec3 along = opening_.axis().direction(normalized(edge.end - edge.start));
-    const Vec3 begin = opening_.in_space(edge.start, 0), &axis = opening_.axis().along();
-    const Vec3 normal = normalized(wall.facet.area_vector());
-    for (int k = nodes_.first_beyond(wall.from); nodes_.begin(k) < wall.to; ++k) {
-      const int node = nodes_.node_of(k);
-      if (node < 0) continue;
-      std::optional<JointPlane> strip = JointPlane{
-          HalfSpace<3>::through(wall.facet.vertices.front(), normal), wall.facet.vertices};
-      const auto keep = [&](const Vec3& away, const Vec3& on) {
-        if (strip)
-          strip = split(std::move(*strip), HalfSpace<3>::through(on, away), tolerance).below;
-      };
-      keep(-along, begin + (nodes_.begin(k) - wall.from) * along);
-      keep(along, begin + (nodes_.begin(k + 1) - wall.from) * along);
-      keep(Vec3(-axis), opening_.in_space(edge.start, from_));
-      for (int row = 0; strip && row < rows_; ++row) {
-        const Vec3 end = opening_.in_space(edge.start, from_ + (row + 1) * width_);
-        auto parts = split(std::move(*strip), HalfSpace<3>::through(end, axis), tolerance);
-        if (parts.below && parts.below->area() > tolerance * nodes_.stretch)
-          frame_.contacts.push_back({number(row, node), wall.body, {parts.below->corners}});
-        strip = std::move(parts.above);
-      }
+    const Vec3 &axis = opening_.axis().along(), &origin = opening_.axis().origin();
+    const auto side = [&](double s, double way) {
+      return HalfSpace<3>::through(origin + s * axis, Vec3(way * axis));
+    };
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& v : facet.vertices) {
+      low = std::min(low, opening_.along(v));
+      high = std::max(high, opening_.along(v));
+    }
+    for (int row = 0; row < rows_; ++row) {
+      if (from_ + (row + 1) * width_ <= low || from_ + row * width_ >= high) continue;
+      auto part = part_of(facet, side(from_ + row * width_, -1), tolerance);
+      if (part) part = part_of(*part, side(from_ + (row + 1) * width_, 1), tolerance);
+      if (part) add(number(row, ring_node), *part);
     }
   }
 
   const RockMass<Spatial>& mass_;
   const PrismaticOpening& opening_;
   RingNodes nodes_;
-  double from_ = 0, width_ = 0;
+  double fill_depth_, from_ = 0, width_ = 0;
   int rows_ = 0, ring_ = 0;
   LiningFrame<Spatial> frame_;
 };

@@ -80,6 +80,10 @@ struct SupportCondition {
   bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
   bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
+  int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
+  double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
+  std::string widest_place;  ///< of that node
+  int fills = 0;             ///< nodes that fill a hole in the wall
 };
 
 template <class Solver>
@@ -108,6 +112,20 @@ template <class Solver>
       is_bonded = is_bonded || law.template as<Law>()->params().cohesion > 0;
   const bool is_joined =
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
+  for (const auto& lining : solver.system().linings) {
+    if (!solver.system().body(lining.first).movable) continue;
+    std::vector<int> filled;
+    for (const auto& fill : lining.fills) filled.push_back(fill.node);
+    std::sort(filled.begin(), filled.end());
+    condition.fills += static_cast<int>(std::unique(filled.begin(), filled.end()) - filled.begin());
+    for (const LiningGap& gap : lining.gaps) {
+      ++condition.gaps;
+      if (!(gap.share > condition.widest_gap)) continue;
+      condition.widest_gap = gap.share;
+      condition.widest_place =
+          text_of<Solver::dim>(solver.system().body(lining.first + gap.node).centre);
+    }
+  }
   for (const auto* lining : solver.linings()) {
     const std::size_t members = lining->members().size();
     condition.lining_lost |=
@@ -134,6 +152,13 @@ template <class Solver>
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +
                       " m: the rock there had fallen before it was installed; that end hangs free");
+  if (condition.gaps > 0)
+    remarks.push_back(
+        message({"the lining has no rock behind ", condition.gaps,
+                 " of its nodes, or behind a part of what stands for them: a hole in the wall is "
+                 "deeper than it is filled, or another opening is there; the widest, ",
+                 std::round(100 * condition.widest_gap), " % of its node, at ",
+                 condition.widest_place, " m"}));
   const std::string of_all = " of " + std::to_string(condition.bolts) + " bolts ";
   if (condition.idle > 0)
     remarks.push_back(std::to_string(condition.idle) + of_all + "cross no joint and hold nothing");

@@ -49,6 +49,8 @@ struct TunnelState {
   std::vector<MemberForces<dim>> members;  ///< of the lining
   std::vector<LiningForce> lining;         ///< node by node, in 2-D
   std::vector<FootForce<dim>> feet;        ///< of linings, at rest
+  /// Holes in the wall that linings fill, at rest; of one that is lost none.
+  std::vector<typename Geometry::Shape> fills{};
 };
 
 namespace detail {
@@ -153,6 +155,9 @@ template <class Solver, class Geometry = typename Solver::SystemType::GeometryTy
   state.members = lining_members(solver);
   state.feet = foot_forces(solver);
   if constexpr (Geometry::dim == 2) state.lining = lining_forces(solver);
+  for (const auto& lining : system.linings)
+    for (const auto& fill : lining.fills)
+      if (system.body(lining.first + fill.node).movable) state.fills.push_back(fill.shape);
   return state;
 }
 

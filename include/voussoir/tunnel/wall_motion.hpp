@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/elementary.hpp>
@@ -21,7 +23,8 @@ namespace voussoir {
 
 /// Movement of a part of the wall: what one block shows between two of the rays that stand every
 /// 6 degrees about the centre of the opening, the right-hand springing among them. So wide blocks
-/// count where they are, not where their middle is.
+/// count where they are, not where their middle is. Where a piece of rock was dropped, the wall is
+/// the rock behind the hole, with the length of the outline in front of it.
 struct WallMotion {
   double angle;  ///< of its middle about `centre_of` the opening, anticlockwise from the right-hand
                  ///< springing [rad], 0 to 2 pi
@@ -44,19 +47,11 @@ struct WallMotion {
 
 namespace detail {
 
-/// What lies in between two places along an edge of the outline, and two along the axis.
-struct WallWindow {
-  double low, high;  ///< from the beginning of the edge [m]
+/// A stretch of the axis of an opening in 3-D [m].
+struct AxisStretch {
   double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();  ///< in 3-D, along the axis [m]
+  double to = std::numeric_limits<double>::infinity();
 };
-/// The part of a piece of wall that a window shows; no measure if there is none.
-[[nodiscard]] VOUSSOIR_INLINE Segment seen_in(const SimplePolygon& opening,
-                                              const WallPiece<Planar>& piece,
-                                              const WallWindow& window);
-[[nodiscard]] VOUSSOIR_INLINE SpatialFacet seen_in(const PrismaticOpening& opening,
-                                                   const WallPiece<Spatial>& piece,
-                                                   const WallWindow& window);
 
 /// For every edge of a section where rays every 6 degrees about a point meet it, its two ends among
 /// them: distances from its beginning, increasing [m].
@@ -70,38 +65,58 @@ struct WallWindow {
   return opening.section();
 }
 
+/// What of a facet lies in a stretch of the axis.
+[[nodiscard]] inline std::optional<SpatialFacet> part_along(std::optional<SpatialFacet> facet,
+                                                            const PrismaticOpening& opening,
+                                                            const AxisStretch& stretch) {
+  const Vec3& along = opening.axis().along();
+  const auto keep = [&](const Vec3& normal, double reach) {
+    if (facet && std::isfinite(reach))
+      facet = part_of(*facet,
+                      HalfSpace<3>::through(opening.axis().origin() + reach * along, normal), 0.0);
+  };
+  keep(along, stretch.to);
+  keep(Vec3(-along), stretch.from);
+  return facet;
+}
+
 /// Of pieces that are there, moved by a displacement.
 /// @param is_there  is_there(body)
 /// @param displacement  displacement(body, place) [m]
-/// @param window  in 3-D the stretch of the axis; the rest of it is set here
+/// @param stretch  that is looked at, in 3-D
 template <class Geometry, class IsThere, class Displacement>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
                                                      const typename Geometry::Opening& opening,
                                                      IsThere&& is_there,
                                                      Displacement&& displacement,
-                                                     WallWindow window = {0, 0}) {
+                                                     const AxisStretch& stretch = {}) {
+  constexpr int dim = Geometry::dim;
+  constexpr double endless = std::numeric_limits<double>::infinity();
   const Vec2 centre = centre_of(opening);
+  const WallOutline outline(opening);
   const auto marks = ray_marks(section_of(opening), centre);
   std::vector<WallMotion> motion;
   for (const auto& piece : wall_pieces(mass, opening)) {
     if (!is_there(piece.body)) continue;
-    const auto& of_edge = marks[static_cast<std::size_t>(piece.edge)];
-    for (std::size_t k = 0; k + 1 < of_edge.size(); ++k) {
-      window.low = of_edge[k];
-      window.high = of_edge[k + 1];
-      const auto part = seen_in(opening, piece, window);
-      const double measure = part.measure();
+    const auto e = static_cast<std::size_t>(piece.edge);
+    auto within = std::optional(piece.facet);
+    if constexpr (dim == 3) within = part_along(std::move(within), opening, stretch);
+    for (std::size_t k = 0; k + 1 < marks[e].size(); ++k) {
+      // At the ends of an edge nothing is cut off: a hole may reach behind what lies beside it.
+      const bool is_last = k + 2 == marks[e].size();
+      const auto part = outline.part_between<dim>(within, e, k == 0 ? -endless : marks[e][k],
+                                                  is_last ? endless : marks[e][k + 1], 0.0);
+      if (!part) continue;
+      const double measure = piece.seen_measure(outline, *part);
       if (!(measure > 0)) continue;
-      const auto place = part.centre();
+      const auto place = part->centre();
+      const Vec2 p = outline.in_section(place) - centre;
       const auto moved = displacement(piece.body, place);
-      Vec2 p, u;
-      if constexpr (Geometry::dim == 2) {
-        p = place - centre;
+      Vec2 u;
+      if constexpr (dim == 2)
         u = moved;
-      } else {
-        p = opening.across(place) - centre;
+      else
         u = opening.across_direction(moved);
-      }
       double angle = elementary::angle_of(p.y(), p.x());
       if (angle < 0) angle += 2 * std::numbers::pi;
       VOUSSOIR_ASSERT(angle >= 0 && angle <= 2 * std::numbers::pi, "a full circle has all angles");
@@ -140,7 +155,7 @@ requires(Solver::dim == 3)
   return detail::wall_motion_of(
       solver.mass(), opening, [&](int b) { return solver.system().body(b).movable; },
       [&](int b, const Vec3& p) { return solver.displacement_of(b, p); },
-      {0, 0, section - half_length, section + half_length});
+      {section - half_length, section + half_length});
 }
 /// The same of the last opening.
 template <class Solver>
@@ -184,51 +199,6 @@ VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(const SimplePolygon& 
     std::sort(marks[e].begin(), marks[e].end());
   }
   return marks;
-}
-
-VOUSSOIR_INLINE Segment seen_in(const SimplePolygon& opening, const WallPiece<Planar>& piece,
-                                const WallWindow& window) {
-  const Segment edge = opening.edge(static_cast<std::size_t>(piece.edge));
-  const Vec2 along = (edge.end - edge.start) / edge.length();
-  const double start = dot_product(along, piece.facet.start - edge.start);
-  const double end = dot_product(along, piece.facet.end - edge.start);
-  const double from = std::max(start, window.low), to = std::min(end, window.high);
-  if (!(from < to)) return {piece.facet.start, piece.facet.start};
-  return {from == start ? piece.facet.start : Vec2(edge.start + from * along),
-          to == end ? piece.facet.end : Vec2(edge.start + to * along)};
-}
-
-/// What of a convex polygon lies in a half space.
-[[nodiscard]] inline SpatialFacet part_in(const SpatialFacet& facet, const HalfSpace<3>& side) {
-  SpatialFacet part;
-  const std::size_t n = facet.vertices.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec3 &here = facet.vertices[k], &next = facet.vertices[k + 1 == n ? 0 : k + 1];
-    const double h = side.distance(here), g = side.distance(next);
-    if (h <= 0) part.vertices.push_back(here);
-    if ((h < 0 && g > 0) || (h > 0 && g < 0))
-      part.vertices.push_back(here + h / (h - g) * (next - here));
-  }
-  return part;
-}
-
-VOUSSOIR_INLINE SpatialFacet seen_in(const PrismaticOpening& opening,
-                                     const WallPiece<Spatial>& piece, const WallWindow& window) {
-  const Segment edge = opening.section().edge(static_cast<std::size_t>(piece.edge));
-  const Vec3 across = opening.axis().direction((edge.end - edge.start) / edge.length());
-  const Vec3 along = opening.axis().along();
-  const Vec3 begin = opening.in_space(edge.start, 0);
-  SpatialFacet part = piece.facet;
-  const auto keep = [&](const Vec3& normal, double reach) {
-    if (std::isfinite(reach) && !part.vertices.empty())
-      part = part_in(part, HalfSpace<3>::through(begin + reach * normal, normal));
-  };
-  keep(across, window.high);
-  keep(-across, -window.low);
-  keep(along, window.to);
-  keep(-along, -window.from);
-  if (part.vertices.size() < 3) part.vertices.assign(3, begin);  // it has a centre and no area
-  return part;
 }
 
 }  // namespace detail

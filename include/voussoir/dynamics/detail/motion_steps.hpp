@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
@@ -124,7 +125,8 @@ void Motion<Dim, Detector>::take_in() {
     const Pose<Dim> home = this->home(b);
     // Nodes of a lining do not touch one another: they are one family.
     const bool of_lining = roles_[index(b)] == BodyRole::lining;
-    tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b);
+    tracker_->add(shape, home.position, b, home.rotation, of_lining ? lining_family : b,
+                  is_filling_[known_shapes_] != 0 ? std::optional(lining_family) : std::nullopt);
   }
   known_bodies_ = bodies_.size();
   held_.resize(known_bodies_);

@@ -139,7 +139,14 @@ class CarryOver {
       set_part<dof>(next_.load, dof * node, part<dof>(old_.load, dof * b));
     }
     next_.linings = old_.linings;
-    for (auto& lining : next_.linings) lining.first = number(lining.first);
+    for (auto& lining : next_.linings) {
+      lining.first = number(lining.first);
+      // What fills a hole stays on the piece of its block that is nearest to it.
+      for (auto& fill : lining.fills)
+        fill.body = piece_near(fill.body, mass_properties(fill.shape).centroid,
+                               std::numeric_limits<double>::infinity());
+      std::erase_if(lining.fills, [](const auto& fill) { return fill.body < 0; });
+    }
   }
 
   void carry_displacement() {
@@ -186,10 +193,14 @@ class CarryOver {
   }
   /// The piece of a block in which a place of the in-situ state lies; -1: in none.
   [[nodiscard]] int piece_at(int b, const Vec<dim>& place) const {
+    if (is_unchanged(b)) return pieces(b).first;
+    return piece_near(b, place, 100 * tolerance_);
+  }
+  /// The piece of a block that a place is in, or nearest to.
+  /// @param least  it is nearer than this [m]
+  [[nodiscard]] int piece_near(int b, const Vec<dim>& place, double least) const {
     const auto [first, last] = pieces(b);
-    if (is_unchanged(b)) return first;
     int best = -1;
-    double least = 100 * tolerance_;
     for (int piece = first; piece < last; ++piece)
       for (const auto& part : (*next_.shapes)[index(piece)]) {
         double outside = -std::numeric_limits<double>::infinity();

@@ -158,7 +158,8 @@ class LiningAssembly {
     system_.linings.push_back({first_node_, law, is_pinned_lining<Lining>(), thickness,
                                LiningSurface<Geometry>(
                                    frame, thickness, [this](int b) { return system_.motion_of(b); },
-                                   [this](int b) { return !system_.body(b).movable; })});
+                                   [this](int b) { return !system_.body(b).movable; }),
+                               frame.fills, frame.gaps});
     const std::size_t before = system_.interface.contacts().size();
     for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
            return std::pair<int, int>(c.body, first_node_ + c.node);

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// The wall where pieces of rock were dropped: it closes what is left, whatever is dropped.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/wall_pieces.hpp>
+
+#include "support/jointed_mass.hpp"
+#include "support/jointed_rock.hpp"
+#include "support/near.hpp"
+#include "support/shapes.hpp"
+
+namespace {
+
+using namespace voussoir;
+using namespace voussoir_test;
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+/// Sum of the area vectors of all that surrounds a body, the largest of all bodies: where its
+/// surface is closed it is zero.
+template <class Geometry>
+double worst_gap(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening) {
+  using Vector = Vec<Geometry::dim>;
+  std::vector<Vector> sum(mass.bodies.size(), Vector::Zero());
+  for (const auto& c : CutContacts::find(mass)) {
+    sum[index(c.a)] += c.facet.area_vector();
+    sum[index(c.b)] -= c.facet.area_vector();
+  }
+  for (const auto& f : boundary_facets(mass)) sum[index(f.body)] += f.facet.area_vector();
+  for (const auto& w : wall_pieces(mass, opening)) sum[index(w.body)] -= w.facet.area_vector();
+  double worst = 0;
+  for (const Vector& s : sum) worst = std::max(worst, s.norm());
+  return worst;
+}
+
+/// Length or area of the outline that the wall stands for.
+template <class Geometry>
+double seen(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening) {
+  const WallOutline outline(opening);
+  double sum = 0;
+  for (const auto& piece : wall_pieces(mass, opening)) sum += piece.seen_measure(outline);
+  return sum;
+}
+
+template <class Geometry>
+int pieces_of_holes(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening) {
+  const auto pieces = wall_pieces(mass, opening);
+  return static_cast<int>(std::count_if(pieces.begin(), pieces.end(),
+                                        [](const auto& piece) { return piece.hole >= 0; }));
+}
+
+const Domain<2> ground{{-10, -8}, {10, 9}};
+const SimplePolygon horseshoe(
+    {{-3, -2.5}, {3, -2.5}, {3, 0.5}, {1.8, 2.4}, {0, 3}, {-1.8, 2.4}, {-3, 0.5}});
+/// With a pillar that hangs from the roof: two corners of it turn the other way.
+const SimplePolygon notched(
+    {{-3, -2}, {3, -2}, {3, 2}, {0.6, 2}, {0.5, 1.2}, {-0.5, 1.2}, {-0.6, 2}, {-3, 2}});
+
+}  // namespace
+
+TEST_SUITE("rockmass/wall_pieces") {
+  TEST_CASE("the wall closes every body, whatever was dropped") {
+    std::size_t dropped = 0;
+    for (const SimplePolygon& opening :
+         {SimplePolygon(regular(36, 3)), SimplePolygon(regular(4, 3)), horseshoe, notched})
+      for (std::uint64_t seed = 1; seed <= 8; ++seed)
+        for (const double smallest : {0.0, 0.01, 0.1, 0.3}) {
+          CAPTURE(seed);
+          CAPTURE(smallest);
+          const auto mass = carve(jointed_rock(ground, seed), opening, smallest);
+          CHECK(mass.dropped.size() == mass.carving.dropped_pieces);
+          dropped += mass.dropped.size();
+          // Corners at the wall are moved by the tolerance of slicing at most, a few at a body.
+          CHECK(worst_gap<Planar>(mass, opening) < 20 * mass.domain.tolerance());
+          // And the void: by the divergence of the radius its area, that of the holes with it.
+          double doubled_area = 0;
+          for (const auto& piece : wall_pieces(mass, opening))
+            doubled_area += piece.facet.area_vector().dot(piece.facet.centre());
+          CHECK(doubled_area ==
+                near(2 * (opening.area() + mass.carving.dropped_measure)).epsilon(1e-8));
+        }
+    CHECK(dropped > 300);
+  }
+
+  TEST_CASE("what it stands for is the outline") {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const SimplePolygon opening(regular(36, 3));
+      CAPTURE(seed);
+      const auto whole = carve(jointed_rock(ground, seed), opening, 0);
+      CHECK(seen<Planar>(whole, opening) == near(opening.perimeter()).epsilon(1e-9));
+      const auto mass = carve(jointed_rock(ground, seed), opening, 0.1);
+      CHECK(pieces_of_holes<Planar>(mass, opening) > 10);
+      // Of what overhangs nothing is seen and what it hides is: some per cent of the holes, which
+      // are a tenth of the outline. And a facet is as wide as its middle.
+      CHECK(seen<Planar>(mass, opening) == near(opening.perimeter()).epsilon(0.01));
+    }
+  }
+
+  TEST_CASE("a slab dropped off a flat roof: the wall is its upper side, at its depth") {
+    for (const double thickness : {1e-9, 1e-6, 1e-3, 1e-2, 0.1}) {
+      CAPTURE(thickness);
+      const SimplePolygon box({{-4, -3}, {4, -3}, {4, 3}, {-4, 3}});
+      const double roof = 3 + thickness;
+      const std::vector<Joint> joints{{{{-10, roof}, {10, roof}}, 0},
+                                      {{{0, roof}, {0, 9}}, 0},
+                                      {{{-4, -8}, {-4, roof}}, 0},
+                                      {{{4, -8}, {4, roof}}, 0}};
+      const auto mass = carve(slice(ground, joints, {0, 1e30}), box, 0.9);
+      double length = 0;
+      for (const auto& piece : wall_pieces(mass, box)) {
+        if (piece.edge != 2) continue;
+        if (std::abs(piece.facet.start.x() - piece.facet.end.x()) < 1e-12) {  // a flank of the hole
+          CHECK(std::abs(std::abs(piece.facet.start.x()) - 4) < 1e-12);
+          CHECK(piece.facet.length() == near(thickness));
+          continue;
+        }
+        length += piece.facet.length();
+        // A joint within the tolerance of slicing runs along the outline.
+        CHECK(std::abs(piece.facet.start.y() - 3 - thickness) < 2e-9);
+        CHECK(piece.facet.end.x() < piece.facet.start.x());
+        CHECK(std::abs(piece.depth - (piece.hole < 0 ? 0 : thickness)) < 2e-9);
+      }
+      CHECK(length == near(8).epsilon(1e-9));
+      CHECK(worst_gap<Planar>(mass, box) < 1e-7);
+    }
+  }
+
+  TEST_CASE("in 3-D") {
+    const Domain<3> rock{{-6, -4, -6}, {6, 4, 6}};
+    for (const auto& axis : {TunnelAxis(), TunnelAxis({0, 0, 0}, 0.4)})
+      for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        CAPTURE(seed);
+        const PrismaticOpening opening(SimplePolygon(regular(12, 2.5)), axis);
+        const auto whole = carve(jointed_mass(rock, seed, 2), opening, 0);
+        CHECK(worst_gap<Spatial>(whole, opening) < 1e-7);
+        const auto mass = carve(jointed_mass(rock, seed, 2), opening, 0.1);
+        CHECK(pieces_of_holes<Spatial>(mass, opening) > 5);
+        CHECK(worst_gap<Spatial>(mass, opening) < 1e-7);
+        CHECK(seen<Spatial>(mass, opening) == near(seen<Spatial>(whole, opening)).epsilon(0.02));
+      }
+  }
+
+  TEST_CASE("holes of another opening are not of this one") {
+    const SimplePolygon left(regular(24, 2, {-4, 0})), right(regular(24, 1.5, {4, 1}));
+    auto mass = carve(jointed_rock(ground, 5), left, 0.1);
+    const int of_left = pieces_of_holes<Planar>(mass, left);
+    REQUIRE(of_left > 0);
+    mass = carve(mass, right, 0.1);
+    CHECK(pieces_of_holes<Planar>(mass, left) == of_left);
+    for (const auto& piece : wall_pieces(mass, right))
+      CHECK((piece.facet.centre() - Vec2(4, 1)).norm() < 2.5);
+  }
+}
