@@ -262,8 +262,8 @@ std::vector<std::size_t> FinishedCases::missing(const CasePlan& plan) const {
 
 void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
   const PlanVerb verb = plan.parts().verb;
-  const fs::path path = plan_file(folder, verb), journals = journal_folder(folder, verb),
-                 joints = folder / CasePlan::joints_file_name(verb);
+  const fs::path path = plan_file(folder, verb), journals = journal_folder(folder, verb);
+  const auto copy = [&](std::size_t file) { return folder / CasePlan::copy_name(verb, file); };
   if (fs::exists(path)) {
     std::vector<std::string> before;
     std::string trouble;
@@ -290,17 +290,20 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
   }
   if (discard) {
     fs::remove_all(journals);
-    fs::remove(joints);
+    std::size_t file = 0;
+    while (fs::remove(copy(file))) ++file;
     fs::remove(path);
   } else if (!journals_in(journals).empty()) {
     throw std::runtime_error("the folder " + utf8_text(folder) + " holds the journals of a " +
                              to_string(verb) + " without their plan, '" + utf8_text(path) +
                              "'\n   = accepted: another --out, or --discard to remove them");
   }
+  OutputSet files;
+  for (std::size_t k = 0; k < plan.files().size(); ++k)
+    files.add(copy(k), content_of(plan.files()[k].path));
+  files.add(path, plan.json());
+  files.publish();
   fs::create_directories(journals);
-  if (!plan.input().joints_file.empty())
-    write_atomically(joints, content_of(plan.input().joints_file));
-  write_atomically(path, plan.json());
 }
 
 CasePlan plan_in(const fs::path& path) {

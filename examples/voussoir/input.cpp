@@ -749,6 +749,10 @@ std::vector<std::string> unusual_values(const Input& input) {
   return unusual;
 }
 
+bool names_a_file(std::string_view line) {
+  return line.starts_with("joints.file = ") || line.starts_with("blocks.file = ");
+}
+
 double Input::domain_top() const { return tunnel.crown() + tunnel.cover; }
 double Input::domain_bottom() const { return tunnel.invert() - model.below_invert; }
 

@@ -395,6 +395,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   voussoir::keep_freed_memory();
+  voussoir::let_writes_beyond_limit_fail();
   const voussoir::PlainOutput plain;
   std::vector<std::string> words = voussoir::program_arguments(argc, argv);
   std::vector<char*> arguments;

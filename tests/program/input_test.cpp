@@ -878,6 +878,24 @@ TEST_SUITE("program/input") {
     }
   }
 
+  TEST_CASE("of many errors the first are shown, and all are counted") {
+    std::string text = good;
+    for (int k = 0; k < 20000; ++k) text += "zz" + std::to_string(k) + " = 1\n";
+    try {
+      (void)read(text, {"stress.K0=20"});
+      FAIL("unknown keys are refused");
+    } catch (const InputErrors& errors) {
+      // 50 with their place, line and list of keys: a page or two.
+      CHECK(std::string(errors.what()).size() < 30000);
+      CHECK(contains(errors.what(), "20001 errors in the input, of which the first 50 are shown"));
+      CHECK(contains(errors.what(), "`zz0`"));
+      CHECK(contains(errors.what(), "`zz49`"));
+      CHECK(!contains(errors.what(), "`zz50`"));
+      CHECK(errors.errors().front().line == 42);  // the first behind the good ones
+      CHECK(errors.errors().back().key == "stress.K0");
+    }
+  }
+
   TEST_CASE("a message shows the line and puts the caret under the value") {
     const auto errors = errors_of(with("kn = \"5 GPa/m\"", "\tkn = 5e9  # ä"));
     REQUIRE(errors.size() == 1);
