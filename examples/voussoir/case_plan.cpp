@@ -382,8 +382,9 @@ std::vector<std::size_t> CasePlan::work_order() const {
 }
 
 std::string CasePlan::copy_name(PlanVerb verb, std::size_t file) {
-  return std::string(to_string(verb)) + ".joints" +
-         (file == 0 ? "" : "-" + std::to_string(file + 1)) + ".csv";
+  std::string name = std::string(to_string(verb)) + ".joints";
+  if (file > 0) name.append("-").append(std::to_string(file + 1));
+  return name + ".csv";
 }
 
 std::string CasePlan::json() const {

@@ -163,6 +163,10 @@ std::string result_json(const TunnelResult& r) {
                      {"largest_thrust_N_per_m", r.demand.largest_thrust},
                      {"mean_thrust_N_per_m", r.demand.mean_thrust},
                      {"largest_moment_Nm_per_m", r.demand.largest_moment},
+                     {"bolts_yielded", r.bolts_yielded},
+                     {"bolts_ruptured", r.bolts_ruptured},
+                     {"feet_yielded", r.feet_yielded},
+                     {"of_bolt_strength", r.of_bolt_strength},
                      {"error_estimate", r.error_estimate},
                      {"out_of_balance_force_ratio", r.out_of_balance},
                      {"blocks", r.blocks},
@@ -196,6 +200,10 @@ TunnelResult result_from_json(const std::string& text) {
     r.demand.largest_thrust = number_at(json, "largest_thrust_N_per_m");
     r.demand.mean_thrust = number_at(json, "mean_thrust_N_per_m");
     r.demand.largest_moment = number_at(json, "largest_moment_Nm_per_m");
+    r.bolts_yielded = json.at("bolts_yielded");
+    r.bolts_ruptured = json.at("bolts_ruptured");
+    r.feet_yielded = json.at("feet_yielded");
+    r.of_bolt_strength = number_at(json, "of_bolt_strength");
     r.error_estimate = number_at(json, "error_estimate");
     r.out_of_balance = number_at(json, "out_of_balance_force_ratio");
     r.blocks = json.at("blocks");

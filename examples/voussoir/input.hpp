@@ -289,10 +289,6 @@ struct SizeEstimate {
 ///          masses). Joints of a file are counted when they are read, with the same limits.
 [[nodiscard]] SizeEstimate estimate_size(const Input& input);
 
-/// Keys whose values are accepted but far from what rock, steel and concrete have: first to look at
-/// where a search finds no end. "joint.kn = 500 GPa/m is unusual (common: ...)".
-[[nodiscard]] std::vector<std::string> unusual_values(const Input& input);
-
 /// One thing that is wrong with an input, and where.
 struct InputError {
   std::string file;           ///< name of the file as the user gave it

@@ -258,6 +258,10 @@ TEST_SUITE("program/cases") {
     r.out_of_balance = 1e-17;
     r.blocks = 12345;
     r.marginal = true;
+    r.bolts_yielded = 3;
+    r.bolts_ruptured = 2;
+    r.feet_yielded = 1;
+    r.of_bolt_strength = 1.0 / 3;
     r.boundary = "rollers";
     r.warnings = {"one", "two"};
     const TunnelResult back = result_from_json(result_json(r));
@@ -268,7 +272,8 @@ TEST_SUITE("program/cases") {
     CHECK(std::signbit(back.convergence.right_springing));
     CHECK(std::isnan(back.convergence.invert));
     CHECK(back.reason == r.reason);
-    CHECK(back.word() == "stable after rockfall");
+    CHECK(back.word() ==
+          "stable after rockfall, bolts yielded, bolts ruptured, feet at their strength");
     CHECK_THROWS_AS((void)result_from_json("{}"), std::runtime_error);
     CHECK_THROWS_AS((void)result_from_json("{\"verdict\":"), std::runtime_error);
   }

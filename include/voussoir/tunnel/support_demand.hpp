@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/message_number.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
@@ -80,6 +81,7 @@ struct SupportCondition {
   bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
   bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
+  std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
 
 template <class Solver>
@@ -116,6 +118,10 @@ template <class Solver>
                              foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
+  for (const auto& foot : foot_forces(solver))
+    if (foot.has_yielded())
+      condition.yielded_feet.push_back(text_of<Solver::dim>(foot.place) + " m (now at " +
+                                       message_number(100 * foot.utilisation, 3) + " % of it)");
   return condition;
 }
 
@@ -144,6 +150,9 @@ template <class Solver>
     remarks.push_back("bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
   if (condition.yielded > 0)
     remarks.push_back("bolts yielded at " + std::to_string(condition.yielded) + " joints");
+  for (const std::string& place : condition.yielded_feet)
+    remarks.push_back("a foot of the lining has reached its bearing strength at " + place +
+                      ": it settles without bearing more");
   return remarks;
 }
 
