@@ -96,7 +96,7 @@ std::optional<double> read_dip(const Value& value, const std::string& direction)
     const auto turned = [&](double angle) {
       value.refuse(
           "is the same plane as " + degrees_text(angle) + " to the other side",
-          "dip = \"" + degrees_text(angle) + "\"" +
+          "from 0 to 90 deg; here dip = \"" + degrees_text(angle) + "\"" +
               (other.empty() ? ", and the other dip_direction" : ", dip_direction = " + other));
       return std::nullopt;
     };

@@ -456,7 +456,7 @@ TEST_SUITE("program/input") {
         {"K0 = 1", "K0 = 1\nsurcharge = \"1e300 Pa\"", 13, "stress.surcharge", "from 0 to 1 GPa"},
         {"dip = \"75 deg\"", "dip = \"91 deg\"", 14, "joint_set[0].dip", "from 0 to 90 deg"},
         {"dip = \"75 deg\"", "dip = 75", 14, "joint_set[0].dip = 75 has no unit", "35 deg"},
-        {"dip_direction = \"E\"", "dip_direction = \"N\"", 15, "joint_set[0].dip_direction",
+        {"dip_direction = \"E\"", "dip_direction = \"up\"", 15, "joint_set[0].dip_direction",
          "\"E\", \"W\""},
         {"intensity = \"1 /m^2\"", "intensity = \"0 /m^2\"", 16, "joint_set[0].intensity",
          "above 0 and at most"},
