@@ -372,8 +372,10 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
           (bar.end.array() > domain.high.array()).any())
         throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
                            " m: a bolt would end at " + text_of<2>(bar.end) +
-                           " m, outside the rock\n   = accepted: bolts that end within " +
-                           text_of<2>(domain.low) + " and " + text_of<2>(domain.high) + " m");
+                           " m, outside the rock" +
+                           unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
+                           "\n   = accepted: bolts that end within " + text_of<2>(domain.low) +
+                           " and " + text_of<2>(domain.high) + " m");
   }
 }
 

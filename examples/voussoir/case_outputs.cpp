@@ -93,7 +93,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                                  "error_estimate",
                                  "out_of_balance_force_ratio",
                                  "blocks",
-                                 "reason"})
+                                 "reason",
+                                 "warnings"})
     header.emplace_back(name);
   CsvTable table(header);
   const auto seeds = static_cast<std::size_t>(plan.parts().realisations);
@@ -120,7 +121,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                                     number(r.error_estimate),
                                     number(r.out_of_balance),
                                     std::to_string(r.blocks),
-                                    r.reason})
+                                    r.reason,
+                                    warnings_cell(r)})
       cells.push_back(cell);
     table.add_cells(cells);
   }
@@ -331,6 +333,12 @@ std::string strength_text(const CasePlan& plan) {
   for (const std::string& name : unchecked_supports(plan.input_of(plan.at(0))))
     names += (names.empty() ? "" : ", ") + name;
   return names.empty() ? "" : "strength " + names + ": " + not_checked + "\n";
+}
+
+std::string warnings_cell(const TunnelResult& result) {
+  std::string text;
+  for (const std::string& warning : result.warnings) text += (text.empty() ? "" : "; ") + warning;
+  return text;
 }
 
 std::string strength_cell(const TunnelResult& result) {

@@ -30,6 +30,9 @@ struct CaseOutputs {
 /// The largest bolt force over the strength of a bolt, "-" where none was given.
 [[nodiscard]] std::string strength_cell(const TunnelResult& result);
 
+/// Warnings of one tunnel.
+[[nodiscard]] std::string warnings_cell(const TunnelResult& result);
+
 /// Warnings of all tunnels for the screen, each once, a line each.
 [[nodiscard]] std::string warnings_text(const std::vector<TunnelResult>& results);
 

@@ -214,6 +214,7 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     throw InvalidInput("the " + std::string(to_string(p.verb)) + " has " + fixed_text(count, 0) +
                        " cases\n   = accepted: at most " + std::to_string(most_cases));
   names_.reserve(static_cast<std::size_t>(count));
+  std::map<std::string, std::size_t> indices;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const Case the_case = at(k);
     std::optional<Input> input;
@@ -241,6 +242,11 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
       id.add(supports.spacing ? supports.spacing->value : 0.0).add(supports.thickness);
     }
     names_.push_back(id.text());
+    // Keys differ, so it is two files that do not.
+    const auto [same, is_new] = indices.try_emplace(names_.back(), k);
+    if (!is_new)
+      throw InvalidInput("two cases are the same: " + label(at(same->second)) + " and " +
+                         label(the_case) + "\n   = accepted: files of joints that differ");
   }
 
   content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,

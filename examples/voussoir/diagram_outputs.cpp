@@ -61,13 +61,13 @@ const char* spacing_column(const DiagramInput& axes) {
 
 std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) {
   const DiagramInput& axes = *plan.input().diagram;
-  CsvTable table(
-      {spacing_column(axes), "lining_thickness_cm", "verdict", "failed", "marginal",
-       "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
-       "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
-       "largest_moment_kNm_per_m", "bolt_joints_yielded", "bolt_joints_ruptured", "feet_yielded",
-       "largest_bolt_force_of_its_strength", "error_estimate", "out_of_balance_force_ratio"},
-      6);
+  CsvTable table({spacing_column(axes), "lining_thickness_cm", "verdict", "failed", "marginal",
+                  "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
+                  "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
+                  "largest_moment_kNm_per_m", "bolt_joints_yielded", "bolt_joints_ruptured",
+                  "feet_yielded", "largest_bolt_force_of_its_strength", "error_estimate",
+                  "out_of_balance_force_ratio", "warnings"},
+                 6);
   const double radius = plan.input().tunnel.half_width();
   for (const Place& place : places) {
     const TunnelResult& r = place.tunnels.front();
@@ -76,7 +76,7 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
                   1e2 * r.convergence.crown / radius, r.fallen, 1e-3 * r.demand.largest_bolt_force,
                   1e-3 * r.demand.mean_bolt_force, 1e-3 * r.demand.largest_thrust,
                   1e-3 * r.demand.largest_moment, r.bolts_yielded, r.bolts_ruptured, r.feet_yielded,
-                  strength_cell(r), r.error_estimate, r.out_of_balance);
+                  strength_cell(r), r.error_estimate, r.out_of_balance, warnings_cell(r));
   }
   return table.text();
 }

@@ -618,11 +618,7 @@ void check_size(Checker& checker, const Input& input) {
   const SizeEstimate size = estimate_size(input);
   const bool has_many_joints = size.joints > largest_count;
   if (!has_many_joints && !(size.blocks > largest_count)) return;
-  // Of the keys that size hangs on, those that are likely to blame.
-  std::string blamed;
-  for (const std::string& text : unusual_values(input))
-    for (const char* table : {"model.", "tunnel.", "joint_set", "blocks."})
-      if (text.starts_with(table)) blamed += "; " + text;
+  const std::string blamed = unusual_among(input, {"model.", "tunnel.", "joint_set", "blocks."});
   if (has_many_joints)
     checker.report("joint_set", "would come to about " + counted(size.joints) + " joints" + blamed,
                    "at most 1000000 in the domain: a smaller domain, or fewer joints");

@@ -285,6 +285,15 @@ std::vector<std::string> unusual_values(const Input& input) {
   return found;
 }
 
+std::string unusual_among(const Input& input, std::initializer_list<std::string_view> tables) {
+  std::string all;
+  for (const std::string& text : unusual_values(input))
+    if (std::any_of(tables.begin(), tables.end(),
+                    [&](std::string_view table) { return text.starts_with(table); }))
+      all += "; " + text;
+  return all;
+}
+
 InSituClosure in_situ_closure(const Input& input, double stress, double block, double spacing) {
   double softest = input.joint.normal_stiffness;
   for (const JointSetInput& set : input.joint_sets)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input.hpp"
@@ -17,6 +19,11 @@ namespace voussoir::program {
 /// or over a thousand is not. Stiffnesses in shear are held against those across, lengths of the
 /// model against its opening.
 [[nodiscard]] std::vector<std::string> unusual_values(const Input& input);
+
+/// Those of some tables, "; " before each: what is likely to blame where they do not fit together.
+/// @param tables  "model.", "joint_set"
+[[nodiscard]] std::string unusual_among(const Input& input,
+                                        std::initializer_list<std::string_view> tables);
 
 /// What the in-situ stress does to joints and opening, before anything is computed: closures that
 /// small displacements, and common sense, allow are small beside a block and beside the opening.

@@ -209,6 +209,10 @@ TEST_SUITE("program/cases") {
     CHECK(changed.name(1) != both.name(1));
     CHECK(changed.run_id() != both.run_id());
     CHECK(changed.work_id() != both.work_id());
+    CHECK_THROWS_WITH_AS(plan_of({"a.csv", "copy of a.csv"}),
+                         doctest::Contains("two cases are the same: joints.file=a.csv, seed 3 and "
+                                           "joints.file=copy of a.csv, seed 3"),
+                         InvalidInput);
     // The one that is missing is to blame, and its case.
     CHECK_THROWS_WITH_AS(plan_of({"a.csv", "c.csv"}, "a.csv"),
                          doctest::Contains("c.csv is no file that can be read again and again"),

@@ -302,6 +302,9 @@ TEST_SUITE("program/plausibility") {
       const Outcome many = run_program(arguments);
       CAPTURE(many.err);
       CHECK(many.out.find("warning  rock.density = 27 kg/m^3 is unusual") != std::string::npos);
+      const std::string table = verb == "diagram" ? "interaction" : verb;
+      CHECK(read_file(folder / (verb + "/" + table + ".csv"))
+                .find("rock.density = 27 kg/m^3 is unusual") != std::string::npos);
     }
   }
 #endif
