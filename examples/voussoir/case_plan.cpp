@@ -289,7 +289,11 @@ std::string CasePlan::joints_of(const Input& input) {
         "joints.file: " + utf8_text(input.joints_file) +
         " is no file that can be read again and again\n   = accepted: a regular file");
   const auto line = std::find_if(input.content.begin(), input.content.end(), names_a_file);
-  files_.push_back({*line, input.joints_file, hash});
+  std::string name;  // in quotes, with a backslash before what would end them
+  const std::string value = value_of(*line);
+  for (std::size_t k = 1; k + 1 < value.size(); ++k)
+    if (value[k] != '\\' || ++k + 1 < value.size()) name += value[k];
+  files_.push_back({*line, name, input.joints_file, hash});
   return hash;
 }
 

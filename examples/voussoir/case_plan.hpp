@@ -49,6 +49,7 @@ struct PlanParts {
 /// A file of mapped joints that cases of a plan read.
 struct PlannedFile {
   std::string line;            ///< of content that names it
+  std::string name;            ///< as it is written there: what messages of a case call it
   std::filesystem::path path;  ///< where it lies
   std::string hash;            ///< of what it holds
 };

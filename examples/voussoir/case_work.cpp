@@ -22,6 +22,8 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/io/atomic_file.hpp>
 
+#include "plausibility.hpp"
+
 namespace voussoir::program {
 
 namespace fs = std::filesystem;
@@ -95,25 +97,41 @@ class RockStore {
       rocks_;  ///< the last used first
 };
 
-TunnelResult failed(const std::string& reason) {
+TunnelResult failed(const std::string& reason, const Input& input) {
   TunnelResult result;
   result.failed = true;
   result.reason = reason;
+  result.warnings = unusual_values(input);
   return result;
+}
+
+/// Calls a file of joints what the input calls it: a result is the same wherever the file lies.
+void name_as_written(std::string& text, const PlannedFile& file) {
+  const std::string path = utf8_text(file.path);
+  for (std::size_t at = text.find(path); at != std::string::npos;
+       at = text.find(path, at + file.name.size()))
+    text.replace(at, path.size(), file.name);
 }
 
 TunnelResult computed(const CasePlan& plan, std::size_t index, RockStore& rocks,
                       const Report& report) {
   const Case the_case = plan.at(index);
   const Input input = plan.input_of(the_case);
+  TunnelResult result;
   try {
     const auto rock = rocks.of(input, report);
-    return supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
+    result = supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
   } catch (const std::logic_error& error) {  // InvalidInput, and an invariant that does not hold
-    return failed(error.what());
+    result = failed(error.what(), input);
   } catch (const NumericalFault& fault) {
-    return failed(fault.what());
+    result = failed(fault.what(), input);
   }
+  for (const PlannedFile& file : plan.files()) {
+    if (file.path != input.joints_file) continue;
+    name_as_written(result.reason, file);
+    for (std::string& warning : result.warnings) name_as_written(warning, file);
+  }
+  return result;
 }
 
 std::string journal_header(const CasePlan& plan) {
