@@ -180,7 +180,7 @@ void read_tunnel(Section& s, TunnelInput& tunnel) {
 
 void read_joint_set(Section& s, JointSetInput& set) {
   s.text("name", set.name);
-  read_orientation(s, set);
+  read_orientation(s, set, Need::required);
   s.quantity("sd", set.sd, dimension::angle, between(0, degrees(45)), Need::optional);
   // One of the two, so the one that is there decides which of them is needed.
   const bool both = s.has("intensity") && s.has("spacing");

@@ -111,12 +111,11 @@ std::optional<double> read_dip(const Value& value, const std::string& direction)
 
 }  // namespace
 
-void read_orientation(Section& s, JointSetInput& set) {
+void read_orientation(Section& s, JointSetInput& set, Need need) {
   const Range range{.low = 0, .high = 90 * degree};
-  const auto dip =
-      s.find("dip", Need::required, quantity_form(dimension::angle, range, Infinity::refused));
+  const auto dip = s.find("dip", need, quantity_form(dimension::angle, range, Infinity::refused));
   const std::vector<std::string> words{"E", "W"};
-  const auto direction = s.find("dip_direction", Need::required, words_form(words));
+  const auto direction = s.find("dip_direction", need, words_form(words));
   const auto true_dip =
       dip ? read_dip(*dip, direction ? direction->node().text : "") : std::optional<double>();
   set.dip = true_dip.value_or(set.dip);
