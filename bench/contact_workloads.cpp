@@ -47,8 +47,15 @@ constexpr Motion motions[] = {{"", 1e-4, 1e-4, 1e-5, 1e-5}, {"deep", 3e-2, 2e-2,
 RockMass<Planar> section(std::uint64_t seed, double times) {
   const double scale = std::sqrt(times);
   const Domain<2> ground{Vec2(-35, -30) * scale, Vec2(35, 30) * scale};
-  const auto set = [scale](const char* name, double dip, DipDirection direction) {
-    return JointSet{name, dip * degree, direction, 1 * degree, 0.0102 / scale, 0 /* spacing */};
+  const auto set = [&](const char* name, double dip, DipDirection direction) {
+    // As many endless joints as that, which here are longer than the ground.
+    return JointSet{name,
+                    dip * degree,
+                    direction,
+                    1 * degree,
+                    0.0102 / scale,
+                    0 /* spacing */,
+                    2.1 * ground.diameter()};
   };
   return slice<Planar>(
       ground,

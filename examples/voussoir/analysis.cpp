@@ -20,6 +20,8 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "plausibility.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -234,16 +236,9 @@ std::vector<JointSource> sources_of(const Input& input, std::size_t mapped,
   return sources;
 }
 
-std::vector<std::string> warnings_of_undecided(const Input& input) {
-  std::vector<std::string> warnings = unusual_values(input);
-  for (std::string& warning : warnings) warning = "undecided, and " + warning;
-  return warnings;
-}
-
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   std::vector<std::string> warnings = run.warnings;
-  if (run.verdict() == Verdict::undecided)
-    for (const std::string& text : warnings_of_undecided(input)) warnings.push_back(text);
+  for (std::string& text : unusual_values(input)) warnings.push_back(std::move(text));
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
   if (mass.slicing.coincident > 0)
@@ -357,8 +352,15 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
     return tunnel;
   };
   BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
+  std::vector<std::string> warnings = rock.warnings;
+  const double half_width = input.tunnel.half_width();
+  for (std::string& text : remarks_on(in_situ_closure(
+           input, bounded.tunnel.in_situ().vertical(rock.mass.domain.depth(Vec2::Zero())),
+           std::sqrt(block_sizes(rock.mass).mean),
+           radial_spacing(rock.mass, Vec2::Zero(), half_width, 2 * half_width))))
+    warnings.push_back(std::move(text));
   return {std::move(bounded.tunnel),   rock.joints, opening,
-          std::move(bounded.boundary), unbalance,   rock.warnings};
+          std::move(bounded.boundary), unbalance,   std::move(warnings)};
 }
 
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
@@ -372,9 +374,35 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
           (bar.end.array() > domain.high.array()).any())
         throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
                            " m: a bolt would end at " + text_of<2>(bar.end) +
-                           " m, outside the rock\n   = accepted: bolts that end within " +
-                           text_of<2>(domain.low) + " and " + text_of<2>(domain.high) + " m");
+                           " m, outside the rock" +
+                           unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
+                           "\n   = accepted: bolts that end within " + text_of<2>(domain.low) +
+                           " and " + text_of<2>(domain.high) + " m");
   }
+}
+
+double bolt_strength(const BoltsInput& bolts) {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  return std::min(bolts.yield_force.value_or(unlimited), bolts.rupture_force.value_or(unlimited));
+}
+
+std::vector<std::string> unchecked_supports(const Input& input) {
+  std::vector<std::string> unchecked;
+  if (input.bolts && std::isinf(bolt_strength(*input.bolts))) unchecked.emplace_back("bolts");
+  if (input.lining) unchecked.emplace_back("lining");
+  if (input.lining && input.lining->feet && !input.lining->feet->strength)
+    unchecked.emplace_back("feet of the lining");
+  return unchecked;
+}
+
+std::string TunnelResult::word() const {
+  if (failed) return "failed";
+  std::string text = to_string(verdict, fallen, lost_lining);
+  if (verdict != Verdict::stable) return text;
+  if (bolts_yielded > 0) text += ", bolts yielded";
+  if (bolts_ruptured > 0) text += ", bolts ruptured";
+  if (feet_yielded > 0) text += ", feet at their strength";
+  return text;
 }
 
 SupportChoice supports_of(const Input& input) {
@@ -440,6 +468,7 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
   result.blocks = rock.tunnel.mass().bodies.size();
   result.boundary = boundary_text(rock.boundary);
   result.warnings = rock.warnings;
+  for (std::string& text : unusual_values(input)) result.warnings.push_back(std::move(text));
   try {
     Tunnel tunnel = rock.tunnel;
     const auto built = naming_unusual_values(input, [&] {
@@ -457,6 +486,12 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
     result.reason = built.last().reason;
     result.convergence = built.stages.back().convergence;
     result.demand = support_demand(tunnel);
+    const SupportCondition condition = support_condition(tunnel, built);
+    result.bolts_yielded = condition.yielded;
+    result.bolts_ruptured = condition.ruptured;
+    result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
+    if (input.bolts && std::isfinite(bolt_strength(*input.bolts)))
+      result.of_bolt_strength = result.demand.largest_bolt_force / bolt_strength(*input.bolts);
     result.error_estimate = built.last().error_estimate;
     result.out_of_balance = built.last().unbalance_over_weight;
   } catch (const NumericalFault& fault) {

@@ -98,6 +98,13 @@ struct SupportChoice {
 /// Refuses bolts that would end outside the rock, before any rock is made. @throws InvalidInput
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings);
 
+/// Of one bolt in tension [N], the lower of yield and rupture; infinite: none was given.
+[[nodiscard]] double bolt_strength(const BoltsInput& bolts);
+/// Supports whose strength is not given, so that nothing says whether they bear what they carry:
+/// "bolts", "lining", "feet of the lining".
+[[nodiscard]] std::vector<std::string> unchecked_supports(const Input& input);
+inline constexpr const char* not_checked = "no strength was given: not checked";
+
 /// What came of one tunnel among many: the numbers that a design is chosen by.
 struct TunnelResult {
   Verdict verdict = Verdict::undecided;
@@ -111,14 +118,20 @@ struct TunnelResult {
   double error_estimate = not_computed;  ///< of displacements [-]
   double out_of_balance = not_computed;  ///< of the worst block over its weight [-]
   std::size_t blocks = 0;
-  std::string boundary;                    ///< in words
-  std::vector<std::string> warnings = {};  ///< about the rock
+  std::string boundary;  ///< in words
+  /// Joints at which a bolt has yielded or ruptured, and feet that have reached their strength.
+  int bolts_yielded = 0, bolts_ruptured = 0, feet_yielded = 0;
+  /// Largest bolt force over the strength of a bolt [-]; not a number: none was given.
+  double of_bolt_strength = not_computed;
+  std::vector<std::string> warnings = {};  ///< about the rock, and values that are unusual
 
   static constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
 
-  /// "stable", "stable after rockfall", ..., "failed".
-  [[nodiscard]] std::string word() const {
-    return failed ? "failed" : to_string(verdict, fallen, lost_lining);
+  /// "stable", "stable after rockfall", "stable, bolts yielded", ..., "failed".
+  [[nodiscard]] std::string word() const;
+  /// Something of the supports has reached its strength.
+  [[nodiscard]] bool has_yielded() const {
+    return bolts_yielded + bolts_ruptured + feet_yielded > 0;
   }
   /// It has a verdict and, where no rock has fallen, a number for the crown.
   [[nodiscard]] bool is_decided() const {

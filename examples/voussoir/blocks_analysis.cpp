@@ -5,6 +5,8 @@
 #include <chrono>
 #include <thread>
 
+#include "plausibility.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -93,9 +95,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
     const auto made = static_cast<double>(run.steps.size()) - (stands(run.last()) ? 0 : 1);
     run.reached = made / laid.steps;
   }
-  if (run.last().verdict == Verdict::undecided)
-    for (const std::string& value : unusual_values(input))
-      run.warnings.push_back("undecided, and " + value);
+  for (std::string& value : unusual_values(input)) run.warnings.push_back(std::move(value));
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

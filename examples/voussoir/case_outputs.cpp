@@ -73,26 +73,56 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                         const std::vector<TunnelResult>& results) {
   std::vector<std::string> header;
   for (const KeyColumn& column : columns) header.push_back(column.name);
-  for (const char* const name :
-       {"seed", "verdict", "marginal", "detached_area_m2", "crown_convergence_mm",
-        "right_springing_mm", "left_springing_mm", "invert_mm", "largest_bolt_force_kN",
-        "mean_bolt_force_kN", "largest_thrust_kN_per_m", "mean_thrust_kN_per_m",
-        "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio", "blocks",
-        "reason"})
+  for (const char* const name : {"seed",
+                                 "verdict",
+                                 "marginal",
+                                 "detached_area_m2",
+                                 "crown_convergence_mm",
+                                 "right_springing_mm",
+                                 "left_springing_mm",
+                                 "invert_mm",
+                                 "largest_bolt_force_kN",
+                                 "mean_bolt_force_kN",
+                                 "largest_thrust_kN_per_m",
+                                 "mean_thrust_kN_per_m",
+                                 "largest_moment_kNm_per_m",
+                                 "bolt_joints_yielded",
+                                 "bolt_joints_ruptured",
+                                 "feet_yielded",
+                                 "largest_bolt_force_of_its_strength",
+                                 "error_estimate",
+                                 "out_of_balance_force_ratio",
+                                 "blocks",
+                                 "reason",
+                                 "warnings"})
     header.emplace_back(name);
   CsvTable table(header);
   const auto seeds = static_cast<std::size_t>(plan.parts().realisations);
   for (std::size_t k = 0; k < results.size(); ++k) {
     const TunnelResult& r = results[k];
     std::vector<std::string> cells = key_cells(columns, k / seeds);
-    for (const std::string& cell :
-         {std::to_string(plan.at(k).seed), r.word(), std::string(r.marginal ? "1" : "0"),
-          number(r.fallen), number(1e3 * r.convergence.crown),
-          number(1e3 * r.convergence.right_springing), number(1e3 * r.convergence.left_springing),
-          number(1e3 * r.convergence.invert), number(1e-3 * r.demand.largest_bolt_force),
-          number(1e-3 * r.demand.mean_bolt_force), number(1e-3 * r.demand.largest_thrust),
-          number(1e-3 * r.demand.mean_thrust), number(1e-3 * r.demand.largest_moment),
-          number(r.error_estimate), number(r.out_of_balance), std::to_string(r.blocks), r.reason})
+    for (const std::string& cell : {std::to_string(plan.at(k).seed),
+                                    r.word(),
+                                    std::string(r.marginal ? "1" : "0"),
+                                    number(r.fallen),
+                                    number(1e3 * r.convergence.crown),
+                                    number(1e3 * r.convergence.right_springing),
+                                    number(1e3 * r.convergence.left_springing),
+                                    number(1e3 * r.convergence.invert),
+                                    number(1e-3 * r.demand.largest_bolt_force),
+                                    number(1e-3 * r.demand.mean_bolt_force),
+                                    number(1e-3 * r.demand.largest_thrust),
+                                    number(1e-3 * r.demand.mean_thrust),
+                                    number(1e-3 * r.demand.largest_moment),
+                                    std::to_string(r.bolts_yielded),
+                                    std::to_string(r.bolts_ruptured),
+                                    std::to_string(r.feet_yielded),
+                                    strength_cell(r),
+                                    number(r.error_estimate),
+                                    number(r.out_of_balance),
+                                    std::to_string(r.blocks),
+                                    r.reason,
+                                    warnings_cell(r)})
       cells.push_back(cell);
     table.add_cells(cells);
   }
@@ -106,8 +136,8 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
   for (const KeyColumn& column : columns) header.push_back(column.name);
   for (const char* const name :
        {"realisations", "stable", "stable_after_rockfall", "stable_without_lining", "collapse",
-        "undecided", "failed", "marginal", "rockfall_share", "rockfall_share_low_95",
-        "rockfall_share_high_95"})
+        "undecided", "failed", "marginal", "supports_yielded", "rockfall_share",
+        "rockfall_share_low_95", "rockfall_share_high_95"})
     header.emplace_back(name);
   for (const std::string quantity :
        {"crown_convergence_mm", "largest_bolt_force_kN", "mean_bolt_force_kN",
@@ -122,7 +152,7 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
     const Realised r(std::span<const TunnelResult>(results).subspan(k * seeds, seeds));
     std::vector<std::string> cells = key_cells(columns, k);
     for (const int count : {r.count, r.whole, r.shedding, r.without_lining, r.collapsed,
-                            r.undecided, r.failed, r.marginal})
+                            r.undecided, r.failed, r.marginal, r.yielded})
       cells.push_back(std::to_string(count));
     const Share share = r.rockfall();
     const Interval shares = share.trials > 0 ? share.interval() : Interval{none, none};
@@ -227,6 +257,8 @@ std::string realisations_json(const CasePlan& plan, const Realised& r) {
                        {"undecided", r.undecided},
                        {"failed", r.failed}}},
                      {"marginal", r.marginal},
+                     {"supports_yielded", r.yielded},
+                     {"not_checked", unchecked_supports(plan.input())},
                      {"rockfall_or_collapse", share_json(r.rockfall())},
                      {"collapse", share_json(r.collapse())},
                      {"quantities", quantities}};
@@ -256,20 +288,6 @@ std::string realisations_svg(const CasePlan& plan, const Realised& r) {
   return draw_histogram_picture(picture);
 }
 
-std::string warnings_text(const std::vector<TunnelResult>& results) {
-  std::string out;
-  std::vector<std::string> seen;
-  for (const TunnelResult& r : results)
-    for (const std::string& warning : r.warnings)
-      if (std::find(seen.begin(), seen.end(), warning) == seen.end()) {
-        seen.push_back(warning);
-        if (seen.size() <= 5) out += "warning  " + warning + "\n";
-      }
-  if (seen.size() > 5)
-    out += "warning  " + std::to_string(seen.size() - 5) + " more of this kind, case by case\n";
-  return out;
-}
-
 CaseOutputs sweep_outputs(const CasePlan& plan, const std::vector<TunnelResult>& results) {
   std::vector<KeyColumn> columns;
   for (const VariedKey& varied : plan.parts().varied) columns.push_back(column_of(varied));
@@ -283,7 +301,7 @@ CaseOutputs sweep_outputs(const CasePlan& plan, const std::vector<TunnelResult>&
     outputs.summary += (&varied == &plan.parts().varied.front() ? " " : ", ") + varied.key + " (" +
                        std::to_string(varied.values.size()) + ")";
   outputs.summary += ", " + seeds_text(plan) + "\nverdicts " + all.verdicts() + "\n";
-  outputs.summary += warnings_text(results);
+  outputs.summary += strength_text(plan) + warnings_text(results);
   return outputs;
 }
 
@@ -302,11 +320,47 @@ CaseOutputs realisations_outputs(const CasePlan& plan, const std::vector<TunnelR
     name.resize(22, ' ');
     out += name + quantity_text(c) + "\n";
   }
-  out += "boundary " + results.front().boundary + "\n" + warnings_text(results);
+  out +=
+      "boundary " + results.front().boundary + "\n" + strength_text(plan) + warnings_text(results);
   return outputs;
 }
 
 }  // namespace
+
+std::string strength_text(const CasePlan& plan) {
+  std::string names;
+  // Of the first case: what varies may give a strength that the file does not.
+  for (const std::string& name : unchecked_supports(plan.input_of(plan.at(0))))
+    names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "" : "strength " + names + ": " + not_checked + "\n";
+}
+
+std::string warnings_cell(const TunnelResult& result) {
+  std::string text;
+  for (const std::string& warning : result.warnings) text += (text.empty() ? "" : "; ") + warning;
+  return text;
+}
+
+std::string strength_cell(const TunnelResult& result) {
+  return std::isfinite(result.of_bolt_strength) ? significant_text(result.of_bolt_strength, 6)
+                                                : std::string("-");
+}
+
+std::string warnings_text(const std::vector<TunnelResult>& results) {
+  constexpr std::size_t most = 20;
+  std::string out;
+  std::vector<std::string> seen;
+  std::size_t count = 0;
+  for (const TunnelResult& r : results)
+    for (const std::string& warning : r.warnings)
+      if (std::find(seen.begin(), seen.end(), warning) == seen.end()) {
+        if (++count > most) continue;
+        seen.push_back(warning);
+        out += "warning  " + warning + "\n";
+      }
+  if (count > most) out += "warning  and more of this kind, case by case\n";
+  return out;
+}
 
 CaseOutputs outputs_of(const CasePlan& plan, const std::vector<TunnelResult>& results) {
   switch (plan.parts().verb) {

@@ -23,4 +23,17 @@ struct CaseOutputs {
 [[nodiscard]] CaseOutputs outputs_of(const CasePlan& plan,
                                      const std::vector<TunnelResult>& results);
 
+/// Which supports nothing says of whether they bear what they carry, a line for the screen; empty:
+/// none.
+[[nodiscard]] std::string strength_text(const CasePlan& plan);
+
+/// The largest bolt force over the strength of a bolt, "-" where none was given.
+[[nodiscard]] std::string strength_cell(const TunnelResult& result);
+
+/// Warnings of one tunnel.
+[[nodiscard]] std::string warnings_cell(const TunnelResult& result);
+
+/// Warnings of all tunnels for the screen, each once, a line each.
+[[nodiscard]] std::string warnings_text(const std::vector<TunnelResult>& results);
+
 }  // namespace voussoir::program

@@ -76,6 +76,8 @@ std::optional<std::vector<std::string>> stepped(std::string_view text, const std
   const auto low = leading_number(first);
   if (!low || !trimmed(first).empty()) return std::nullopt;
   rest = text.substr(dots + 2);
+  // 1...2 may end with 2 or with .2: nobody should have to know our rule.
+  if (rest.starts_with(".")) refuse("a range has two dots between its ends, and this has three");
   const auto high = leading_number(rest);
   if (!high) refuse("a range ends with a number");
   if (colon == std::string_view::npos || colon < dots)
@@ -100,6 +102,47 @@ std::string joined(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
   return text;
+}
+
+/// "a.b[3]" of " a.b[03] = 5 m", whatever is in front of the `=`.
+std::string key_of(std::string_view text) {
+  std::string key;
+  for (const char c : trimmed(text.substr(0, text.find('=')))) {
+    if (key.ends_with("[0") && c >= '0' && c <= '9') key.pop_back();
+    key += c;
+  }
+  return key;
+}
+
+/// Whether a value of `key` holds that of `other`, as joint holds joint.kn.
+bool holds(const std::string& key, const std::string& other) {
+  return other.starts_with(key) &&
+         (other.size() == key.size() || other[key.size()] == '.' || other[key.size()] == '[');
+}
+
+/// What is laid over a value that was asked for would take its place without a word.
+void check_keys(const PlanParts& parts) {
+  for (auto varied = parts.varied.begin(); varied != parts.varied.end(); ++varied) {
+    const std::string key = key_of(varied->key), of_key = "--vary " + printable(varied->key);
+    for (auto other = parts.varied.begin(); other != varied; ++other) {
+      const std::string other_key = key_of(other->key);
+      if (key == other_key)
+        throw InvalidInput(of_key + " is given twice\n   = accepted: one list of all its values");
+      if (holds(key, other_key) || holds(other_key, key))
+        throw InvalidInput(of_key + " and --vary " + printable(other->key) +
+                           " give the same key a value\n   = accepted: either");
+    }
+    for (const std::string& set : parts.overrides)
+      if (holds(key, key_of(set)))
+        throw InvalidInput(of_key + ": --set " + printable(set) +
+                           " gives the same key a value, which would not count\n   = accepted: "
+                           "either");
+    if (key == "model.seed")
+      throw InvalidInput(
+          "--vary model.seed: seeds are counted by --realisations\n   = accepted: --realisations " +
+          std::to_string(varied->values.size()) +
+          " and --set model.seed=" + varied->values.front());
+  }
 }
 
 std::string head_of(const std::string& line) { return line.substr(0, line.find(" = ")); }
@@ -151,7 +194,8 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   const PlanParts& p = parts_;
   require(p.realisations >= 1 && p.realisations <= most_realisations, "--realisations",
           p.realisations, "1 to 10000");
-  input_ = read_input_text(p.text, p.file, p.directory, p.overrides);
+  check_keys(p);
+  input_ = read(p.overrides);
   if (input_.laid)
     throw InvalidInput(p.file +
                        ": diagram, realisations and sweep are of tunnels, and this is a model of "
@@ -161,16 +205,6 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     throw InvalidInput(
         "no [diagram] in " + p.file +
         "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
-  std::set<std::string> keys;
-  for (const VariedKey& varied : p.varied) {
-    if (!keys.insert(varied.key).second)
-      throw InvalidInput("--vary " + printable(varied.key) +
-                         " is given twice\n   = accepted: one list of all its values");
-    if (varied.key == "model.seed")
-      throw InvalidInput(
-          "--vary model.seed: seeds are counted by --realisations\n   = accepted: --realisations " +
-          std::to_string(varied.values.size()) + " and --set model.seed=" + varied.values.front());
-  }
   if (p.verb == PlanVerb::sweep && p.varied.empty())
     throw InvalidInput(std::string("a sweep varies nothing") + forms);
   double count = p.realisations;
@@ -179,47 +213,27 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   if (count > static_cast<double>(most_cases))
     throw InvalidInput("the " + std::string(to_string(p.verb)) + " has " + fixed_text(count, 0) +
                        " cases\n   = accepted: at most " + std::to_string(most_cases));
-  joints_ = joints_hash(input_);
-  if (!input_.joints_file.empty() && joints_.empty())
-    throw InvalidInput("joints.file: " + utf8_text(input_.joints_file) +
-                       " cannot be read again and again\n   = accepted: a regular file");
-
-  content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,
-              std::string("program = ") + sources_hash, std::string("verb = ") + to_string(p.verb),
-              std::string(realisations_line) + std::to_string(p.realisations)};
-  if (!joints_.empty()) content_.push_back("joints.file (its content) = " + joints_);
-  for (const VariedKey& varied : p.varied)
-    content_.push_back("--vary " + varied.key + " = " + joined(varied.values));
-  for (const std::string& line : input_.content)
-    if (!line.starts_with("joints.file = ")) content_.push_back(line);
-  std::sort(content_.begin(), content_.end());
-  std::string of_run, of_work;
-  for (const std::string& line : content_) {
-    if (!line.starts_with("program = ")) of_run += line + "\n";
-    if (!line.starts_with(realisations_line)) of_work += line + "\n";
-  }
-  run_id_ = text_hash(of_run);
-  work_id_ = text_hash(of_work);
-
   names_.reserve(static_cast<std::size_t>(count));
+  std::map<std::string, std::size_t> indices;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const Case the_case = at(k);
     std::optional<Input> input;
+    std::string joints;
     try {
       input = input_of(the_case);
+      joints = joints_of(*input);
       if (input->bolts) check_bolts(*input, {supports_of(the_case, *input).spacing});
     } catch (const InputErrors& found) {
       std::vector<InputError> errors = found.errors();
       for (InputError& error : errors) error.message += ", in the case " + label(the_case);
-      throw InputErrors(std::move(errors));
+      throw InputErrors(std::move(errors), found.more());
     } catch (const InvalidInput& error) {
       throw InvalidInput(std::string(error.what()) + "\n   = in the case " + label(the_case));
     }
     RunId id("case");
-    id.add(sources_hash).add(joints_);
+    id.add(sources_hash).add(joints);
     for (const std::string& line : input->content)
-      if (!line.starts_with("joints.file = ") && !line.starts_with("diagram.") &&
-          !line.starts_with("title = "))
+      if (!names_a_file(line) && !line.starts_with("diagram.") && !line.starts_with("title = "))
         id.add(line);
     id.add(std::to_string(the_case.seed));
     if (the_case.place) {
@@ -228,7 +242,59 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
       id.add(supports.spacing ? supports.spacing->value : 0.0).add(supports.thickness);
     }
     names_.push_back(id.text());
+    // Keys differ, so it is two files that do not.
+    const auto [same, is_new] = indices.try_emplace(names_.back(), k);
+    if (!is_new)
+      throw InvalidInput("two cases are the same: " + label(at(same->second)) + " and " +
+                         label(the_case) + "\n   = accepted: files of joints that differ");
   }
+
+  content_ = {std::string("version = ") + VOUSSOIR_VERSION_STRING,
+              std::string("program = ") + sources_hash, std::string("verb = ") + to_string(p.verb),
+              std::string(realisations_line) + std::to_string(p.realisations)};
+  std::vector<std::string> hashes;
+  for (const PlannedFile& file : files_) hashes.push_back(file.hash);
+  if (!hashes.empty()) content_.push_back("joints.file (its content) = " + joined(hashes));
+  for (const VariedKey& varied : p.varied)
+    content_.push_back("--vary " + varied.key + " = " + joined(varied.values));
+  for (const std::string& line : input_.content)
+    if (!names_a_file(line)) content_.push_back(line);
+  std::sort(content_.begin(), content_.end());
+  std::string of_run, of_work;
+  for (const std::string& line : content_) {
+    if (!line.starts_with("program = ")) of_run += line + "\n";
+    if (!line.starts_with(realisations_line)) of_work += line + "\n";
+  }
+  run_id_ = text_hash(of_run);
+  work_id_ = text_hash(of_work);
+}
+
+Input CasePlan::read(const std::vector<std::string>& overrides) const {
+  Input input = read_input_text(parts_.text, parts_.file, parts_.directory, overrides);
+  for (const std::string& line : input.content)
+    if (const auto copy = parts_.copies.find(line); copy != parts_.copies.end())
+      input.joints_file = copy->second;
+  return input;
+}
+
+std::string CasePlan::joints_of(const Input& input) {
+  if (input.joints_file.empty()) return "";
+  const auto known = std::find_if(files_.begin(), files_.end(), [&](const PlannedFile& file) {
+    return file.path == input.joints_file;
+  });
+  if (known != files_.end()) return known->hash;
+  const std::string hash = joints_hash(input);
+  if (hash.empty())
+    throw InvalidInput(
+        "joints.file: " + utf8_text(input.joints_file) +
+        " is no file that can be read again and again\n   = accepted: a regular file");
+  const auto line = std::find_if(input.content.begin(), input.content.end(), names_a_file);
+  std::string name;  // in quotes, with a backslash before what would end them
+  const std::string value = value_of(*line);
+  for (std::size_t k = 1; k + 1 < value.size(); ++k)
+    if (value[k] != '\\' || ++k + 1 < value.size()) name += value[k];
+  files_.push_back({*line, name, input.joints_file, hash});
+  return hash;
 }
 
 std::size_t CasePlan::combinations() const {
@@ -270,7 +336,7 @@ Input CasePlan::input_of(const Case& the_case) const {
   std::vector<std::string> overrides = parts_.overrides;
   overrides.insert(overrides.end(), the_case.overrides.begin(), the_case.overrides.end());
   overrides.push_back("model.seed=" + std::to_string(the_case.seed));
-  return read_input_text(parts_.text, parts_.file, parts_.directory, overrides);
+  return read(overrides);
 }
 
 SupportChoice CasePlan::supports_of(const Case& the_case, const Input& input) const {
@@ -325,14 +391,19 @@ std::vector<std::size_t> CasePlan::work_order() const {
   return result;
 }
 
-std::string CasePlan::joints_file_name(PlanVerb verb) {
-  return std::string(to_string(verb)) + ".joints.csv";
+std::string CasePlan::copy_name(PlanVerb verb, std::size_t file) {
+  std::string name = std::string(to_string(verb)) + ".joints";
+  if (file > 0) name.append("-").append(std::to_string(file + 1));
+  return name + ".csv";
 }
 
 std::string CasePlan::json() const {
   nlohmann::ordered_json varied = nlohmann::ordered_json::array();
   for (const VariedKey& key : parts_.varied)
     varied.push_back({{"key", key.key}, {"values", key.values}});
+  nlohmann::ordered_json copies = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < files_.size(); ++k)
+    copies[files_[k].line] = copy_name(parts_.verb, k);
   const nlohmann::ordered_json json = {{"schema", 1},
                                        {"verb", to_string(parts_.verb)},
                                        {"run_id", run_id_},
@@ -340,6 +411,7 @@ std::string CasePlan::json() const {
                                        {"realisations", parts_.realisations},
                                        {"varied", varied},
                                        {"overrides", parts_.overrides},
+                                       {"copies", copies},
                                        {"content", content_},
                                        {"input_name", parts_.file},
                                        {"input", parts_.text}};
@@ -372,8 +444,8 @@ CasePlan CasePlan::from_json(const std::string& text, const std::filesystem::pat
       parts.varied.push_back({varied.at("key"), varied.at("values")});
     json.at("content").get_to(content);
     parts.directory = path.parent_path();
-    if (std::filesystem::exists(parts.directory / joints_file_name(parts.verb)))
-      parts.overrides.push_back("joints.file=" + joints_file_name(parts.verb));
+    for (const auto& [line, name] : json.at("copies").items())
+      parts.copies[line] = parts.directory / utf8_path(name.get<std::string>());
     plan.emplace(std::move(parts));
   } catch (const nlohmann::json::exception& error) {
     refuse(std::string("is no plan: ") + error.what());

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,17 @@ struct PlanParts {
   std::vector<std::string> overrides;  ///< as behind --set
   std::vector<VariedKey> varied = {};  ///< of a sweep alone
   int realisations = 1;                ///< the seeds count on from model.seed
+  /// Of a plan that has travelled: where its copies of mapped joints lie, by the line of content
+  /// that names the file, `joints.file = "north.csv"`.
+  std::map<std::string, std::filesystem::path> copies = {};
+};
+
+/// A file of mapped joints that cases of a plan read.
+struct PlannedFile {
+  std::string line;            ///< of content that names it
+  std::string name;            ///< as it is written there: what messages of a case call it
+  std::filesystem::path path;  ///< where it lies
+  std::string hash;            ///< of what it holds
 };
 
 /// One tunnel of a plan.
@@ -62,7 +74,8 @@ class CasePlan {
 
   /// Checks the input of every case.
   /// @throws InputErrors   the file or an override is wrong
-  /// @throws InvalidInput  the input of one case is wrong, or there are too many; a diagram without
+  /// @throws InvalidInput  the input of one case is wrong, names a file that cannot be read, or
+  ///                       there are too many; a key is both set and varied; a diagram without
   ///                       [diagram]
   explicit CasePlan(PlanParts parts);
 
@@ -70,7 +83,7 @@ class CasePlan {
   [[nodiscard]] const Input& input() const { return input_; }  ///< without what varies
   [[nodiscard]] std::size_t size() const { return names_.size(); }
   [[nodiscard]] Case at(std::size_t index) const;
-  /// Hash of version, program, input, mapped joints, seed and supports: 16 digits.
+  /// Hash of version, program, input, the mapped joints of this case, seed and supports: 16 digits.
   [[nodiscard]] const std::string& name(std::size_t index) const { return names_[index]; }
   [[nodiscard]] Input input_of(const Case& the_case) const;
   [[nodiscard]] SupportChoice supports_of(const Case& the_case, const Input& input) const;
@@ -90,19 +103,24 @@ class CasePlan {
 
   /// As a file that another machine goes on from: input, overrides and content in it.
   [[nodiscard]] std::string json() const;
-  /// @param path  of the file, for messages; mapped joints lie beside it (`joints_file_name`)
+  /// @param path  of the file, for messages; copies of mapped joints lie beside it
   /// @throws std::runtime_error  no plan, of another form, or made by another version or program
   [[nodiscard]] static CasePlan from_json(const std::string& text,
                                           const std::filesystem::path& path);
-  /// "sweep.joints.csv": where a plan keeps its copy of the mapped joints.
-  [[nodiscard]] static std::string joints_file_name(PlanVerb verb);
+  /// Those that its cases read, in the order of the cases.
+  [[nodiscard]] const std::vector<PlannedFile>& files() const { return files_; }
+  /// "sweep.joints.csv", "sweep.joints-2.csv": where a plan keeps its copies of `files()`.
+  [[nodiscard]] static std::string copy_name(PlanVerb verb, std::size_t file);
 
  private:
   [[nodiscard]] std::size_t combinations() const;  ///< of keys, or of places in a diagram
+  [[nodiscard]] Input read(const std::vector<std::string>& overrides) const;
+  /// Hash of the mapped joints of a case, which are then among `files_`; empty: it has none.
+  [[nodiscard]] std::string joints_of(const Input& input);
 
   PlanParts parts_;
   Input input_;
-  std::string joints_;  ///< hash of the mapped joints
+  std::vector<PlannedFile> files_;
   std::vector<std::string> names_, content_;
   std::string run_id_, work_id_;
 };

@@ -48,6 +48,7 @@ Realised::Realised(std::span<const TunnelResult> results) {
     marginal += r.marginal;
     failed += r.failed;
     const bool stands = !r.failed && r.verdict == Verdict::stable;
+    yielded += stands && r.has_yielded();
     undecided += !r.failed && r.verdict == Verdict::undecided;
     collapsed += !r.failed && r.verdict == Verdict::collapse;
     whole += stands && r.is_whole();
@@ -73,6 +74,9 @@ std::string Realised::verdicts() const {
   say(undecided, "undecided");
   say(failed, "failed");
   if (marginal > 0) text += "; " + std::to_string(marginal) + " of these marginal";
+  if (yielded > 0)
+    text += "; " + std::to_string(yielded) +
+            " of those that stand with bolts or feet at their strength";
   return text;
 }
 

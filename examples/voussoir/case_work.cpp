@@ -22,6 +22,8 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/io/atomic_file.hpp>
 
+#include "plausibility.hpp"
+
 namespace voussoir::program {
 
 namespace fs = std::filesystem;
@@ -95,25 +97,41 @@ class RockStore {
       rocks_;  ///< the last used first
 };
 
-TunnelResult failed(const std::string& reason) {
+TunnelResult failed(const std::string& reason, const Input& input) {
   TunnelResult result;
   result.failed = true;
   result.reason = reason;
+  result.warnings = unusual_values(input);
   return result;
+}
+
+/// Calls a file of joints what the input calls it: a result is the same wherever the file lies.
+void name_as_written(std::string& text, const PlannedFile& file) {
+  const std::string path = utf8_text(file.path);
+  for (std::size_t at = text.find(path); at != std::string::npos;
+       at = text.find(path, at + file.name.size()))
+    text.replace(at, path.size(), file.name);
 }
 
 TunnelResult computed(const CasePlan& plan, std::size_t index, RockStore& rocks,
                       const Report& report) {
   const Case the_case = plan.at(index);
   const Input input = plan.input_of(the_case);
+  TunnelResult result;
   try {
     const auto rock = rocks.of(input, report);
-    return supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
+    result = supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
   } catch (const std::logic_error& error) {  // InvalidInput, and an invariant that does not hold
-    return failed(error.what());
+    result = failed(error.what(), input);
   } catch (const NumericalFault& fault) {
-    return failed(fault.what());
+    result = failed(fault.what(), input);
   }
+  for (const PlannedFile& file : plan.files()) {
+    if (file.path != input.joints_file) continue;
+    name_as_written(result.reason, file);
+    for (std::string& warning : result.warnings) name_as_written(warning, file);
+  }
+  return result;
 }
 
 std::string journal_header(const CasePlan& plan) {
@@ -163,6 +181,10 @@ std::string result_json(const TunnelResult& r) {
                      {"largest_thrust_N_per_m", r.demand.largest_thrust},
                      {"mean_thrust_N_per_m", r.demand.mean_thrust},
                      {"largest_moment_Nm_per_m", r.demand.largest_moment},
+                     {"bolts_yielded", r.bolts_yielded},
+                     {"bolts_ruptured", r.bolts_ruptured},
+                     {"feet_yielded", r.feet_yielded},
+                     {"of_bolt_strength", r.of_bolt_strength},
                      {"error_estimate", r.error_estimate},
                      {"out_of_balance_force_ratio", r.out_of_balance},
                      {"blocks", r.blocks},
@@ -196,6 +218,10 @@ TunnelResult result_from_json(const std::string& text) {
     r.demand.largest_thrust = number_at(json, "largest_thrust_N_per_m");
     r.demand.mean_thrust = number_at(json, "mean_thrust_N_per_m");
     r.demand.largest_moment = number_at(json, "largest_moment_Nm_per_m");
+    r.bolts_yielded = json.at("bolts_yielded");
+    r.bolts_ruptured = json.at("bolts_ruptured");
+    r.feet_yielded = json.at("feet_yielded");
+    r.of_bolt_strength = number_at(json, "of_bolt_strength");
     r.error_estimate = number_at(json, "error_estimate");
     r.out_of_balance = number_at(json, "out_of_balance_force_ratio");
     r.blocks = json.at("blocks");
@@ -262,8 +288,8 @@ std::vector<std::size_t> FinishedCases::missing(const CasePlan& plan) const {
 
 void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
   const PlanVerb verb = plan.parts().verb;
-  const fs::path path = plan_file(folder, verb), journals = journal_folder(folder, verb),
-                 joints = folder / CasePlan::joints_file_name(verb);
+  const fs::path path = plan_file(folder, verb), journals = journal_folder(folder, verb);
+  const auto copy = [&](std::size_t file) { return folder / CasePlan::copy_name(verb, file); };
   if (fs::exists(path)) {
     std::vector<std::string> before;
     std::string trouble;
@@ -290,17 +316,20 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
   }
   if (discard) {
     fs::remove_all(journals);
-    fs::remove(joints);
+    std::size_t file = 0;
+    while (fs::remove(copy(file))) ++file;
     fs::remove(path);
   } else if (!journals_in(journals).empty()) {
     throw std::runtime_error("the folder " + utf8_text(folder) + " holds the journals of a " +
                              to_string(verb) + " without their plan, '" + utf8_text(path) +
                              "'\n   = accepted: another --out, or --discard to remove them");
   }
+  OutputSet files;
+  for (std::size_t k = 0; k < plan.files().size(); ++k)
+    files.add(copy(k), content_of(plan.files()[k].path));
+  files.add(path, plan.json());
+  files.publish();
   fs::create_directories(journals);
-  if (!plan.input().joints_file.empty())
-    write_atomically(joints, content_of(plan.input().joints_file));
-  write_atomically(path, plan.json());
 }
 
 CasePlan plan_in(const fs::path& path) {

@@ -64,7 +64,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
   CsvTable table({spacing_column(axes), "lining_thickness_cm", "verdict", "failed", "marginal",
                   "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
                   "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
-                  "largest_moment_kNm_per_m", "error_estimate", "out_of_balance_force_ratio"},
+                  "largest_moment_kNm_per_m", "bolt_joints_yielded", "bolt_joints_ruptured",
+                  "feet_yielded", "largest_bolt_force_of_its_strength", "error_estimate",
+                  "out_of_balance_force_ratio", "warnings"},
                  6);
   const double radius = plan.input().tunnel.half_width();
   for (const Place& place : places) {
@@ -73,7 +75,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
                   r.word(), !r.is_whole(), r.marginal, 1e3 * r.convergence.crown,
                   1e2 * r.convergence.crown / radius, r.fallen, 1e-3 * r.demand.largest_bolt_force,
                   1e-3 * r.demand.mean_bolt_force, 1e-3 * r.demand.largest_thrust,
-                  1e-3 * r.demand.largest_moment, r.error_estimate, r.out_of_balance);
+                  1e-3 * r.demand.largest_moment, r.bolts_yielded, r.bolts_ruptured, r.feet_yielded,
+                  strength_cell(r), r.error_estimate, r.out_of_balance, warnings_cell(r));
   }
   return table.text();
 }
@@ -91,6 +94,7 @@ std::string realised_csv(const CasePlan& plan, const std::vector<Place>& places)
                   "undecided",
                   "failed",
                   "marginal",
+                  "supports_yielded",
                   "rockfall_share",
                   "rockfall_share_low_95",
                   "rockfall_share_high_95",
@@ -113,12 +117,12 @@ std::string realised_csv(const CasePlan& plan, const std::vector<Place>& places)
     const Interval crowns = r.crown.mean_between().value_or(Interval{none, none});
     table.add_row(spacing_cell(axes.spacing[place.spacing]), 1e2 * axes.thickness[place.thickness],
                   r.count, r.whole, r.shedding, r.without_lining, r.collapsed, r.undecided,
-                  r.failed, r.marginal, share.trials > 0 ? share.value() : none, shares.low,
-                  shares.high, 1e3 * r.crown.mean(), 1e3 * r.crown.deviation(), 1e3 * crowns.low,
-                  1e3 * crowns.high, 1e3 * r.crown.quantile(), 1e-3 * r.largest_bolt_force.mean(),
-                  1e-3 * r.largest_bolt_force.quantile(), 1e-3 * r.largest_thrust.mean(),
-                  1e-3 * r.largest_thrust.quantile(), 1e-3 * r.largest_moment.mean(),
-                  1e-3 * r.largest_moment.quantile());
+                  r.failed, r.marginal, r.yielded, share.trials > 0 ? share.value() : none,
+                  shares.low, shares.high, 1e3 * r.crown.mean(), 1e3 * r.crown.deviation(),
+                  1e3 * crowns.low, 1e3 * crowns.high, 1e3 * r.crown.quantile(),
+                  1e-3 * r.largest_bolt_force.mean(), 1e-3 * r.largest_bolt_force.quantile(),
+                  1e-3 * r.largest_thrust.mean(), 1e-3 * r.largest_thrust.quantile(),
+                  1e-3 * r.largest_moment.mean(), 1e-3 * r.largest_moment.quantile());
   }
   return table.text();
 }
@@ -172,7 +176,7 @@ KeyNumber bolt_length(const CasePlan& plan) {
 std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) {
   double worst = 0;
   bool estimated = false;
-  int failed = 0, undecided = 0, marginal = 0;
+  int failed = 0, undecided = 0, marginal = 0, yielded = 0;
   InteractionPicture picture = picture_of(plan, places, [&](const Place& place) {
     const TunnelResult& r = place.tunnels.front();
     // Where rock detached but a crown remains, its convergence still belongs to the surface; a
@@ -183,6 +187,7 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
     marginal += shown.marginal;
     failed += shown.failed;
     undecided += shown.undecided;
+    yielded += stands && r.has_yielded();
     if (stands && std::isfinite(r.error_estimate)) {
       worst = std::max(worst, r.error_estimate);
       estimated = true;
@@ -207,6 +212,9 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
   if (marginal > 0)
     picture.header.key_numbers.push_back(
         {"tunnels marginal", std::to_string(marginal) + " of " + count});
+  if (yielded > 0)
+    picture.header.key_numbers.push_back(
+        {"stable with bolts or feet at their strength", std::to_string(yielded) + " of " + count});
   if (undecided > 0) {
     const std::string text = std::to_string(undecided) + " of " + count;
     picture.header.key_numbers.push_back({"tunnels undecided", text});
@@ -281,16 +289,9 @@ std::string table_text(const CasePlan& plan, const std::vector<Place>& places,
   return out;
 }
 
-std::string closing_text(const std::vector<TunnelResult>& results) {
-  std::string out = "boundary " + results.front().boundary + "\n";
-  std::vector<std::string> seen;
-  for (const TunnelResult& r : results)
-    for (const std::string& warning : r.warnings)
-      if (std::find(seen.begin(), seen.end(), warning) == seen.end()) {
-        seen.push_back(warning);
-        out += "warning  " + warning + "\n";
-      }
-  return out;
+std::string closing_text(const CasePlan& plan, const std::vector<TunnelResult>& results) {
+  return "boundary " + results.front().boundary + "\n" + strength_text(plan) +
+         warnings_text(results);
 }
 
 std::string tunnels_summary(const CasePlan& plan, const std::vector<Place>& places,
@@ -301,20 +302,21 @@ std::string tunnels_summary(const CasePlan& plan, const std::vector<Place>& plac
   if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.marginal; }))
     out +=
         "~: marginal, another displacement limit, other damping or slower unloading changes what falls\n";
-  out += "\n" + table_text(plan, places, [](const Place& place) {
+  const bool any_yielded =
+      std::any_of(results.begin(), results.end(), [](const auto& r) { return r.has_yielded(); });
+  if (any_yielded) out += "y: bolts or feet have reached their strength\n";
+  out += "\n" + table_text(plan, places, [&](const Place& place) {
            const TunnelResult& r = place.tunnels.front();
            const char* const mark = !r.is_decided()                  ? " ?"
                                     : r.verdict == Verdict::collapse ? " C"
                                     : !r.is_whole()                  ? " R"
                                                                      : "  ";
-           return millimetres_text(r.convergence.crown) + mark + (r.marginal ? "~" : " ");
+           return millimetres_text(r.convergence.crown) + mark + (r.marginal ? "~" : " ") +
+                  (!any_yielded      ? ""
+                   : r.has_yielded() ? "y"
+                                     : " ");
          });
-  out += closing_text(results);
-  const bool is_undecided =
-      std::any_of(results.begin(), results.end(), [](const auto& r) { return !r.is_decided(); });
-  if (is_undecided)
-    for (const std::string& text : unusual_values(plan.input()))
-      out += "warning  undecided, and " + text + "\n";
+  out += closing_text(plan, results);
   return out;
 }
 
@@ -327,6 +329,11 @@ std::string realised_summary(const CasePlan& plan, const std::vector<Place>& pla
     return millimetres_text(place.realised.crown.mean()) + " / " +
            millimetres_text(place.realised.crown.quantile());
   });
+  int yielded = 0;
+  for (const Place& place : places) yielded += place.realised.yielded;
+  if (yielded > 0)
+    out += "\nbolts or feet have reached their strength in " + std::to_string(yielded) + " of " +
+           std::to_string(results.size()) + " tunnels\n";
   out += "\nrealisations in which rock falls [%]; ?: some are undecided; ~: some are marginal\n\n";
   out += table_text(plan, places, [](const Place& place) {
     const Realised& r = place.realised;
@@ -334,7 +341,7 @@ std::string realised_summary(const CasePlan& plan, const std::vector<Place>& pla
     return readable_text(100 * r.rockfall().value()) + (r.decided() < r.count ? " ?" : "  ") +
            (r.marginal > 0 ? "~" : " ");
   });
-  return out + closing_text(results);
+  return out + closing_text(plan, results);
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include "blocks_input.hpp"
 #include "input_document.hpp"
 #include "input_section.hpp"
+#include "orientation_input.hpp"
+#include "plausibility.hpp"
 
 namespace voussoir::program {
 
@@ -178,9 +180,7 @@ void read_tunnel(Section& s, TunnelInput& tunnel) {
 
 void read_joint_set(Section& s, JointSetInput& set) {
   s.text("name", set.name);
-  s.quantity("dip", set.dip, dimension::angle, between(0, degrees(90)), Need::required);
-  s.choice<DipDirection>("dip_direction", set.dip_direction,
-                         {{"E", DipDirection::east}, {"W", DipDirection::west}}, Need::required);
+  read_orientation(s, set, Need::required);
   s.quantity("sd", set.sd, dimension::angle, between(0, degrees(45)), Need::optional);
   // One of the two, so the one that is there decides which of them is needed.
   const bool both = s.has("intensity") && s.has("spacing");
@@ -196,6 +196,12 @@ void read_joint_set(Section& s, JointSetInput& set) {
   } else if (!s.has("intensity") && !s.has("spacing")) {
     s.complain("intensity", "is missing, and so is spacing",
                R"(either intensity = "1 /m^2" or spacing = "1.2 m")");
+  } else if (set.intensity && std::isinf(set.extent) && !s.faulty("extent")) {
+    s.complain(
+        "intensity",
+        "counts centres per area, and of joints without extent more reach into a large "
+        "domain than into a small one",
+        R"(extent = "2 m", the length of their traces; or spacing = "1.2 m" in place of intensity: joints that go right through, as far apart in any domain)");
   }
 }
 
@@ -393,7 +399,8 @@ void read_run(Section& s, RunInput& run) {
   run.contact_update_limit = contact_update_limit.value_or(run.contact_update_limit);
   if (contact_update_limit && displacement_limit && *contact_update_limit >= *displacement_limit)
     s.complain("contact_update_limit",
-               "is never reached: a block that has moved so far is detached",
+               "is never reached: a block that has moved so far is detached (displacement_limit: " +
+                   format_quantity(*displacement_limit, dimension::length) + ")",
                "a length below displacement_limit");
   if (const auto value = s.find("max_steps", Need::optional))
     run.max_steps = value->as_integer(1, 2'000'000'000);
@@ -522,22 +529,27 @@ void check_opening(Checker& checker, const Input& input) {
   const double half_width = input.tunnel.half_width();
   const std::string below =
       "below " + format_quantity(half_width, dimension::length) + ", half the width of the opening";
+  const char* const keys[] = {"diameter", "width", "vertices"};
+  const std::string opening = std::string(" (tunnel.") +
+                              keys[static_cast<int>(input.tunnel.shape)] + ": " +
+                              format_quantity(2 * half_width, dimension::length) + " wide)";
   if (!checker.faulty("model")) {
     double reach = half_width;  // of the opening to a side; a polygon may sit off its centre
     for (const Point& vertex : input.tunnel.vertices) reach = std::max(reach, std::abs(vertex[0]));
     if (!(reach < input.model.width / 2)) {
-      checker.report("model.width", "leaves no ground beside the opening",
+      checker.report("model.width", "leaves no ground beside the opening" + opening,
                      "above " + format_quantity(2 * reach, dimension::length));
     }
   }
   if (!checker.faulty("blocks") && !(input.blocks.min_inscribed_radius < half_width))
-    checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening", below);
+    checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening" + opening,
+                   below);
   if (input.lining && !checker.faulty("support.lining.thickness") &&
       !(input.lining->thickness < half_width))
-    checker.report("support.lining.thickness", "fills the opening", below);
+    checker.report("support.lining.thickness", "fills the opening" + opening, below);
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
-    checker.report("diagram.thickness", "fills the opening", below);
+    checker.report("diagram.thickness", "fills the opening" + opening, below);
 }
 
 std::string counted(double count) {
@@ -606,14 +618,16 @@ void check_size(Checker& checker, const Input& input) {
   for (const char* key : {"model", "tunnel", "joint_set", "blocks"})
     if (checker.faulty(key)) return;
   const SizeEstimate size = estimate_size(input);
-  if (size.joints > largest_count) {
-    checker.report("joint_set", "would come to about " + counted(size.joints) + " joints",
+  const bool has_many_joints = size.joints > largest_count;
+  if (!has_many_joints && !(size.blocks > largest_count)) return;
+  const std::string blamed = unusual_among(input, {"model.", "tunnel.", "joint_set", "blocks."});
+  if (has_many_joints)
+    checker.report("joint_set", "would come to about " + counted(size.joints) + " joints" + blamed,
                    "at most 1000000 in the domain: a smaller domain, or fewer joints");
-  } else if (size.blocks > largest_count) {
-    checker.report("joint_set", "would come to about " + counted(size.blocks) + " blocks",
+  else
+    checker.report("joint_set", "would come to about " + counted(size.blocks) + " blocks" + blamed,
                    "at most 1000000 in the domain: a smaller domain, fewer joints, or a larger "
                    "blocks.min_inscribed_radius");
-  }
 }
 
 void check_bolts(Checker& checker, const BoltsInput& bolts) {
@@ -704,51 +718,8 @@ double TunnelInput::invert() const {
   return y;
 }
 
-std::vector<std::string> unusual_values(const Input& input) {
-  std::vector<std::string> unusual;
-  const auto look = [&](const std::string& key, double value, double low, double high,
-                        const Dimension& dimension) {
-    if (value >= low && value <= high) return;
-    unusual.push_back(key + " = " + format_quantity(value, dimension) +
-                      " is unusual (common: " + format_quantity(low, dimension) + " to " +
-                      format_quantity(high, dimension) + ")");
-  };
-  const auto look_at_joints = [&](const std::string& table, double kn, double ks) {
-    look(table + ".kn", kn, 1e8, 2e11, dimension::stiffness_per_area);
-    look(table + ".ks", ks, 1e7, 1e11, dimension::stiffness_per_area);
-  };
-  look("model.gravity", input.model.gravity, 5, 20, dimension::acceleration);
-  look("rock.density", input.rock.density, 1500, 4500, dimension::density);
-  look_at_joints("joint", input.joint.normal_stiffness, input.joint.shear_stiffness);
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
-    const JointSetInput& set = input.joint_sets[k];
-    look_at_joints("joint_set[" + std::to_string(k) + "]", set.normal_stiffness.value_or(1e9),
-                   set.shear_stiffness.value_or(1e9));
-  }
-  if (input.bolts) {
-    look("support.bolts.stiffness", input.bolts->stiffness, 1e6, 1e10, dimension::stiffness);
-    if (input.bolts->law == BoltLaw::axial_shear)
-      look("support.bolts.shear_stiffness", input.bolts->shear_stiffness, 1e5, 1e10,
-           dimension::stiffness);
-    look("support.bolts.out_of_plane", input.bolts->out_of_plane, 0.2, 10, dimension::length);
-  }
-  if (input.lining) {
-    look("support.lining.E", input.lining->young_modulus, 1e9, 3e11, dimension::pressure);
-    look("support.lining.interface.kn", input.lining->interface_normal_stiffness, 1e7, 1e11,
-         dimension::stiffness_per_area);
-    look("support.lining.interface.ks", input.lining->interface_shear_stiffness, 1e6, 1e11,
-         dimension::stiffness_per_area);
-    if (input.lining->feet) {
-      look("support.lining.feet.stiffness", input.lining->feet->stiffness, 1e7, 1e11,
-           dimension::stiffness_per_area);
-      look("support.lining.feet.strength", input.lining->feet->strength.value_or(1e7), 1e5, 1e9,
-           dimension::pressure);
-    }
-  }
-  if (input.run.tolerance < 1e-5)
-    unusual.push_back("run.tolerance = " + significant_text(input.run.tolerance, 3) +
-                      " is unusual (common: 0.0001 to 0.01)");
-  return unusual;
+bool names_a_file(std::string_view line) {
+  return line.starts_with("joints.file = ") || line.starts_with("blocks.file = ");
 }
 
 double Input::domain_top() const { return tunnel.crown() + tunnel.cover; }

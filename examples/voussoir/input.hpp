@@ -270,6 +270,10 @@ struct Input {
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
 };
 
+/// Whether a line of `Input::content` names a file: what that holds decides the results, wherever
+/// it lies and whatever it is called.
+[[nodiscard]] bool names_a_file(std::string_view line);
+
 /// The outline of the tunnel. @pre its keys are read without fault
 [[nodiscard]] SimplePolygon opening_of(const Input& input);
 
@@ -287,10 +291,6 @@ struct SizeEstimate {
 ///          masses). Joints of a file are counted when they are read, with the same limits.
 [[nodiscard]] SizeEstimate estimate_size(const Input& input);
 
-/// Keys whose values are accepted but far from what rock, steel and concrete have: first to look at
-/// where a search finds no end. "joint.kn = 500 GPa/m is unusual (common: ...)".
-[[nodiscard]] std::vector<std::string> unusual_values(const Input& input);
-
 /// One thing that is wrong with an input, and where.
 struct InputError {
   std::string file;           ///< name of the file as the user gave it
@@ -307,15 +307,22 @@ struct InputError {
   [[nodiscard]] std::string text() const;
 };
 
-/// Everything that is wrong with an input, in the order of its lines; `what()` holds all of it.
+/// What is wrong with an input, in the order of its lines; `what()` holds the first `most_shown`
+/// and how many there are.
 class InputErrors : public std::runtime_error {
  public:
+  /// A page of them: a file with more is not an input with slips.
+  static constexpr std::size_t most_shown = 50;
+
+  /// @param more  that were found besides
   /// @pre  errors is not empty
-  explicit InputErrors(std::vector<InputError> errors);
+  explicit InputErrors(std::vector<InputError> errors, std::size_t more = 0);
   [[nodiscard]] const std::vector<InputError>& errors() const { return errors_; }
+  [[nodiscard]] std::size_t more() const { return more_; }
 
  private:
   std::vector<InputError> errors_;
+  std::size_t more_;
 };
 
 /// Reads a file and checks all of it.

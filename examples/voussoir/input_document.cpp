@@ -428,16 +428,18 @@ std::string InputError::text() const {
 }
 
 namespace {
-std::string all_texts(const std::vector<InputError>& errors) {
+std::string all_texts(const std::vector<InputError>& errors, std::size_t more) {
   std::string result;
-  for (const InputError& error : errors) result += error.text() + "\n";
-  return result + (errors.size() == 1 ? "1 error" : std::to_string(errors.size()) + " errors") +
-         " in the input";
+  const std::size_t count = errors.size() + more,
+                    shown = std::min(errors.size(), InputErrors::most_shown);
+  for (std::size_t k = 0; k < shown; ++k) result += errors[k].text() + "\n";
+  return result + (count == 1 ? "1 error" : std::to_string(count) + " errors") + " in the input" +
+         (shown < count ? ", of which the first " + std::to_string(shown) + " are shown" : "");
 }
 }  // namespace
 
-InputErrors::InputErrors(std::vector<InputError> errors)
-    : std::runtime_error(all_texts(errors)), errors_(std::move(errors)) {}
+InputErrors::InputErrors(std::vector<InputError> errors, std::size_t more)
+    : std::runtime_error(all_texts(errors, more)), errors_(std::move(errors)), more_(more) {}
 
 std::string printable(std::string_view text) {
   std::string result;

@@ -68,6 +68,15 @@ std::string value_text(const Node& node) {
   }
 }
 
+/// The file first, from its top to its end, then overrides.
+std::tuple<bool, int, int> place_order(bool is_override, int line, int column) {
+  return {is_override, line, column};
+}
+bool is_before(const Place& a, const Place& b) {
+  return place_order(a.override_index >= 0, a.line, a.column) <
+         place_order(b.override_index >= 0, b.line, b.column);
+}
+
 }  // namespace
 
 std::string Range::text(const Dimension* dimension) const {
@@ -148,7 +157,15 @@ void Checker::declare(const std::string& table, std::vector<std::string> known,
 }
 
 void Checker::finish() {
-  for (const Table& table : tables_) {
+  std::size_t more = 0;
+  for (Table& table : tables_) {
+    // Each is compared with every key there is, and only the first are shown.
+    std::sort(table.unknown.begin(), table.unknown.end(),
+              [](const Entry* a, const Entry* b) { return is_before(a->place, b->place); });
+    if (table.unknown.size() > InputErrors::most_shown) {
+      more += table.unknown.size() - InputErrors::most_shown;
+      table.unknown.resize(InputErrors::most_shown);
+    }
     for (const Entry* entry : table.unknown) {
       const std::string key = shown_key(entry->key);
       std::string message =
@@ -166,12 +183,11 @@ void Checker::finish() {
     }
   }
   if (errors_.empty()) return;
-  const auto order = [](const InputError& error) {
-    return std::tuple(!error.override_text.empty(), error.line, error.column);
-  };
-  std::stable_sort(errors_.begin(), errors_.end(),
-                   [&](const InputError& a, const InputError& b) { return order(a) < order(b); });
-  throw InputErrors(errors_);
+  std::stable_sort(errors_.begin(), errors_.end(), [](const InputError& a, const InputError& b) {
+    return place_order(!a.override_text.empty(), a.line, a.column) <
+           place_order(!b.override_text.empty(), b.line, b.column);
+  });
+  throw InputErrors(errors_, more);
 }
 
 void Value::refuse(const std::string& complaint, const std::string& accepted) const {

@@ -150,6 +150,9 @@ class Section {
     return node_ != nullptr && node_->find(key) != nullptr;
   }
 
+  /// See `Checker::faulty`.
+  [[nodiscard]] bool faulty(std::string_view key) const { return checker_.faulty(full(key)); }
+
   /// Reports at a key of this table, or at the table if the key is not there.
   void complain(std::string_view key, const std::string& complaint, std::string accepted) {
     checker_.report(full(key), complaint, std::move(accepted));

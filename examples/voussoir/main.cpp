@@ -110,7 +110,7 @@ int run_verb(const Options& options) {
   work.doing = "writing the results";
   const std::string id = RunId("tunnel").add(input).text();
   outputs.add("run.json", run_json(input, run), id);
-  outputs.add("bolts.csv", bolts_csv(run), id);
+  outputs.add("bolts.csv", bolts_csv(input, run), id);
   outputs.add("lining.csv", lining_csv(run), id);
   outputs.add("blocks.svg", blocks_svg(input, run), id);
   if (!options.quiet) std::cout << run_summary(input, run);
@@ -395,6 +395,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   voussoir::keep_freed_memory();
+  voussoir::let_writes_beyond_limit_fail();
   const voussoir::PlainOutput plain;
   std::vector<std::string> words = voussoir::program_arguments(argc, argv);
   std::vector<char*> arguments;

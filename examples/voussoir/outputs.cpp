@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,47 @@ std::string text(const char* format, double value) {
 
 std::string computed(const char* format, double value) {
   return std::isfinite(value) ? text(format, value) : "not computed";
+}
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+nlohmann::json strength_json(double strength) {
+  if (!std::isfinite(strength)) return not_checked;
+  return text("%.6g kN", 1e-3 * strength);
+}
+nlohmann::json of_strength_json(double force, double strength) {
+  if (!std::isfinite(strength)) return nullptr;
+  return force / strength;
+}
+
+/// In a bar of the diameter that the anchors have [Pa].
+double bar_stress(const BoltsInput& bolts, const SupportDemand& demand) {
+  return demand.largest_bolt_force / (0.25 * std::numbers::pi * bolts.diameter * bolts.diameter);
+}
+/// N / t + 6 |M| / t^2 of thrust and moment, the largest of all linings [Pa].
+double lining_stress(const RunResult& run, const LiningInput& lining) {
+  const double t = lining.thickness;
+  double most = 0;
+  for (const auto* one : run.tunnel.linings())
+    for (const LiningForce& at : lining_forces(run.tunnel, *one))
+      most = std::max(most, std::abs(at.thrust) / t + 6 * std::abs(at.moment) / (t * t));
+  return most;
+}
+/// Which supports nothing says of whether they bear what they carry; empty: none.
+std::string strength_line(const Input& input, const RunResult& run, const SupportDemand& demand) {
+  std::string names;
+  for (const std::string& name : unchecked_supports(input)) {
+    const bool is_there =
+        name == "bolts" ? run.tunnel.bolt_count() > 0 : run.tunnel.first_lining_node() >= 0;
+    if (!is_there) continue;
+    names += (names.empty() ? "" : ", ") + name;
+    if (name == "bolts")
+      names += text(" (up to %.3g MPa", 1e-6 * bar_stress(*input.bolts, demand)) +
+               text(" in a bar of %.3g mm)", 1e3 * input.bolts->diameter);
+    if (name == "lining")
+      names += text(" (up to %.3g MPa)", 1e-6 * lining_stress(run, *input.lining));
+  }
+  return names.empty() ? "" : "strength " + names + ": " + not_checked + "\n";
 }
 
 double opening_diameter(const RunResult& run) {
@@ -235,14 +277,21 @@ std::string run_json(const Input& input, const RunResult& run) {
                         {"most_detached_area_m2", range->high},
                         {"another_verdict", range->has_other_verdict},
                         {"near_collapse", range->is_near_collapse}};
+  const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
-    json["bolts"] = {{"count", run.tunnel.bolt_count()},
+    json["bolts"] = {{"strength", strength_json(strength)},
+                     {"of_its_strength", of_strength_json(e.largest_bolt_force, strength)},
+                     {"largest_stress_in_bar_MPa", 1e-6 * bar_stress(*input.bolts, e)},
+                     {"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
                      {"mean_over_p0_D_and_spacing",
                       e.mean_bolt_force / (centre_stress * diameter * input.bolts->out_of_plane)}};
   if (run.tunnel.first_lining_node() >= 0)
-    json["lining"] = {{"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
+    json["lining"] = {{"strength", strength_json(unlimited)},
+                      {"of_its_strength", nullptr},
+                      {"largest_stress_MPa", 1e-6 * lining_stress(run, *input.lining)},
+                      {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
   if (run.bonded_nodes > 0) json["lining"]["nodes_chosen_for_the_bond"] = run.bonded_nodes;
@@ -252,7 +301,9 @@ std::string run_json(const Input& input, const RunResult& run) {
                                       {"bearing_kN_per_m", 1e-3 * foot.bearing},
                                       {"shear_kN_per_m", 1e-3 * foot.shear},
                                       {"of_its_strength", foot.utilisation},
-                                      {"settlement_mm", 1e3 * foot.settlement}});
+                                      {"settlement_mm", 1e3 * foot.settlement},
+                                      {"settlement_that_stays_mm", 1e3 * foot.plastic_settlement}});
+    if (!input.lining->feet->strength) json["lining"]["feet"].back()["strength"] = not_checked;
     if (input.lining->feet->beam)
       json["lining"]["feet"].back()["beam_moment_kNm"] =
           1e-3 * beam_moment(*input.lining->feet, foot.bearing);
@@ -260,8 +311,9 @@ std::string run_json(const Input& input, const RunResult& run) {
   return json.dump(2) + "\n";
 }
 
-std::string bolts_csv(const RunResult& run) {
-  return bolt_table(bolt_forces(run.tunnel), run.built.bars);
+std::string bolts_csv(const Input& input, const RunResult& run) {
+  return bolt_table(bolt_forces(run.tunnel), run.built.bars,
+                    input.bolts ? bolt_strength(*input.bolts) : unlimited);
 }
 
 std::string lining_csv(const RunResult& run) { return lining_table(lining_forces(run.tunnel)); }
@@ -353,8 +405,9 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "feet    ";
     for (const auto& foot : feet)
       out += (&foot == &feet.front() ? " " : ", ") + text("%.0f kN/m", 1e-3 * foot.bearing) +
-             (foot.utilisation > 0 ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
-                                   : std::string());
+             (std::isfinite(foot.utilisation)
+                  ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
+                  : std::string());
     const FeetInput& made = *input.lining->feet;
     if (made.beam) {
       double most = 0;
@@ -365,6 +418,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
     }
     out += "\n";
   }
+  out += strength_line(input, run, e);
   for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";
   return out;
 }

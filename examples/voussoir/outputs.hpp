@@ -13,7 +13,7 @@ namespace voussoir::program {
 /// Everything about a run that is a number or a sentence (schema 1).
 [[nodiscard]] std::string run_json(const Input& input, const RunResult& run);
 /// One row per bolt and joint crossed.
-[[nodiscard]] std::string bolts_csv(const RunResult& run);
+[[nodiscard]] std::string bolts_csv(const Input& input, const RunResult& run);
 /// One row per lining node.
 [[nodiscard]] std::string lining_csv(const RunResult& run);
 /// The rock around the tunnel with its supports.

@@ -39,7 +39,7 @@ RunId& RunId::add(const Input& input) {
 RunId& RunId::add_keys(const Input& input) {
   // Mapped joints are what they are wherever their file lies.
   for (const std::string& line : input.content)
-    if (!line.starts_with("joints.file = ") && !line.starts_with("blocks.file = ")) add(line);
+    if (!names_a_file(line)) add(line);
   return add(std::to_string(input.model.seed));
 }
 

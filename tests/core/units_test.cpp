@@ -118,6 +118,17 @@ TEST_SUITE("core/units") {
         {"35 deg", dimension::number, "is an angle, not a fraction"},
         {"40 %", dimension::angle, "is a fraction, not an angle"},
         {"3 m^4", dimension::length, "is a quantity in m^4, not a length"},
+        // 26 kN/m^3 over 9.80665 m/s^2, the standard gravity
+        {"26 kN/m^3", dimension::density, "is a unit weight: density 2651 kg/m^3"},
+        {"0.027 MN/m3", dimension::density, "is a unit weight: density 2753 kg/m^3"},
+        {"5 GPa/m", dimension::density, "is a stiffness per area, not a density"},
+        // By definition: 0.3048 m, 0.0254 m, 400 gon on a circle, 0.45359237 kg.
+        {"10 ft", dimension::length, "is 3.048 m"},
+        {"2 in", dimension::length, "is 0.0508 m"},
+        {"50gon", dimension::angle, "is 45 deg"},
+        {"3000 psi", dimension::pressure, "is 20684.3 kPa"},
+        {"165 lb/ft^3", dimension::density, "has the unit `lb`, which is 0.4535924 kg"},
+        {"3 m/ft", dimension::number, "has the unit `ft`, which is 0.3048 m"},
     };
     for (const Case& c : cases) {
       CAPTURE(c.text);

@@ -67,7 +67,8 @@ std::map<std::string, std::string> results_in(const std::string& folder) {
   for (const auto& [path, text] : contents(folder)) {
     const std::string name = fs::path(path).filename().string();
     if (fs::path(path).parent_path() == fs::path(folder) && fs::is_regular_file(path) &&
-        !name.ends_with(".plan.json") && !name.ends_with(".joints.csv") && !name.starts_with("."))
+        !name.ends_with(".plan.json") && name.find(".joints") == std::string::npos &&
+        !name.starts_with("."))
       files[name] = text;
   }
   return files;
@@ -117,7 +118,9 @@ TEST_SUITE("program/cases") {
                                                     {"k=1..2:1", "2 to 10000"},
                                                     {"k=1..2:2.5", "2 to 10000"},
                                                     {"k=1..1:3", "different numbers"},
-                                                    {"k=1..m:3", "ends with a number"}};
+                                                    {"k=1..m:3", "ends with a number"},
+                                                    // 1, 1.5, 2 or 1, 0.6, 0.2: it reads two ways
+                                                    {"k=1...2:3", "two dots between its ends"}};
     for (const auto& fault : faulty) {
       CAPTURE(fault.first);
       CHECK_THROWS_WITH_AS((void)varied_key(fault.first), doctest::Contains(fault.second.c_str()),
@@ -151,6 +154,71 @@ TEST_SUITE("program/cases") {
     CHECK(one.run_id() != other.run_id());
     CHECK(CasePlan(parts_of(PlanVerb::sweep, "# a remark\n" + text, {friction, thickness}, 3))
               .run_id() == one.run_id());
+  }
+
+  TEST_CASE("a key that is set and varied, or varied twice, is refused: one would not count") {
+    PlanParts parts = parts_of(PlanVerb::sweep, small_input(), {{"joint.kn", {"4 GPa/m"}}});
+    parts.overrides = {"stress.K0=1.2", "joint.ks=1 GPa/m"};
+    CHECK(CasePlan(parts).at(0).overrides == std::vector<std::string>{"joint.kn=4 GPa/m"});
+    const auto refused = [&](const std::string& set, const std::string& varied,
+                             const std::string& words) {
+      CAPTURE(set);
+      CAPTURE(varied);
+      PlanParts both = parts;
+      both.overrides.push_back(set);
+      both.varied.push_back({varied, {"1"}});
+      CHECK_THROWS_WITH_AS(CasePlan{both}, doctest::Contains(words.c_str()), InvalidInput);
+    };
+    refused(" joint.kn = 3 GPa/m", "stress.surcharge",
+            "--vary joint.kn: --set  joint.kn = 3 GPa/m gives the same key a value");
+    refused("joint_set[01].dip=30 deg", "joint_set[1].dip", "gives the same key a value");
+    refused("joint_set[1].dip=30 deg", "joint_set", "gives the same key a value");
+    refused("title=x", "joint.kn", "is given twice");
+    refused("title=x", "joint", "give the same key a value");
+  }
+
+  TEST_CASE("a case is named by what its own file of joints holds, wherever that lies") {
+    const Folder folder;
+    const std::string text = small_input();
+    write_file(folder / "a.csv", "-9,3,9,3\n");
+    write_file(folder / "b.csv", "-9,-3,9,-2\n");
+    write_file(folder / "copy of a.csv", "-9,3,9,3\n");
+    const auto plan_of = [&](const std::vector<std::string>& files, const std::string& base = "") {
+      PlanParts parts = parts_of(
+          PlanVerb::sweep,
+          base.empty()
+              ? text
+              : replaced(text, "[joint]\n", "[joints]\nfile = \"" + base + "\"\n[joint]\n"),
+          {{"joints.file", files}});
+      parts.directory = voussoir::utf8_path(folder / "");
+      return CasePlan(parts);
+    };
+    const CasePlan both = plan_of({"a.csv", "b.csv"});
+    CHECK(both.name(0) != both.name(1));
+    REQUIRE(both.files().size() == 2);
+    CHECK(both.files()[0].hash != both.files()[1].hash);
+    // The other order, another base file that no case reads, another name of the same joints.
+    const CasePlan turned = plan_of({"b.csv", "a.csv"}, "is not there.csv");
+    CHECK(turned.name(0) == both.name(1));
+    CHECK(turned.name(1) == both.name(0));
+    CHECK(plan_of({"copy of a.csv"}).name(0) == both.name(0));
+    // What one of the files holds is part of the plan.
+    write_file(folder / "b.csv", "-9,-3,9,-2.5\n");
+    const CasePlan changed = plan_of({"a.csv", "b.csv"});
+    CHECK(changed.name(0) == both.name(0));
+    CHECK(changed.name(1) != both.name(1));
+    CHECK(changed.run_id() != both.run_id());
+    CHECK(changed.work_id() != both.work_id());
+    CHECK_THROWS_WITH_AS(plan_of({"a.csv", "copy of a.csv"}),
+                         doctest::Contains("two cases are the same: joints.file=a.csv, seed 3 and "
+                                           "joints.file=copy of a.csv, seed 3"),
+                         InvalidInput);
+    // The one that is missing is to blame, and its case.
+    CHECK_THROWS_WITH_AS(plan_of({"a.csv", "c.csv"}, "a.csv"),
+                         doctest::Contains("c.csv is no file that can be read again and again"),
+                         InvalidInput);
+    CHECK_THROWS_WITH_AS(plan_of({"a.csv", "c.csv"}, "a.csv"),
+                         doctest::Contains("in the case joints.file=c.csv, seed 3"), InvalidInput);
   }
 
   TEST_CASE("the order of work has every case once, those of one rock together") {
@@ -194,6 +262,10 @@ TEST_SUITE("program/cases") {
     r.out_of_balance = 1e-17;
     r.blocks = 12345;
     r.marginal = true;
+    r.bolts_yielded = 3;
+    r.bolts_ruptured = 2;
+    r.feet_yielded = 1;
+    r.of_bolt_strength = 1.0 / 3;
     r.boundary = "rollers";
     r.warnings = {"one", "two"};
     const TunnelResult back = result_from_json(result_json(r));
@@ -204,7 +276,8 @@ TEST_SUITE("program/cases") {
     CHECK(std::signbit(back.convergence.right_springing));
     CHECK(std::isnan(back.convergence.invert));
     CHECK(back.reason == r.reason);
-    CHECK(back.word() == "stable after rockfall");
+    CHECK(back.word() ==
+          "stable after rockfall, bolts yielded, bolts ruptured, feet at their strength");
     CHECK_THROWS_AS((void)result_from_json("{}"), std::runtime_error);
     CHECK_THROWS_AS((void)result_from_json("{\"verdict\":"), std::runtime_error);
   }
@@ -552,11 +625,9 @@ TEST_SUITE("program/cases") {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit small{8000, before.rlim_max};
-    std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     const Outcome full = run_program(sweep(file, out, {"-j", "2"}));
     setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, SIG_DFL);
     CAPTURE(full.err);
     CHECK(full.status == 1);
     CHECK(full.err.find("cannot write '") != std::string::npos);
@@ -567,6 +638,31 @@ TEST_SUITE("program/cases") {
     CHECK(run_program(sweep(file, out)).status == 0);
     for (const auto& [name, count] : finished_in(out)) CHECK(count == 1);
     CHECK(results_in(out) == results_in(folder / "whole"));
+  }
+
+  TEST_CASE("a limit on the size of files is a sentence, never a signal, and leaves nothing") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", small_input());
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    // Too little for the lock, for a plan, for a picture.
+    for (const rlim_t bytes : {0U, 1000U, 8000U})
+      for (const std::string verb : {"run", "sweep"}) {
+        if (verb == "sweep" && bytes == 8000U) continue;  // it has a journal to go on from, above
+        CAPTURE(bytes);
+        CAPTURE(verb);
+        const std::string out = folder / (verb + std::to_string(bytes));
+        const rlimit small{bytes, before.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+        const Outcome full = verb == "run" ? run_program({"run", file, "--out", out})
+                                           : run_program(sweep(file, out));
+        setrlimit(RLIMIT_FSIZE, &before);
+        CAPTURE(full.err);
+        CHECK(full.status == 1);
+        if (bytes > 0) CHECK(full.err.find("File too large") != std::string::npos);
+        CHECK(contents(out).empty());
+        CHECK(!fs::exists(out));
+      }
   }
 
   TEST_CASE(
@@ -601,6 +697,61 @@ TEST_SUITE("program/cases") {
     CHECK(results_in(folder / "merged") == results_in(folder / "local"));
     write_file(folder / "elsewhere/sweep.joints.csv", "-9,3,9,3\n");
     const Outcome changed = run_program({"case", folder / "elsewhere", "--chunk", "1/1"});
+    CHECK(changed.status == 1);
+    CHECK(changed.err.find("joints.file (its content)") != std::string::npos);
+  }
+
+  TEST_CASE("mapped joints that vary: every row is of its own file, here and where the plan goes") {
+    const Folder folder;
+    const std::string file = write_file(
+        folder / "case.toml",
+        replaced(small_input(), "[joint]\n", "[joints]\nfile = \"north.csv\"\n[joint]\n"));
+    // Most traces of the north miss the ground, which a warning says with the name of the file.
+    const std::string north = write_file(
+        folder / "north.csv", "-9,3,9,3\n-9,-3,9,-2\n-900,-3,-800,-2\n900,3,800,2\n900,5,800,6\n");
+    const std::string south = write_file(folder / "south.csv", "-9,4,9,2.5\n-9,0.5,9,0\n");
+    const auto sweep_of = [&](const std::string& files, const std::string& out,
+                              const std::vector<std::string>& more = {}) {
+      std::vector<std::string> arguments = {"sweep", file, "--vary", "joints.file=" + files,
+                                            "--out", out};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run_program(arguments);
+    };
+    const auto rows = [&](const std::string& out) {
+      std::map<std::string, std::string> of_file;  // without the name and the id of the run
+      std::string text = read_file(out + "/sweep.csv");
+      for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+        const std::string row = text.substr(at, text.find('\n', at) - at);
+        const std::size_t comma = row.find(',');
+        of_file[row.substr(0, comma)] = row.substr(comma, row.rfind(',') - comma);
+      }
+      return of_file;
+    };
+    REQUIRE(sweep_of("north.csv, south.csv", folder / "both").status == 0);
+    const auto both = rows(folder / "both");
+    REQUIRE(both.count("north.csv") == 1);
+    REQUIRE(both.count("south.csv") == 1);
+    CHECK(both.at("north.csv") != both.at("south.csv"));
+    CHECK(both.at("north.csv").find("joints.file: north.csv: ") != std::string::npos);
+    REQUIRE(sweep_of("south.csv", folder / "alone").status == 0);
+    CHECK(rows(folder / "alone").at("south.csv") == both.at("south.csv"));
+    REQUIRE(sweep_of("south.csv, north.csv", folder / "turned", {"-j", "2"}).status == 0);
+    CHECK(rows(folder / "turned").at("south.csv") == both.at("south.csv"));
+    CHECK(rows(folder / "turned").at("north.csv") == both.at("north.csv"));
+
+    REQUIRE(sweep_of("north.csv, south.csv", folder / "plan", {"--plan", "slurm", "--chunks", "2"})
+                .status == 0);
+    fs::remove(north);
+    fs::remove(south);
+    for (const std::string part : {"1/2", "2/2"}) {
+      const Outcome chunk = run_program({"case", folder / "plan", "--chunk", part});
+      CAPTURE(chunk.err);
+      CHECK(chunk.status == 0);
+    }
+    CHECK(run_program({"merge", folder / "plan", "-o", folder / "merged"}).status == 0);
+    CHECK(results_in(folder / "merged") == results_in(folder / "both"));
+    write_file(folder / "plan/sweep.joints-2.csv", "-9,3,9,3\n");
+    const Outcome changed = run_program({"merge", folder / "plan"});
     CHECK(changed.status == 1);
     CHECK(changed.err.find("joints.file (its content)") != std::string::npos);
   }

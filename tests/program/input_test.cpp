@@ -13,6 +13,7 @@
 #include <vector>
 #include <voussoir/equilibrium/equilibrium.hpp>
 
+#include "plausibility.hpp"
 #include "support/near.hpp"
 
 using namespace voussoir::program;
@@ -58,54 +59,56 @@ const std::string good =
     /* 16 */
     "intensity = \"1 /m^2\"\n"
     /* 17 */
-    "[joint]\n"
+    "extent = \"1 m\"\n"
     /* 18 */
-    "kn = \"5 GPa/m\"\n"
+    "[joint]\n"
     /* 19 */
-    "ks = \"0.5 GPa/m\"\n"
+    "kn = \"5 GPa/m\"\n"
     /* 20 */
-    "friction = \"35 deg\"\n"
+    "ks = \"0.5 GPa/m\"\n"
     /* 21 */
-    "[blocks]\n"
+    "friction = \"35 deg\"\n"
     /* 22 */
-    "min_inscribed_radius = \"0.25 m\"\n"
+    "[blocks]\n"
     /* 23 */
-    "[support.bolts]\n"
+    "min_inscribed_radius = \"0.25 m\"\n"
     /* 24 */
-    "length = \"4 m\"\n"
+    "[support.bolts]\n"
     /* 25 */
-    "spacing = \"15 deg\"\n"
+    "length = \"4 m\"\n"
     /* 26 */
-    "stiffness = \"0.2 GN/m\"\n"
+    "spacing = \"15 deg\"\n"
     /* 27 */
-    "[support.lining]\n"
+    "stiffness = \"0.2 GN/m\"\n"
     /* 28 */
-    "thickness = \"10 cm\"\n"
+    "[support.lining]\n"
     /* 29 */
-    "E = \"25 GPa\"\n"
+    "thickness = \"10 cm\"\n"
     /* 30 */
-    "interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n"
+    "E = \"25 GPa\"\n"
     /* 31 */
-    "[[stage]]\n"
+    "interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n"
     /* 32 */
-    "wall_traction = \"40 %\"\n"
-    /* 33 */
-    "install = [\"bolts\"]\n"
-    /* 34 */
     "[[stage]]\n"
+    /* 33 */
+    "wall_traction = \"40 %\"\n"
+    /* 34 */
+    "install = [\"bolts\"]\n"
     /* 35 */
-    "wall_traction = \"0 %\"\n"
+    "[[stage]]\n"
     /* 36 */
-    "install = [\"lining\"]\n"
+    "wall_traction = \"0 %\"\n"
     /* 37 */
-    "[run]\n"
+    "install = [\"lining\"]\n"
     /* 38 */
-    "method = \"two-level\"\n"
+    "[run]\n"
     /* 39 */
-    "[diagram]\n"
+    "method = \"two-level\"\n"
     /* 40 */
+    "[diagram]\n"
+    /* 41 */
     "spacing = [\"9 deg\", \"none\"]\n"
-    /* 41 */ "thickness = [\"0 cm\", \"10 cm\"]\n";
+    /* 42 */ "thickness = [\"0 cm\", \"10 cm\"]\n";
 
 Input read(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return read_input_text(text, "test.toml", "/site", overrides);
@@ -273,7 +276,7 @@ TEST_SUITE("program/input") {
     CHECK(input.model.seed == 1);
     CHECK(input.joint_sets.at(0).name == "set 1");
     CHECK(input.joint_sets.at(0).sd == 0);
-    CHECK(input.joint_sets.at(0).extent == infinity);
+    CHECK(input.joint_sets.at(0).extent == 1);
     CHECK(input.blocks.max_elongation == infinity);
     CHECK(input.bolts.value().arc.to == degrees(180));
     CHECK_FALSE(input.bolts.value().rupture_force.has_value());
@@ -293,11 +296,12 @@ TEST_SUITE("program/input") {
     CHECK(read(good, {R"(model.origin=["1000000 m", "-2.5 m"])"}).model.origin == Point{1e6, -2.5});
     CHECK(read(good, {"stress.surcharge=20 kPa"}).stress.surcharge == 20e3);
     CHECK(read(good, {"blocks.min_wall_area=100 cm^2"}).blocks.min_wall_area == 0.01);
-    const Input sets = read(
-        good, {"joint_set[0].name=bedding", "joint_set[0].sd=2 deg", "joint_set[0].extent=inf"});
+    const Input sets = read(good, {"joint_set[0].name=bedding", "joint_set[0].sd=2 deg",
+                                   "joint_set[1].dip=10 deg", "joint_set[1].dip_direction=W",
+                                   "joint_set[1].spacing=2 m", "joint_set[1].extent=inf"});
     CHECK(sets.joint_sets.at(0).name == "bedding");
     CHECK(sets.joint_sets.at(0).sd == degrees(2));
-    CHECK(sets.joint_sets.at(0).extent == infinity);
+    CHECK(sets.joint_sets.at(1).extent == infinity);
     CHECK(read(with("intensity = \"1 /m^2\"", "spacing = \"1.2 m\"")).joint_sets.at(0).spacing ==
           1.2);
     const BoltsInput bolts =
@@ -452,7 +456,7 @@ TEST_SUITE("program/input") {
         {"K0 = 1", "K0 = 1\nsurcharge = \"1e300 Pa\"", 13, "stress.surcharge", "from 0 to 1 GPa"},
         {"dip = \"75 deg\"", "dip = \"91 deg\"", 14, "joint_set[0].dip", "from 0 to 90 deg"},
         {"dip = \"75 deg\"", "dip = 75", 14, "joint_set[0].dip = 75 has no unit", "35 deg"},
-        {"dip_direction = \"E\"", "dip_direction = \"N\"", 15, "joint_set[0].dip_direction",
+        {"dip_direction = \"E\"", "dip_direction = \"up\"", 15, "joint_set[0].dip_direction",
          "\"E\", \"W\""},
         {"intensity = \"1 /m^2\"", "intensity = \"0 /m^2\"", 16, "joint_set[0].intensity",
          "above 0 and at most"},
@@ -461,114 +465,144 @@ TEST_SUITE("program/input") {
         {"intensity = \"1 /m^2\"", "intensity = \"1 /m\"", 16, "is a quantity in m^-1",
          "a number per area"},
         {"intensity = \"1 /m^2\"", "spacing = \"0 m\"", 16, "joint_set[0].spacing", "above 0"},
-        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nextent = \"0 m\"", 17, "extent",
-         "or \"inf\""},
-        {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nextent = \"-inf\"", 17, "extent",
-         "inf"},
+        {"extent = \"1 m\"", "extent = \"0 m\"", 17, "extent", "or \"inf\""},
+        {"extent = \"1 m\"", "extent = \"-inf\"", 17, "extent", "inf"},
         {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nsd = \"46 deg\"", 17, "sd", "45 deg"},
-        {"kn = \"5 GPa/m\"", "kn = 5e9", 18, "joint.kn = 5e9 has no unit", "\"5 GPa/m\""},
-        {"kn = \"5 GPa/m\"", "kn = \"5 GPA/m\"", 18, "unknown unit `GPA`, did you mean `GPa`?",
+        {"kn = \"5 GPa/m\"", "kn = 5e9", 19, "joint.kn = 5e9 has no unit", "\"5 GPa/m\""},
+        {"kn = \"5 GPa/m\"", "kn = \"5 GPA/m\"", 19, "unknown unit `GPA`, did you mean `GPa`?",
          "\"5 GPa/m\""},
-        {"kn = \"5 GPa/m\"", "kn = \"5 GPa\"", 18, "is a stress, not a stiffness per area",
+        {"kn = \"5 GPa/m\"", "kn = \"5 GPa\"", 19, "is a stress, not a stiffness per area",
          "GPa/m"},
-        {"ks = \"0.5 GPa/m\"", "ks = \"0 GPa/m\"", 19, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
-        {"ks = \"0.5 GPa/m\"", "ks = \"1e300 Pa/m\"", 19, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
+        {"ks = \"0.5 GPa/m\"", "ks = \"0 GPa/m\"", 20, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
+        {"ks = \"0.5 GPa/m\"", "ks = \"1e300 Pa/m\"", 20, "joint.ks", "from 1 kPa/m to 1000 GPa/m"},
         {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nkn = \"0.9 kPa/m\"", 17,
          "joint_set[0].kn", "from 1 kPa/m"},
-        {"friction = \"35 deg\"", "friction = \"90 deg\"", 20, "joint.friction",
+        {"friction = \"35 deg\"", "friction = \"90 deg\"", 21, "joint.friction",
          "from 0 to below 90 deg"},
-        {"friction = \"35 deg\"", "friction = \"35 %\"", 20, "is a fraction, not an angle", "deg"},
-        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"0 m\"", 22, "blocks.min",
+        {"friction = \"35 deg\"", "friction = \"35 %\"", 21, "is a fraction, not an angle", "deg"},
+        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"0 m\"", 23, "blocks.min",
          "above 0"},
-        {"[blocks]\n", "[blocks]\nmax_elongation = 1.5\n", 22, "max_elongation", "2 or more"},
-        {"[blocks]\n", "[blocks]\nmin_wall_area = \"-1 m^2\"\n", 22, "min_wall_area", "0 or more"},
-        {"spacing = \"15 deg\"", "spacing = 15", 25, "support.bolts.spacing = 15 has no unit",
+        {"[blocks]\n", "[blocks]\nmax_elongation = 1.5\n", 23, "max_elongation", "2 or more"},
+        {"[blocks]\n", "[blocks]\nmin_wall_area = \"-1 m^2\"\n", 23, "min_wall_area", "0 or more"},
+        {"spacing = \"15 deg\"", "spacing = 15", 26, "support.bolts.spacing = 15 has no unit",
          "\"1.3 m\""},
-        {"spacing = \"15 deg\"", "spacing = \"15 kN\"", 25, "is neither an angle nor a length",
+        {"spacing = \"15 deg\"", "spacing = \"15 kN\"", 26, "is neither an angle nor a length",
          "\"15 deg\""},
-        {"spacing = \"15 deg\"", "spacing = \"0.05 deg\"", 25, "outside the accepted range",
+        {"spacing = \"15 deg\"", "spacing = \"0.05 deg\"", 26, "outside the accepted range",
          "from 0.1 deg"},
-        {"spacing = \"15 deg\"", "spacing = \"15 degs\"", 25, "unknown unit `degs`", "\"15 deg\""},
-        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"180 deg\", \"0 deg\"]", 25,
+        {"spacing = \"15 deg\"", "spacing = \"15 degs\"", 26, "unknown unit `degs`", "\"15 deg\""},
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"180 deg\", \"0 deg\"]", 26,
          "does not rise", "two angles"},
-        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"-90 deg\", \"300 deg\"]", 25,
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"-90 deg\", \"300 deg\"]", 26,
          "spans more than 360 deg", "at most 360 deg apart"},
-        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"0 deg\", \"361 deg\"]", 25,
+        {"length = \"4 m\"", "length = \"4 m\"\narc = [\"0 deg\", \"361 deg\"]", 26,
          "support.bolts.arc[1] = \"361 deg\"", "360 deg"},
-        {"length = \"4 m\"", "length = \"4 m\"\nout_of_plane = \"0 m\"", 25, "out_of_plane",
+        {"length = \"4 m\"", "length = \"4 m\"\nout_of_plane = \"0 m\"", 26, "out_of_plane",
          "from 10 mm to 1000 m"},
-        {"length = \"4 m\"", "length = \"4 m\"\ndiameter = \"0 mm\"", 25, "diameter", "above 0"},
-        {"length = \"4 m\"", "length = \"4 m\"\npretension = \"-1 kN\"", 25, "pretension",
+        {"length = \"4 m\"", "length = \"4 m\"\ndiameter = \"0 mm\"", 26, "diameter", "above 0"},
+        {"length = \"4 m\"", "length = \"4 m\"\npretension = \"-1 kN\"", 26, "pretension",
          "from 0 to 1 GN"},
-        {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"0 kN\"", 25, "yield_force",
+        {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"0 kN\"", 26, "yield_force",
          "above 0 and at most 1 GN"},
-        {"length = \"4 m\"", "length = \"4 m\"\nrupture_force = \"0 kN\"", 25, "rupture_force",
+        {"length = \"4 m\"", "length = \"4 m\"\nrupture_force = \"0 kN\"", 26, "rupture_force",
          "above 0 and at most 1 GN"},
-        {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"lorigs\"", 25,
+        {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"lorigs\"", 26,
          "did you mean \"lorig\"?", "\"garga-wang\""},
-        {"length = \"4 m\"", "length = \"4 m\"\nlaw = \"shear\"", 25, "support.bolts.law",
+        {"length = \"4 m\"", "length = \"4 m\"\nlaw = \"shear\"", 26, "support.bolts.law",
          "\"axial-shear\""},
-        {"length = \"4 m\"", "length = \"4 m\"\nanchor_offset = \"0 m\"", 25, "anchor_offset",
+        {"length = \"4 m\"", "length = \"4 m\"\nanchor_offset = \"0 m\"", 26, "anchor_offset",
          "above 0"},
-        {"stiffness = \"0.2 GN/m\"", "stiffness = \"0 GN/m\"", 26, "support.bolts.stiffness",
+        {"stiffness = \"0.2 GN/m\"", "stiffness = \"0 GN/m\"", 27, "support.bolts.stiffness",
          "from 1 kN/m to 1000 GN/m"},
-        {"stiffness = \"0.2 GN/m\"", "stiffness = \"1e300 N/m\"", 26, "support.bolts.stiffness",
+        {"stiffness = \"0.2 GN/m\"", "stiffness = \"1e300 N/m\"", 27, "support.bolts.stiffness",
          "from 1 kN/m to 1000 GN/m"},
-        {"thickness = \"10 cm\"", "thickness = \"0 cm\"", 28, "support.lining.thickness",
+        {"thickness = \"10 cm\"", "thickness = \"0 cm\"", 29, "support.lining.thickness",
          "from 1 mm to 10 m"},
-        {"E = \"25 GPa\"", "E = \"25 GN\"", 29, "is a force, not a stress", "25 GPa"},
-        {"E = \"25 GPa\"", "E = \"1e-300 Pa\"", 29, "support.lining.E", "from 1 MPa to 1000 GPa"},
-        {"kn = \"1 GPa/m\"", "kn = \"1e300 Pa/m\"", 30, "support.lining.interface.kn",
+        {"E = \"25 GPa\"", "E = \"25 GN\"", 30, "is a force, not a stress", "25 GPa"},
+        {"E = \"25 GPa\"", "E = \"1e-300 Pa\"", 30, "support.lining.E", "from 1 MPa to 1000 GPa"},
+        {"kn = \"1 GPa/m\"", "kn = \"1e300 Pa/m\"", 31, "support.lining.interface.kn",
          "from 1 kPa/m to 1000 GPa/m"},
-        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnu = 0.5", 30, "support.lining.nu",
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnu = 0.5", 31, "support.lining.nu",
          "above -1 and below 0.5"},
-        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnodes = 7", 30, "nodes", "from 8 to 2000"},
-        {"E = \"25 GPa\"", "E = \"25 GPa\"\nbeam = \"euler\"", 30, "beam", "\"euler-bernoulli\""},
-        {"kn = \"1 GPa/m\"", "kn = 1e9", 30, "support.lining.interface.kn = 1e9 has no unit",
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nnodes = 7", 31, "nodes", "from 8 to 2000"},
+        {"E = \"25 GPa\"", "E = \"25 GPa\"\nbeam = \"euler\"", 31, "beam", "\"euler-bernoulli\""},
+        {"kn = \"1 GPa/m\"", "kn = 1e9", 31, "support.lining.interface.kn = 1e9 has no unit",
          "GPa/m"},
-        {"wall_traction = \"40 %\"", "wall_traction = \"0.4\"", 32,
+        {"wall_traction = \"40 %\"", "wall_traction = \"0.4\"", 33,
          "stage[0].wall_traction = \"0.4\" has no unit", "or the bare number 0.4"},
-        {"wall_traction = \"40 %\"", "wall_traction = 1.01", 32, "stage[0].wall_traction = 1.01",
+        {"wall_traction = \"40 %\"", "wall_traction = 1.01", 33, "stage[0].wall_traction = 1.01",
          "from 0 to 100 %"},
-        {"wall_traction = \"40 %\"", "wall_traction = nan", 32, "is not finite", "from 0 to 100 %"},
-        {"wall_traction = \"40 %\"", "wall_traction = \"101 %\"", 32, "stage[0].wall_traction",
+        {"wall_traction = \"40 %\"", "wall_traction = nan", 33, "is not finite", "from 0 to 100 %"},
+        {"wall_traction = \"40 %\"", "wall_traction = \"101 %\"", 33, "stage[0].wall_traction",
          "from 0 to 100 %"},
-        {"install = [\"bolts\"]", "install = \"bolts\"", 33, "is a text, not a list", "\"lining\""},
-        {"install = [\"bolts\"]", "install = [\"bolt\"]", 33, "did you mean \"bolts\"?",
+        {"install = [\"bolts\"]", "install = \"bolts\"", 34, "is a text, not a list", "\"lining\""},
+        {"install = [\"bolts\"]", "install = [\"bolt\"]", 34, "did you mean \"bolts\"?",
          "\"bolts\", \"lining\""},
-        {"install = [\"bolts\"]", "install = [\"bolts\", \"bolts\"]", 33, "in the list twice",
+        {"install = [\"bolts\"]", "install = [\"bolts\", \"bolts\"]", 34, "in the list twice",
          "once"},
-        {"method = \"two-level\"", "method = \"newton\"", 38, "run.method", "\"relaxation\""},
-        {"method = \"two-level\"", "linear_solver = \"cholesky\"", 38, "run.linear_solver",
+        {"method = \"two-level\"", "method = \"newton\"", 39, "run.method", "\"relaxation\""},
+        {"method = \"two-level\"", "linear_solver = \"cholesky\"", 39, "run.linear_solver",
          "\"iterative\""},
-        {"method = \"two-level\"", "tolerance = 0.2", 38, "run.tolerance", "from 1e-06 to 0.1"},
-        {"method = \"two-level\"", "displacement_limit = \"0 m\"", 38, "displacement_limit",
+        {"method = \"two-level\"", "tolerance = 0.2", 39, "run.tolerance", "from 1e-06 to 0.1"},
+        {"method = \"two-level\"", "displacement_limit = \"0 m\"", 39, "displacement_limit",
          "above 0"},
         {"method = \"two-level\"",
-         "displacement_limit = \"20 mm\"\ncontact_update_limit = \"20 mm\"", 39, "is never reached",
+         "displacement_limit = \"20 mm\"\ncontact_update_limit = \"20 mm\"", 40, "is never reached",
          "below displacement_limit"},
-        {"method = \"two-level\"", "contact_update_limit = \"0 mm\"", 38,
+        {"method = \"two-level\"", "contact_update_limit = \"0 mm\"", 39,
          "run.contact_update_limit", "above 0"},
-        {"method = \"two-level\"", "method = \"explicit\"\nmax_steps = 2000", 39,
+        {"method = \"two-level\"", "method = \"explicit\"\nmax_steps = 2000", 40,
          "leaves no step after the ramp", "max_steps above ramp_steps"},
-        {"method = \"two-level\"", "max_steps = 0", 38, "run.max_steps", "from 1 to 2000000000"},
-        {"method = \"two-level\"", "method = \"explicit\"\ndamping = 1", 39, "run.damping",
+        {"method = \"two-level\"", "max_steps = 0", 39, "run.max_steps", "from 1 to 2000000000"},
+        {"method = \"two-level\"", "method = \"explicit\"\ndamping = 1", 40, "run.damping",
          "from 0 to 0.95"},
-        {"method = \"two-level\"", "method = \"explicit\"\nramp_steps = -1", 39, "ramp_steps",
+        {"method = \"two-level\"", "method = \"explicit\"\nramp_steps = -1", 40, "ramp_steps",
          "from 0"},
-        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\"]", 40, "has 1 entry", "2 to 100"},
-        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"none\", \"9 deg\"]", 40,
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\"]", 41, "has 1 entry", "2 to 100"},
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"none\", \"9 deg\"]", 41,
          "diagram.spacing[0] = \"none\" is not the last", "\"none\" last"},
-        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"9 deg\"]", 40,
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"9 deg\"]", 41,
          "is not above the entry before it", "a rising list"},
-        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"1 m\"]", 40,
+        {"spacing = [\"9 deg\", \"none\"]", "spacing = [\"9 deg\", \"1 m\"]", 41,
          "mixes angles and lengths", "all lengths"},
-        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"10 cm\", \"5 cm\"]", 41,
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"10 cm\", \"5 cm\"]", 42,
          "diagram.thickness[1] = \"5 cm\" is not above", "a rising list"},
-        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"-5 cm\", \"5 cm\"]", 41,
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"-5 cm\", \"5 cm\"]", 42,
          "diagram.thickness[0]", "0 or more"},
-        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"0.1 mm\", \"5 cm\"]", 41,
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"0.1 mm\", \"5 cm\"]", 42,
          "diagram.thickness[1]", "from 1 mm to 10 m"},
+    });
+  }
+
+  TEST_CASE("how a joint lies in other conventions is refused with what it is in the section") {
+    const auto dips = [](const char* text) { return std::string("dip = \"") + text + "\""; };
+    const auto faces = [](const std::string& text) { return "dip_direction = " + text; };
+    check_refused({
+        {dips("75 deg"), dips("105 deg"), 14, "is the same plane as 75 deg to the other side",
+         "dip = \"75 deg\", dip_direction = \"W\""},
+        {dips("75 deg"), dips("-30 deg"), 14, "is the same plane as 30 deg to the other side",
+         "dip = \"30 deg\", dip_direction = \"W\""},
+        {dips("75 deg"), dips("181 deg"), 14, "is outside the accepted range", "0 to 90 deg"},
+        {dips("75 deg"), dips("100 gon"), 14, "is 90 deg", "35 deg"},
+        {dips("75 deg"), dips("75/270"), 14, "that is \"W\"", "dip = \"75 deg\" and dip_direction"},
+        {dips("75 deg"), "dip = 75", 14, "has no unit", "35 deg"},
+        {faces("\"E\""), faces("\"O\""), 15, "west in French, Spanish and Italian",
+         "\"W\", down to the left"},
+        {faces("\"E\""), faces("\"west\""), 15, "is \"W\"", "\"W\""},
+        {faces("\"E\""), faces("\"Ost\""), 15, "is \"E\"", "\"E\""},
+        {faces("\"E\""), faces("90"), 15,
+         "is an azimuth: in a section from west to east that is \"E\"", "\"E\""},
+        // tan 75 sin 60 = 3.2320, whose angle is 72.81 deg
+        {faces("\"E\""), faces("\"240 deg\""), 15, "\"W\", with the apparent dip 72.81 deg",
+         "\"W\""},
+        {faces("\"E\""), faces("\"NE\""), 15, "\"E\", with the apparent dip 69.25 deg", "\"E\""},
+        {faces("\"E\""), faces("\"N\""), 15, "dips along the tunnel", "\"E\""},
+        {faces("\"E\""), faces("\"up\""), 15, "is not one of its words", "\"E\", \"W\""},
+        {faces("\"E\""), faces("[1]"), 15, "is a list", "\"E\", \"W\""},
+        {"density = \"2700 kg/m^3\"", "density = \"26 kN/m^3\"", 10,
+         "is a unit weight: density 2651 kg/m^3", "2700 kg/m^3"},
+        {"extent = \"1 m\"", "extent = \"inf\"", 16,
+         "counts centres per area, and of joints without extent", "spacing = \"1.2 m\""},
     });
   }
 
@@ -648,11 +682,12 @@ TEST_SUITE("program/input") {
 
   TEST_CASE("unusual values are named with what is common") {
     CHECK(unusual_values(read(good)).empty());
-    const auto unusual = unusual_values(
-        read(good, {"model.gravity=1.62 m/s^2", "joint.kn=500 GPa/m", "run.tolerance=1e-6"}));
+    const auto unusual =
+        unusual_values(read(good, {"model.gravity=1.62 m/s^2", "joint.kn=500 GPa/m",
+                                   "joint.ks=50 GPa/m", "run.tolerance=1e-6"}));
     REQUIRE(unusual.size() == 3);
     CHECK(contains(unusual[0], "model.gravity = 1.62 m/s^2 is unusual (common: 5 m/s^2 to"));
-    CHECK(contains(unusual[1], "joint.kn = 500 GPa/m is unusual (common: 100 MPa/m to"));
+    CHECK(contains(unusual[1], "joint.kn = 500 GPa/m is unusual (common: 250 MPa/m to"));
     CHECK(contains(unusual[2], "run.tolerance"));
   }
 
@@ -676,24 +711,24 @@ TEST_SUITE("program/input") {
          "\"E\", \"W\""},
         {"intensity = \"1 /m^2\"\n", "", 13, "joint_set[0].intensity is missing, and so is spacing",
          "either intensity"},
-        {"kn = \"5 GPa/m\"\n", "", 17, "joint.kn is missing", "GPa/m"},
-        {"min_inscribed_radius = \"0.25 m\"\n", "", 21, "blocks.min_inscribed_radius is missing",
+        {"kn = \"5 GPa/m\"\n", "", 18, "joint.kn is missing", "GPa/m"},
+        {"min_inscribed_radius = \"0.25 m\"\n", "", 22, "blocks.min_inscribed_radius is missing",
          "a length"},
-        {"length = \"4 m\"\n", "", 23, "support.bolts.length is missing", "a length"},
-        {"spacing = \"15 deg\"\n", "", 23, "support.bolts.spacing is missing",
+        {"length = \"4 m\"\n", "", 24, "support.bolts.length is missing", "a length"},
+        {"spacing = \"15 deg\"\n", "", 24, "support.bolts.spacing is missing",
          "an angle from 0.1 deg or a length"},
-        {"stiffness = \"0.2 GN/m\"\n", "law = \"axial-shear\"\nstiffness = \"0.2 GN/m\"\n", 23,
+        {"stiffness = \"0.2 GN/m\"\n", "law = \"axial-shear\"\nstiffness = \"0.2 GN/m\"\n", 24,
          "support.bolts.shear_stiffness is missing", "GN/m"},
-        {"E = \"25 GPa\"\n", "", 27, "support.lining.E is missing", "25 GPa"},
+        {"E = \"25 GPa\"\n", "", 28, "support.lining.E is missing", "25 GPa"},
         {"interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n", "", 0,
          "[support.lining.interface] is missing", "with kn, friction"},
-        {", friction = \"30 deg\" }", " }", 30, "support.lining.interface.friction is missing",
+        {", friction = \"30 deg\" }", " }", 31, "support.lining.interface.friction is missing",
          "deg"},
-        {"wall_traction = \"40 %\"\n", "", 31, "stage[0].wall_traction is missing", "40 %"},
-        {"spacing = [\"9 deg\", \"none\"]\n", "", 39, "diagram.spacing is missing",
+        {"wall_traction = \"40 %\"\n", "", 32, "stage[0].wall_traction is missing", "40 %"},
+        {"spacing = [\"9 deg\", \"none\"]\n", "", 40, "diagram.spacing is missing",
          "bolt spacings"},
-        {"[joint]\n", "[joints]\n[joint]\n", 17, "joints.file is missing", "relative to the input"},
-        {"[joint]\n", "[joints]\nfile = \"\"\n[joint]\n", 18, "is empty", "a file name"},
+        {"[joint]\n", "[joints]\n[joint]\n", 18, "joints.file is missing", "relative to the input"},
+        {"[joint]\n", "[joints]\nfile = \"\"\n[joint]\n", 19, "is empty", "a file name"},
     });
   }
 
@@ -704,12 +739,12 @@ TEST_SUITE("program/input") {
         {"[rock]\n", "[rock]\nK0 = 1\n", 10, "did you mean `stress.K0`?", "density"},
         {"[rock]\n", "[rock]\nzzz = 1\n", 10, "unknown key `zzz` in [rock]", "density"},
         {"[rock]\n", "[rock]\n\"a b.c\" = 1\n", 10, "unknown key `\"a b.c\"`", "density"},
-        {"[run]\n", "[rum]\n", 37, "unknown key `rum`, did you mean `run`?", "stress"},
+        {"[run]\n", "[rum]\n", 38, "unknown key `rum`, did you mean `run`?", "stress"},
         {"dip = \"75 deg\"\n", "dip = \"75 deg\"\ntrace_length = \"1 m\"\n", 15,
          "unknown key `trace_length` in [joint_set[0]]", "extent"},
-        {"friction = \"30 deg\" }", "friction = \"30 deg\", cohesion = \"1 kPa\" }", 30,
+        {"friction = \"30 deg\" }", "friction = \"30 deg\", cohesion = \"1 kPa\" }", 31,
          "unknown key `cohesion` in [support.lining.interface]", "ks"},
-        {"[run]\n", "[support.cable]\n[run]\n", 37, "unknown key `cable` in [support]", "bolts"},
+        {"[run]\n", "[support.cable]\n[run]\n", 38, "unknown key `cable` in [support]", "bolts"},
     });
   }
 
@@ -717,12 +752,12 @@ TEST_SUITE("program/input") {
     check_refused({
         {"cover = \"20 m\"\n", "cover = \"20 m\"\nwall_height = \"3 m\"\n", 9,
          "tunnel.wall_height belongs to shape = \"horseshoe\" only", "leave it out"},
-        {"method = \"two-level\"", "method = \"two-level\"\ndamping = 0.5", 39,
+        {"method = \"two-level\"", "method = \"two-level\"\ndamping = 0.5", 40,
          "run.damping belongs to method = \"explicit\" only", "leave it out"},
-        {"length = \"4 m\"", "length = \"4 m\"\nshear_stiffness = \"1 MN/m\"", 25,
+        {"length = \"4 m\"", "length = \"4 m\"\nshear_stiffness = \"1 MN/m\"", 26,
          "belongs to law = \"axial-shear\" only", "leave it out"},
         {"length = \"4 m\"", "length = \"4 m\"\nanchors = \"garga-wang\"\nanchor_offset = \"3 cm\"",
-         26, "belongs to anchors = \"lorig\" only", "leave it out"},
+         27, "belongs to anchors = \"lorig\" only", "leave it out"},
         {"intensity = \"1 /m^2\"", "intensity = \"1 /m^2\"\nspacing = \"2 m\"", 17,
          "joint_set[0].spacing = \"2 m\" is given besides intensity", "one of"},
     });
@@ -748,28 +783,28 @@ TEST_SUITE("program/input") {
          "above 10 m"},
         {circle, polygon(R"([["-3 m","-3 m"], ["35 m","-3 m"], ["0 m","3 m"]])"), 3,
          "leaves no ground beside the opening", "above 70 m"},
-        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"5 m\"", 22,
+        {"min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"5 m\"", 23,
          "larger than the opening", "below 5 m"},
-        {"thickness = \"10 cm\"", "thickness = \"5 m\"", 28, "fills the opening", "below 5 m"},
-        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"6 m\"]", 41,
+        {"thickness = \"10 cm\"", "thickness = \"5 m\"", 29, "fills the opening", "below 5 m"},
+        {"thickness = [\"0 cm\", \"10 cm\"]", "thickness = [\"0 cm\", \"6 m\"]", 42,
          "fills the opening", "below 5 m"},
         // 1000 /m^2 x 70 m x 60 m
         {"intensity = \"1 /m^2\"", "intensity = \"1000 /m^2\"", 13, "about 4200000 joints",
          "at most 1000000"},
         {"length = \"4 m\"", "length = \"4 m\"\npretension = \"3 kN\"\nrupture_force = \"2 kN\"",
-         25, "pretension = \"3 kN\" is not below rupture_force", "below 2 kN"},
+         26, "pretension = \"3 kN\" is not below rupture_force", "below 2 kN"},
         {"length = \"4 m\"", "length = \"4 m\"\nyield_force = \"3 kN\"\nrupture_force = \"2 kN\"",
-         25, "is not below rupture_force", "below 2 kN"},
-        {"wall_traction = \"0 %\"", "wall_traction = \"10 %\"", 35,
+         26, "is not below rupture_force", "below 2 kN"},
+        {"wall_traction = \"0 %\"", "wall_traction = \"10 %\"", 36,
          "leaves traction on the wall at the end", "\"0 %\""},
         {"[[stage]]\nwall_traction = \"0 %\"",
-         "[[stage]]\nwall_traction = \"50 %\"\n[[stage]]\nwall_traction = \"0 %\"", 35,
+         "[[stage]]\nwall_traction = \"50 %\"\n[[stage]]\nwall_traction = \"0 %\"", 36,
          "is above that of the stage before", "at most 40 %"},
-        {"install = [\"lining\"]", "install = [\"lining\", \"bolts\"]", 36, "names bolts again",
+        {"install = [\"lining\"]", "install = [\"lining\", \"bolts\"]", 37, "names bolts again",
          "once"},
-        {"install = [\"bolts\"]\n", "", 23, "support.bolts is in no stage",
+        {"install = [\"bolts\"]\n", "", 24, "support.bolts is in no stage",
          "install = [\"bolts\"]"},
-        {"install = [\"lining\"]\n", "", 27, "support.lining is in no stage", "install"},
+        {"install = [\"lining\"]\n", "", 28, "support.lining is in no stage", "install"},
         {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"]])"), 7, "has 2 entries", "points"},
         {circle, polygon(R"([["-3 m","-3 m"], ["3 m","-3 m"], ["0 m"]])"), 7, "tunnel.vertices[2]",
          "two lengths"},
@@ -784,11 +819,12 @@ TEST_SUITE("program/input") {
         {circle, polygon(R"([["7 m","-3 m"], ["13 m","-3 m"], ["10 m","3 m"]])"), 7,
          "does not contain the tunnel centre", "around the tunnel centre"},
     });
-    // Through-going joints cross: 100 /m^2 of them would leave nothing but crumbs.
+    // Long joints cross: 100 /m^2 of 40 m would leave nothing but crumbs.
     const auto many =
         errors_of(with("min_inscribed_radius = \"0.25 m\"", "min_inscribed_radius = \"1 mm\""),
-                  {"joint_set[0].intensity=50 /m^2", "joint_set[1].dip=10 deg",
-                   "joint_set[1].dip_direction=W", "joint_set[1].intensity=50 /m^2"});
+                  {"joint_set[0].intensity=50 /m^2", "joint_set[0].extent=40 m",
+                   "joint_set[1].dip=10 deg", "joint_set[1].dip_direction=W",
+                   "joint_set[1].intensity=50 /m^2", "joint_set[1].extent=40 m"});
     REQUIRE(many.size() == 1);
     CHECK(contains(many[0].message, "blocks"));
     CHECK(contains(many[0].accepted, "min_inscribed_radius"));
@@ -801,14 +837,14 @@ TEST_SUITE("program/input") {
     const auto errors = errors_of(text);
     REQUIRE(errors.size() == 2);
     CHECK(contains(errors[0].message, "names bolts, which the file does not describe"));
-    CHECK(errors[0].line == 29);
+    CHECK(errors[0].line == 30);
     CHECK(contains(errors[1].message, "varies bolts, which the file does not describe"));
-    CHECK(errors[1].line == 36);
+    CHECK(errors[1].line == 37);
   }
 
   TEST_CASE("what is no TOML is refused in the same form") {
     check_refused({
-        {"kn = \"5 GPa/m\"\n", "kn = \"5 GPa/m\"\nkn = \"6 GPa/m\"\n", 19, "'kn'", "once"},
+        {"kn = \"5 GPa/m\"\n", "kn = \"5 GPa/m\"\nkn = \"6 GPa/m\"\n", 20, "'kn'", "once"},
         {"[rock]\n", "[model]\n", 9, "'model'", "once"},
         {"width = \"70 m\"", "width = 70 m", 3, "saw 'm'", "stand in quotes"},
         {"K0 = 1", "K0 = 1,5", 12, "saw ','", "quotes"},
@@ -878,15 +914,33 @@ TEST_SUITE("program/input") {
     }
   }
 
+  TEST_CASE("of many errors the first are shown, and all are counted") {
+    std::string text = good;
+    for (int k = 0; k < 20000; ++k) text += "zz" + std::to_string(k) + " = 1\n";
+    try {
+      (void)read(text, {"stress.K0=20"});
+      FAIL("unknown keys are refused");
+    } catch (const InputErrors& errors) {
+      // 50 with their place, line and list of keys: a page or two.
+      CHECK(std::string(errors.what()).size() < 30000);
+      CHECK(contains(errors.what(), "20001 errors in the input, of which the first 50 are shown"));
+      CHECK(contains(errors.what(), "`zz0`"));
+      CHECK(contains(errors.what(), "`zz49`"));
+      CHECK(!contains(errors.what(), "`zz50`"));
+      CHECK(errors.errors().front().line == 43);  // the first behind the good ones
+      CHECK(errors.errors().back().key == "stress.K0");
+    }
+  }
+
   TEST_CASE("a message shows the line and puts the caret under the value") {
     const auto errors = errors_of(with("kn = \"5 GPa/m\"", "\tkn = 5e9  # ä"));
     REQUIRE(errors.size() == 1);
     CHECK(
         errors[0].text() ==
         "error: joint.kn = 5e9 has no unit\n"
-        "   --> test.toml:18:7\n"
+        "   --> test.toml:19:7\n"
         "   |\n"
-        "18 | \tkn = 5e9  # ä\n"
+        "19 | \tkn = 5e9  # ä\n"
         "   | \t     ^^^\n"
         "   = accepted: from 1 kPa/m to 1000 GPa/m; a stiffness per area, such as \"5 GPa/m\", \"5000 MPa/m\" or "
         "\"5e9 Pa/m\"\n");
@@ -926,7 +980,7 @@ TEST_SUITE("program/input") {
     }
     const auto errors = errors_of(windows);
     REQUIRE(errors.size() == 1);
-    CHECK(errors[0].line == 18);
+    CHECK(errors[0].line == 19);
     CHECK(errors[0].column == 6);
     CHECK(errors[0].source_line == "kn = 5e9");
     windows.replace(windows.find("5e9"), 3, "\"5 GPa/m\"");
@@ -966,23 +1020,24 @@ TEST_SUITE("program/input") {
     struct Case {
       std::string text, message;
     };
-    for (const Case& c : std::vector<Case>{
-             {"joint.kn=5e9", "joint.kn = 5e9 has no unit"},
-             {"joint.kn=", "joint.kn = \"\" is empty"},
-             {"joint.nk=5 GPa/m", "unknown key `nk` in [joint]"},
-             {"joints_set[0].dip=5 deg", "did you mean `joint_set`?"},
-             {"joint_set[0].dip=95 deg", "joint_set[0].dip = 95 deg is outside the accepted range"},
-             {"joint_set[2].dip=5 deg", "joint_set has 1 entry"},
-             {"joint_set[x].dip=5 deg", "is not a key"},
-             {"joint_set.dip=5 deg", "joint_set is no table"},
-             {"title.x=5", "title is no table"},
-             {"model[0]=5", "model is no array"},
-             {"model", "override without `=`"},
-             {"=5", "is not a key"},
-             {"a..b=5", "is not a key"},
-             {"run.method=fast", "run.method = fast is not one of its words"},
-             {"support.lining.interface={ kn = 1 }", "interface.kn = 1 has no unit"},
-             {"model.seed=1\nx = 2", "model.seed = 1?x = 2 is a text"}}) {
+    for (const Case& c :
+         std::vector<Case>{{"joint.kn=5e9", "joint.kn = 5e9 has no unit"},
+                           {"joint.kn=", "joint.kn = \"\" is empty"},
+                           {"joint.nk=5 GPa/m", "unknown key `nk` in [joint]"},
+                           {"joints_set[0].dip=5 deg", "did you mean `joint_set`?"},
+                           {"joint_set[0].dip=195 deg",
+                            "joint_set[0].dip = 195 deg is outside the accepted range"},
+                           {"joint_set[2].dip=5 deg", "joint_set has 1 entry"},
+                           {"joint_set[x].dip=5 deg", "is not a key"},
+                           {"joint_set.dip=5 deg", "joint_set is no table"},
+                           {"title.x=5", "title is no table"},
+                           {"model[0]=5", "model is no array"},
+                           {"model", "override without `=`"},
+                           {"=5", "is not a key"},
+                           {"a..b=5", "is not a key"},
+                           {"run.method=fast", "run.method = fast is not one of its words"},
+                           {"support.lining.interface={ kn = 1 }", "interface.kn = 1 has no unit"},
+                           {"model.seed=1\nx = 2", "model.seed = 1?x = 2 is a text"}}) {
       CAPTURE(c.text);
       const auto errors = errors_of(good, {"run.tolerance=1e-2", c.text});
       const std::string shown = all(errors);

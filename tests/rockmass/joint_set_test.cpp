@@ -75,7 +75,11 @@ TEST_SUITE("rockmass/joint_set") {
     const double nan = std::nan("");
     const std::string dips = " deg): must be 0 to 1.5708 rad (0 to 90 deg)";
     refused([](JointSet& s) { s.dip = -0.01; }, "dip = -0.01 rad (-0.572958" + dips);
-    refused([](JointSet& s) { s.dip = 1.6; }, "dip = 1.6 rad (91.6732" + dips);
+    refused(
+        [](JointSet& s) { s.dip = 1.6; },
+        "dip = 1.6 rad (91.6732" + dips + "; the same joint dips 88.3268 deg to the other side");
+    refused([](JointSet& s) { s.dip = 2 * std::numbers::pi / 3; },
+            "dip = 2.0944 rad (120" + dips + "; the same joint dips 60 deg to the other side");
     refused([](JointSet& s) { s.dip = 75; },
             "dip = 75 rad (4297.18" + dips + "; did you mean 75 deg = 1.309 rad?");
     refused([=](JointSet& s) { s.dip = nan; }, "dip = nan rad (nan" + dips);
@@ -101,6 +105,11 @@ TEST_SUITE("rockmass/joint_set") {
     refused([](JointSet& s) { s.extent = 0; }, "extent = 0 m: must be > 0");
     refused([](JointSet& s) { s.extent = -1; }, "extent = -1 m: must be > 0");
     refused([=](JointSet& s) { s.extent = nan; }, "extent = nan m: must be > 0");
+    refused(
+        [=](JointSet& s) { s.extent = inf; },
+        "intensity = 1 /m^2 counts centres per area, and how far apart endless joints lie would "
+        "hang on the size of the domain: give them an extent, or a spacing in place of the "
+        "intensity");
     JointSet vertical = good;
     vertical.dip = 90 * degree;
     CHECK(refusal(vertical) == "accepted");
@@ -257,6 +266,28 @@ TEST_SUITE("rockmass/joint_set") {
       // of 60.
       CHECK(std::abs(total / seeds - expected) < 4 * std::sqrt(0.75 / seeds));
     }
+  }
+
+  TEST_CASE("endless joints are as far apart as asked for, in a small domain and in a large one") {
+    for (const double size : {30.0, 60.0, 240.0})
+      for (const double dip : {0.0, 35.0, 90.0}) {
+        CAPTURE(size);
+        CAPTURE(dip);
+        const Domain<2> ground{{-0.5 * size, -0.5 * size}, {0.5 * size, 0.5 * size}};
+        const auto joints = generate(
+            {.name = "J", .dip = dip * degree, .dip_direction = DipDirection::west, .spacing = 0.9},
+            0, ground, 4);
+        // Along their normal through the middle, from edge to edge of the inscribed circle.
+        const Vec2 along(std::sin(dip * degree), std::cos(dip * degree));
+        const Segment line{-0.5 * size * Vec2(-along.x(), along.y()),
+                           0.5 * size * Vec2(-along.x(), along.y())};
+        int crossed = 0;
+        for (const Joint& joint : joints) {
+          const auto side = left_of(joint.trace.start, joint.trace.end);
+          crossed += side.distance(line.start) * side.distance(line.end) < 0 ? 1 : 0;
+        }
+        CHECK(std::abs(crossed - size / 0.9) < 1);  // equidistant, the first one anywhere
+      }
   }
 
   TEST_CASE("the network is the same for the same seed and another for another") {

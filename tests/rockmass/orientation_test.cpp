@@ -69,6 +69,27 @@ TEST_SUITE("rockmass/orientation") {
     CHECK(std::abs(orientation_of(-east).dip - 90 * degree) < 1e-15);
   }
 
+  TEST_CASE("a dip beyond 90 degrees, and a strike by the right-hand rule, are the same planes") {
+    for (double dip = 0; dip <= 180; dip += 7.5)
+      for (double direction = -360; direction <= 720; direction += 33.75) {
+        CAPTURE(dip);
+        CAPTURE(direction);
+        const Orientation same = upright(plane(dip, direction));
+        CHECK(same.dip <= 90 * degree);
+        CHECK(same.dip_direction >= 0);
+        CHECK(same.dip_direction < 360 * degree);
+        // The normal of an overturned plane points down: the same plane, of the other sense.
+        const double sense = dip > 90 ? -1 : 1;
+        CHECK((upward_normal(same) - sense * upward_normal(plane(dip, direction))).norm() < 4e-15);
+      }
+    for (double strike = 0; strike < 360; strike += 11.25) {
+      const Orientation p = orientation_by_strike(strike * degree, 60 * degree);
+      CHECK(p.dip_direction < 360 * degree);
+      const Vec3 along(std::sin(strike * degree), std::cos(strike * degree), 0);
+      CHECK((strike_vector(p) - along).norm() < 1e-14);  // and it falls to the right of that
+    }
+  }
+
   TEST_CASE("the mean of normals of either sense, also of upright planes") {
     for (const double dip : {0.0, 40.0, 88.0, 90.0}) {
       CAPTURE(dip);

@@ -91,7 +91,8 @@ TEST_SUITE("rockmass/spatial_joint_set") {
     const double nan = std::nan("");
     const std::string dips = " deg): must be 0 to 1.5708 rad (0 to 90 deg)";
     const std::string azimuths = " deg): must be 0 to 6.28319 rad (0 to 360 deg)";
-    refused([](Set& s) { s.dip = 100 * degree; }, "dip = 1.74533 rad (100" + dips);
+    refused([](Set& s) { s.dip = 100 * degree; },
+            "dip = 1.74533 rad (100" + dips + "; the same plane dips 80 deg towards 270 deg");
     refused([](Set& s) { s.dip = 75; },
             "dip = 75 rad (4297.18" + dips + "; did you mean 75 deg = 1.309 rad?");
     refused([](Set& s) { s.dip = -1 * degree; }, "dip = -0.0174533 rad (-1" + dips);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -55,6 +56,50 @@ inline constexpr std::array<Unit, 13> unit_table{{
     {"%", "", dimension::number, -2},
     {"\u2030", "", dimension::number, -3},
 }};
+
+/// A unit outside of SI that is in use. Read it is not: `t` may be a ton and `in` a word; what it
+/// comes to is said.
+struct ForeignUnit {
+  std::string_view symbol;
+  double value;  ///< in `unit`
+  std::string_view unit;
+};
+
+inline constexpr std::array<ForeignUnit, 18> foreign_units{{
+    {"ft", 0.3048, "m"},
+    {"feet", 0.3048, "m"},
+    {"in", 0.0254, "m"},
+    {"inch", 0.0254, "m"},
+    {"yd", 0.9144, "m"},
+    {"psi", 6.894757293168, "kPa"},
+    {"ksi", 6.894757293168, "MPa"},
+    {"psf", 47.88025898034, "Pa"},
+    {"pcf", 16.01846337396, "kg/m^3"},
+    {"lb", 0.45359237, "kg"},
+    {"lbs", 0.45359237, "kg"},
+    {"lbf", 4.4482216152605, "N"},
+    {"kip", 4.4482216152605, "kN"},
+    {"kips", 4.4482216152605, "kN"},
+    {"kgf", 9.80665, "N"},
+    {"tf", 9.80665, "kN"},
+    {"gon", 0.9, "deg"},
+    {"grad", 0.9, "deg"},
+}};
+
+inline const ForeignUnit* find_foreign(std::string_view symbol) {
+  for (const ForeignUnit& unit : foreign_units)
+    if (unit.symbol == symbol) return &unit;
+  return nullptr;
+}
+
+/// `value` with so many significant digits at most.
+inline std::string short_number(double value, int digits) {
+  std::array<char, 32> buffer{};
+  const auto [end, status] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                           std::chars_format::general, digits);
+  (void)status;  // 32 characters hold every %.15g
+  return {buffer.data(), end};
+}
 
 inline constexpr int decimal_exponent_of_prefix(char prefix) {
   switch (prefix) {
@@ -176,6 +221,9 @@ class UnitParser {
       if (unit.degrees) degrees_ += power;
       return;
     }
+    if (const ForeignUnit* foreign = find_foreign(symbol))
+      fail("has the unit `" + std::string(symbol) + "`, which is " +
+           short_number(foreign->value, 7) + " " + std::string(foreign->unit));
     fail("has the unknown unit `" + printable(symbol) + "`" + suggestion(symbol));
   }
 

@@ -32,7 +32,8 @@ struct Quantity {
 ///
 /// Units: m g t s rad deg N Pa bar J % with the prefixes in use (mm, cm, km, kg, kN, MPa, GPa ...);
 /// products with `*` or a space, quotients with `/`, exponents as m^2, m2 or superscript. The
-/// decimal sign is a point under every locale.
+/// decimal sign is a point under every locale. Feet, inches, psi, gon and the like are refused with
+/// what they come to.
 ///
 /// @throws UnitError  no number, no unit, unknown unit, text behind the unit, NaN, or too large for
 ///                    a double; the message then holds no accepted examples
@@ -43,7 +44,7 @@ struct Quantity {
 ///
 /// @param infinity  `allowed` takes "inf" (no unit needed: no unit would change it)
 /// @throws UnitError  as above, and a dimension other than the expected one; the message says what
-///                    was found and shows accepted examples
+///                    was found (of a unit weight, which density it is) and shows accepted examples
 [[nodiscard]] VOUSSOIR_INLINE double parse_quantity(std::string_view text,
                                                     const Dimension& expected,
                                                     Infinity infinity = Infinity::refused);
@@ -76,6 +77,9 @@ VOUSSOIR_INLINE Quantity parse_quantity(std::string_view text, Infinity infinity
   while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1);
   if (rest.empty()) fail("has no unit");
 
+  if (const detail::ForeignUnit* foreign = detail::find_foreign(rest))
+    fail("is " + detail::short_number(number * foreign->value, 6) + " " +
+         std::string(foreign->unit));
   detail::UnitParser unit(text, rest);
   unit.run();
   const double value = unit.to_si(number);
@@ -95,6 +99,14 @@ VOUSSOIR_INLINE double parse_quantity(std::string_view text, const Dimension& ex
                     accepted_examples(expected));
   }
   if (quantity.dimension == expected) return quantity.value;
+  // 26 kN/m^3 of rock has the units of a stiffness per area, and is meant for what it is.
+  constexpr double standard_gravity = 9.80665;  // [m/s^2]
+  const double density = quantity.value / standard_gravity;
+  if (expected == dimension::density && quantity.dimension == dimension::stiffness_per_area &&
+      density >= 1 && density < 1e5)
+    throw UnitError(detail::UnitParser::printable(text),
+                    "is a unit weight: density " + detail::short_number(density, 4) + " kg/m^3",
+                    accepted_examples(expected));
   const detail::DimensionWords* found = detail::find_words(quantity.dimension);
   const detail::DimensionWords* wanted = detail::find_words(expected);
   throw UnitError(
@@ -129,11 +141,7 @@ VOUSSOIR_INLINE std::string format_quantity(double value, const Dimension& dimen
     }
     if (number == 0) unit = words->echo[dimension == dimension::length ? 1 : 0];
   }
-  std::array<char, 32> buffer{};
-  const auto [end, status] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
-                                           std::chars_format::general, 6);
-  (void)status;  // 32 characters hold every %.6g
-  return std::string(buffer.data(), end) + " " + std::string(unit);
+  return detail::short_number(number, 6) + " " + std::string(unit);
 }
 
 #endif

@@ -77,6 +77,9 @@ namespace voussoir {
 }
 /// The text of a path, in UTF-8.
 [[nodiscard]] VOUSSOIR_INLINE std::string utf8_text(const std::filesystem::path& path);
+/// From now on a write beyond the limit on the size of files (`ulimit -f`) fails, as on a full
+/// disk. POSIX ends the process with a signal otherwise, and what it had half written stays.
+VOUSSOIR_INLINE void let_writes_beyond_limit_fail();
 /// Whether a program of this name lies in a folder of PATH.
 [[nodiscard]] VOUSSOIR_INLINE bool finds_program(const std::string& name);
 /// What `main` was given, the name of the program first, in UTF-8.
@@ -269,6 +272,7 @@ VOUSSOIR_INLINE std::FILE* create_new_file(const std::filesystem::path& path) {
 VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
   return _wfopen(path.c_str(), L"wb");
 }
+VOUSSOIR_INLINE void let_writes_beyond_limit_fail() {}  // there is no such limit
 VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
   int count = 0;
   wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &count);
@@ -309,6 +313,7 @@ VOUSSOIR_INLINE std::FILE* create_new_file(const std::filesystem::path& path) {
 VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
   return std::fopen(path.c_str(), "wb");
 }
+VOUSSOIR_INLINE void let_writes_beyond_limit_fail() { (void)signal(SIGXFSZ, SIG_IGN); }
 VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
   return {argv, argv + argc};
 }

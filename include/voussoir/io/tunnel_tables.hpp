@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/geometry/spatial_line.hpp>
 #include <voussoir/io/csv_table.hpp>
@@ -25,6 +27,11 @@ namespace voussoir {
 }
 
 namespace detail {
+
+/// What is carried as part of a strength; "-" where none was given: not checked.
+[[nodiscard]] inline std::string of_strength(double force, double strength) {
+  return std::isfinite(strength) ? significant_text(force / strength, 8) : std::string("-");
+}
 
 /// Anticlockwise from the right-hand springing [degrees], 0 to 360.
 [[nodiscard]] inline double angle_in_degrees(const Vec2& p) {
@@ -54,12 +61,14 @@ template <class Bar>
 }  // namespace detail
 
 /// One row for every bolt and joint crossed.
-/// @param bars  in the order in which they were installed
+/// @param bars      in the order in which they were installed
+/// @param strength  in tension, of one bolt [N]; infinite: none was given, nothing is checked
 /// @throws InvalidInput  a bar is missing
-[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
-                                            const std::vector<Segment>& bars) {
+[[nodiscard]] inline std::string bolt_table(
+    const std::vector<CrossingForce>& crossings, const std::vector<Segment>& bars,
+    double strength = std::numeric_limits<double>::infinity()) {
   CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
-                  "axial_force_kN", "extension_mm", "state"},
+                  "axial_force_kN", "extension_mm", "state", "of_its_strength"},
                  8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
@@ -68,14 +77,15 @@ template <class Bar>
     const Vec2 p = bar.at(c.position / bar.length());
     table.add_row(c.bolt + 1, detail::angle_in_degrees(bar.end - bar.start), places[k].joint,
                   c.position, p.x(), p.y(), 1e-3 * c.report.axial, 1e3 * c.extension,
-                  to_string(c.report));
+                  to_string(c.report), detail::of_strength(c.report.axial, strength));
   }
   return table.text();
 }
-[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
-                                            const std::vector<SpatialLine>& bars) {
+[[nodiscard]] inline std::string bolt_table(
+    const std::vector<CrossingForce>& crossings, const std::vector<SpatialLine>& bars,
+    double strength = std::numeric_limits<double>::infinity()) {
   CsvTable table({"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
-                  "shear_force_kN", "extension_mm", "state"},
+                  "shear_force_kN", "extension_mm", "state", "of_its_strength"},
                  8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
@@ -84,30 +94,32 @@ template <class Bar>
     const Vec3 p = bar.start + c.position / bar.length() * (bar.end - bar.start);
     table.add_row(c.bolt + 1, places[k].joint, c.position, p.x(), p.y(), p.z(),
                   1e-3 * c.report.axial, 1e-3 * c.report.shear, 1e3 * c.extension,
-                  to_string(c.report));
+                  to_string(c.report), detail::of_strength(c.report.axial, strength));
   }
   return table.text();
 }
 
-/// One row for every node of a lining in 2-D.
+/// One row for every node of a lining in 2-D. It has no strength: that is not checked.
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining) {
   CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
-                  "moment_kNm_per_m", "convergence_mm", "lost"},
+                  "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength"},
                  8);
   int node = 0;
   for (const LiningForce& at : lining)
     table.add_row(++node, detail::angle_in_degrees(at.position), at.position.x(), at.position.y(),
                   1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence,
-                  at.is_lost);
+                  at.is_lost, "-");
   return table.text();
 }
-/// One row for every member of a lining in 3-D.
+/// One row for every member of a lining in 3-D, without strength, too.
 [[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members) {
-  CsvTable table({"member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm"}, 8);
+  CsvTable table(
+      {"member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm", "of_its_strength"}, 8);
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment);
+    table.add_row(++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment,
+                  "-");
   }
   return table.text();
 }

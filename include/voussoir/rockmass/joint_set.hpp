@@ -29,21 +29,35 @@ struct JointSet {
   double dip;  ///< from the horizontal [rad], 0 to pi/2
   DipDirection dip_direction = DipDirection::east;
   double dip_deviation = 0;  ///< standard deviation of the dip, normal [rad], 0 to pi/4
-  double intensity = 0;      ///< joint centres per area [1/m^2]; 0: use `spacing`
-  double spacing = 0;        ///< normal spacing [m]; 0: use `intensity`
+  /// Joint centres per area [1/m^2], of joints with an extent; 0: use `spacing`.
+  double intensity = 0;
+  double spacing = 0;  ///< normal spacing [m]; 0: use `intensity`
   double extent = std::numeric_limits<double>::infinity();  ///< full length of a trace [m], > 0
 
-  /// @throws InvalidInput  a value out of range, or not exactly one of intensity and spacing
+  /// @throws InvalidInput  a value out of range, not exactly one of intensity and spacing, or an
+  ///                       intensity of endless joints
   void check() const {
     const std::string of = message({"joint set ", name, ": "});
-    require_angle(message({of, "dip"}), dip, 0, 0.5 * std::numbers::pi);
-    require_angle(message({of, "dip_deviation"}), dip_deviation, 0, 0.25 * std::numbers::pi);
+    constexpr double pi = std::numbers::pi;
+    if (dip > 0.5 * pi && dip <= pi)
+      throw InvalidInput(
+          message({of, "dip = ", dip, " rad (", dip * 180 / pi,
+                   " deg): must be 0 to 1.5708 rad (0 to 90 deg); the same joint dips ",
+                   (pi - dip) * 180 / pi, " deg to the other side"}));
+    require_angle(message({of, "dip"}), dip, 0, 0.5 * pi);
+    require_angle(message({of, "dip_deviation"}), dip_deviation, 0, 0.25 * pi);
     const bool is_one = (intensity > 0) != (spacing > 0);
     if (!is_one || !std::isfinite(intensity) || !std::isfinite(spacing))
       throw InvalidInput(
           message({of, "intensity = ", intensity, " /m^2 and spacing = ", spacing,
                    " m: ", is_one ? "must be finite" : "one of the two must be > 0, the other 0"}));
     if (!(extent > 0)) throw InvalidInput(message({of, "extent = ", extent, " m: must be > 0"}));
+    // Of endless joints more reach into a large domain than into a small one.
+    if (intensity > 0 && std::isinf(extent))
+      throw InvalidInput(message({of, "intensity = ", intensity,
+                                  " /m^2 counts centres per area, and how far apart endless joints "
+                                  "lie would hang on the size of the domain: give them an extent, "
+                                  "or a spacing in place of the intensity"}));
   }
 };
 

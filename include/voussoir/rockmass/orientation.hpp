@@ -17,6 +17,26 @@ struct Orientation {
   double dip_direction;  ///< azimuth of that line, clockwise from North [rad], 0 to 2 pi
 };
 
+/// The plane whose strike is written by the right-hand rule: it falls to the right of that
+/// direction, a quarter turn clockwise from it.
+/// @param strike  azimuth, clockwise from North [rad], 0 to 2 pi
+[[nodiscard]] inline Orientation orientation_by_strike(double strike, double dip) {
+  const double direction = strike + 0.5 * std::numbers::pi, turn = 2 * std::numbers::pi;
+  return {dip, direction >= turn ? direction - turn : direction};
+}
+
+/// The same plane by a dip of 0 to pi/2 and a direction of 0 to 2 pi. Some write a dip beyond
+/// pi/2 for an overturned bed: 105 deg towards 090 is 75 deg towards 270.
+/// @pre  dip from 0 to pi, direction from -2 pi to 4 pi
+[[nodiscard]] inline Orientation upright(const Orientation& plane) {
+  constexpr double pi = std::numbers::pi;
+  const bool is_overturned = plane.dip > 0.5 * pi;
+  double direction = plane.dip_direction + (is_overturned ? pi : 0);
+  while (direction >= 2 * pi) direction -= 2 * pi;
+  while (direction < 0) direction += 2 * pi;
+  return {is_overturned ? pi - plane.dip : plane.dip, direction};
+}
+
 /// Unit vector down the dip.
 [[nodiscard]] inline Vec3 dip_vector(const Orientation& plane) {
   using namespace repeatable;

@@ -218,6 +218,13 @@ VOUSSOIR_INLINE void SpatialJointSet::check() const {
   const auto angle = [this](const char* what, double value, double most) {
     require_angle("joint set " + name + ": " + what, value, 0, most);
   };
+  if (dip > 0.5 * pi && dip <= pi && dip_direction >= 0 && dip_direction <= 2 * pi) {
+    const Orientation same = upright({dip, dip_direction});
+    throw InvalidInput(
+        message({"joint set ", name, ": dip = ", dip, " rad (", dip * 180 / pi,
+                 " deg): must be 0 to 1.5708 rad (0 to 90 deg); the same plane dips ",
+                 same.dip * 180 / pi, " deg towards ", same.dip_direction * 180 / pi, " deg"}));
+  }
   angle("dip", dip, 0.5 * pi);
   angle("dip_direction", dip_direction, 2 * pi);
   angle("dip_deviation", dip_deviation, 0.25 * pi);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/message_number.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
@@ -82,8 +83,9 @@ struct SupportCondition {
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
-  std::string widest_place;  ///< of that node
-  int fills = 0;             ///< nodes that fill a hole in the wall
+  std::string widest_place;               ///< of that node
+  int fills = 0;                          ///< nodes that fill a hole in the wall
+  std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
 
 template <class Solver>
@@ -134,6 +136,10 @@ template <class Solver>
                              foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
+  for (const auto& foot : foot_forces(solver))
+    if (foot.has_yielded())
+      condition.yielded_feet.push_back(text_of<Solver::dim>(foot.place) + " m (now at " +
+                                       message_number(100 * foot.utilisation, 3) + " % of it)");
   return condition;
 }
 
@@ -169,6 +175,9 @@ template <class Solver>
     remarks.push_back("bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
   if (condition.yielded > 0)
     remarks.push_back("bolts yielded at " + std::to_string(condition.yielded) + " joints");
+  for (const std::string& place : condition.yielded_feet)
+    remarks.push_back("a foot of the lining has reached its bearing strength at " + place +
+                      ": it settles without bearing more");
   return remarks;
 }
 

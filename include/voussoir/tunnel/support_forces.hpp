@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/elementary.hpp>
@@ -79,8 +80,13 @@ struct FootForce {
   double width;        ///< across the lining [m]
   double bearing;      ///< on the rock, compression [N]
   double shear;        ///< along its base, magnitude [N]
-  double utilisation;  ///< bearing pressure over bearing strength, 0 to 1 [-]
-  double settlement;   ///< that would stay if it were let go [m]
+  double utilisation;  ///< bearing pressure over bearing strength, 0 to 1 [-]; NaN: it has none
+  double settlement;   ///< all of it, elastic and not [m]
+  double plastic_settlement;  ///< the part that would stay if it were let go [m]
+
+  [[nodiscard]] bool has_yielded() const {
+    return plastic_settlement > 0 || utilisation >= 1 - 1e-9;
+  }
 };
 /// All feet of all linings, in the order in which they were installed.
 template <class Solver, int Dim = Solver::SystemType::dim>
@@ -91,11 +97,14 @@ template <class Solver, int Dim = Solver::SystemType::dim>
     for (const auto& foot : feet->springs()) {
       const Vec<Dim> force = foot.force(feet->law(), foot.motion_at(system.displacement.data()));
       const Pose<Dim> then = system.pose_at_update(foot.rock);
+      const FootBearing::Params& bearing = feet->law().params();
       forces.push_back({Vec<Dim>(system.body(foot.rock).centre +
                                  transposed_product(then.rotation, foot.arm_rock)),
-                        column(foot.frame, 0), feet->law().params().width, force[0],
+                        column(foot.frame, 0), bearing.width, force[0],
                         part<Dim - 1>(force, 1).norm(),
-                        force[0] / (feet->law().params().strength * foot.area),
+                        std::isfinite(bearing.strength) ? force[0] / (bearing.strength * foot.area)
+                                                        : std::numeric_limits<double>::quiet_NaN(),
+                        foot.state.settlement + force[0] / (bearing.stiffness * foot.area),
                         foot.state.settlement});
     }
   return forces;

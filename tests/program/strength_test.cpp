@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// What has no strength is not checked, and says so; what has reached its strength is said by every
+// verb, not by the run alone.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "harness.hpp"
+#include "support/near.hpp"
+
+#ifdef VOUSSOIR_TEST_PROGRAM
+
+using namespace voussoir_test;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string words = "no strength was given: not checked";
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A tunnel with bolts that have no strength and an arch on feet that have none.
+std::string unchecked() {
+  InputText input;
+  input.bolts = replaced(input.bolts, "rupture_force = \"200 kN\"\n", "");
+  input.lining +=
+      "arc = [\"0 deg\", \"180 deg\"]\n[support.lining.feet]\nstiffness = \"2 GPa/m\"\n"
+      "width = \"0.2 m\"\n";
+  return input.text();
+}
+
+struct Run {
+  Outcome outcome;
+  Json json;
+  std::string folder;
+};
+
+Run run(const Folder& folder, const std::string& file, const std::vector<std::string>& sets,
+        const std::string& name) {
+  std::vector<std::string> arguments = {"run", file, "--out", folder / name};
+  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  const Outcome outcome = run_program(arguments);
+  return {outcome, Json::parse(read_file(folder / (name + "/run.json"))), folder / name};
+}
+
+/// One cell of a table without line breaks in its cells.
+std::string cell(const std::string& table, std::size_t row, const std::string& column) {
+  std::vector<std::vector<std::string>> rows(1, {""});
+  bool quoted = false;
+  for (const char c : table) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == '\n' && !quoted)
+      rows.push_back({""});
+    else if (c == ',' && !quoted)
+      rows.back().emplace_back();
+    else if (c != '\r')
+      rows.back().back() += c;
+  }
+  for (std::size_t k = 0; k < rows.front().size(); ++k)
+    if (rows.front()[k] == column) return rows.at(row).at(k);
+  FAIL("no column ", column);
+  return "";
+}
+
+std::string with_unit(double newton) { return std::to_string(newton) + " N"; }
+
+}  // namespace
+
+TEST_SUITE("program/strength") {
+  TEST_CASE("without a strength: said on screen, in run.json and in tables, and no figure of it") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", unchecked());
+    const Run plain = run(folder, file, {}, "plain");
+    CAPTURE(plain.outcome.out);
+    REQUIRE(plain.outcome.status == 0);
+    const Json &bolts = plain.json["bolts"], &lining = plain.json["lining"];
+    CHECK(bolts["strength"] == words);
+    CHECK(bolts["of_its_strength"].is_null());
+    CHECK(lining["strength"] == words);
+    CHECK(lining["of_its_strength"].is_null());
+    REQUIRE(lining["feet"].size() == 2);
+    for (const Json& foot : lining["feet"]) {
+      CHECK(foot["of_its_strength"].is_null());
+      CHECK(foot["strength"] == words);
+      // Elastic: the bearing over stiffness and width.
+      const double bearing = foot["bearing_kN_per_m"];
+      REQUIRE(bearing > 0);
+      CHECK(foot["settlement_mm"].get<double>() == near(1e6 * bearing / (2e9 * 0.2)).epsilon(1e-9));
+      CHECK(foot["settlement_that_stays_mm"] == 0);
+    }
+    // The stress in a bar of 28 mm, and in a section 8 cm thick of thrust and moment at one node.
+    const double force = bolts["largest_force_kN"], stress = bolts["largest_stress_in_bar_MPa"];
+    CHECK(stress == near(1e-3 * force / (M_PI * 0.014 * 0.014)).epsilon(1e-9));
+    CHECK(lining["largest_stress_MPa"].get<double>() <=
+          1e-3 * lining["largest_thrust_kN_per_m"].get<double>() / 0.08 +
+              6e-3 * lining["largest_moment_kNm_per_m"].get<double>() / (0.08 * 0.08) + 1e-9);
+    CHECK(says(plain.outcome.out, "strength bolts (up to "));
+    CHECK(says(plain.outcome.out, " MPa in a bar of 28 mm), lining (up to "));
+    CHECK(says(plain.outcome.out, "feet of the lining: " + words));
+    CHECK(cell(read_file(plain.folder + "/bolts.csv"), 1, "of_its_strength") == "-");
+    CHECK(cell(read_file(plain.folder + "/lining.csv"), 1, "of_its_strength") == "-");
+
+    const Run given = run(folder, file,
+                          {"support.bolts.yield_force=500 kN", "support.bolts.rupture_force=600 kN",
+                           "support.lining.feet.strength=50 MPa"},
+                          "given");
+    CAPTURE(given.outcome.out);
+    CHECK(given.json["bolts"]["strength"] == "500 kN");
+    CHECK(given.json["bolts"]["of_its_strength"].get<double>() == near(force / 500).epsilon(1e-6));
+    CHECK(!says(given.outcome.out, "strength bolts"));
+    CHECK(says(given.outcome.out, "strength lining (up to "));
+    CHECK(!says(given.outcome.out, "feet of the lining: "));
+    const std::string table = read_file(given.folder + "/bolts.csv");
+    CHECK(std::stod(cell(table, 1, "of_its_strength")) ==
+          near(std::stod(cell(table, 1, "axial_force_kN")) / 500).epsilon(1e-6));
+    for (const Json& foot : given.json["lining"]["feet"])
+      CHECK(foot["of_its_strength"].get<double>() ==
+            near(1e3 * foot["bearing_kN_per_m"].get<double>() / (50e6 * 0.2)).epsilon(1e-9));
+    const Run bare = run(folder, file, {}, "bare");
+    CHECK(bare.outcome.status == 0);
+  }
+
+  TEST_CASE("bolts that have yielded and feet at their strength are in every table and verdict") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", unchecked());
+    const Run plain = run(folder, file, {}, "plain");
+    const double force = plain.json["bolts"]["largest_force_kN"],
+                 bearing = plain.json["lining"]["feet"][0]["bearing_kN_per_m"];
+    const std::string weak_bolts = "support.bolts.yield_force=" + with_unit(0.5e3 * force),
+                      weak_feet =
+                          "support.lining.feet.strength=" + std::to_string(0.5e3 * bearing / 0.2) +
+                          " Pa";
+
+    const Run weak = run(folder, file, {weak_bolts, weak_feet}, "weak");
+    CAPTURE(weak.outcome.out);
+    REQUIRE(weak.outcome.status == 0);
+    CHECK(says(weak.outcome.out, "warning  bolts yielded at "));
+    CHECK(says(weak.outcome.out,
+               "warning  a foot of the lining has reached its bearing strength at ("));
+    CHECK(weak.json["lining"]["feet"][0]["of_its_strength"].get<double>() == near(1).epsilon(1e-9));
+    CHECK(weak.json["lining"]["feet"][0]["settlement_that_stays_mm"] > 0);
+
+    const auto many = [&](std::vector<std::string> arguments, const std::string& name,
+                          const std::vector<std::string>& sets) {
+      arguments.insert(arguments.begin() + 1, {file, "--out", folder / name});
+      for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+      const Outcome outcome = run_program(arguments);
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 0);
+      return outcome.out;
+    };
+    const std::string sweep =
+        many({"sweep", "--vary", "support.bolts.yield_force=500 kN, " + with_unit(0.5e3 * force)},
+             "sweep", {});
+    CAPTURE(sweep);
+    CHECK(says(sweep, "2 stable; 1 of those that stand with bolts or feet at their strength"));
+    CHECK(says(sweep, "strength lining, feet of the lining: " + words));
+    const std::string rows = read_file(folder / "sweep/sweep.csv");
+    CHECK(cell(rows, 1, "verdict") == "stable");
+    CHECK(cell(rows, 1, "bolt_joints_yielded") == "0");
+    CHECK(std::stod(cell(rows, 1, "largest_bolt_force_of_its_strength")) ==
+          near(force / 500).epsilon(1e-5));  // six digits are written
+    CHECK(cell(rows, 2, "verdict") == "stable, bolts yielded");
+    CHECK(std::stoi(cell(rows, 2, "bolt_joints_yielded")) > 0);
+    CHECK(cell(rows, 2, "bolt_joints_ruptured") == "0");
+    CHECK(cell(rows, 2, "feet_yielded") == "0");
+
+    const std::string realised = many({"realisations", "-n", "1"}, "realisations", {weak_feet});
+    CAPTURE(realised);
+    CHECK(says(realised, "1 stable; 1 of those that stand with bolts or feet at their strength"));
+    CHECK(says(realised, "strength bolts, lining: " + words));
+    const std::string row = read_file(folder / "realisations/realisations.csv");
+    CHECK(cell(row, 1, "verdict") == "stable, feet at their strength");
+    CHECK(cell(row, 1, "largest_bolt_force_of_its_strength") == "-");
+    const Json json = Json::parse(read_file(folder / "realisations/realisations.json"));
+    CHECK(json["supports_yielded"] == 1);
+    CHECK(json["not_checked"] == Json({"bolts", "lining"}));
+
+    const std::string diagram = many(
+        {"diagram", "--set", R"(diagram={spacing=["30 deg", "none"], thickness=["0 cm", "8 cm"]})"},
+        "diagram", {weak_bolts});
+    CAPTURE(diagram);
+    CHECK(says(diagram, "y: bolts or feet have reached their strength"));
+    const std::string cells = read_file(folder / "diagram/interaction.csv");
+    CHECK(cell(cells, 2, "verdict") == "stable, bolts yielded");
+    CHECK(cell(cells, 4, "bolt_joints_yielded") == "0");  // of no bolts
+    CHECK(says(read_file(folder / "diagram/interaction.svg"),
+               "stable with bolts or feet at their strength"));
+  }
+}
+
+#endif
