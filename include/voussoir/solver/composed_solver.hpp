@@ -20,8 +20,8 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/model/bolt_installation.hpp>
 #include <voussoir/model/bolt_set.hpp>
-#include <voussoir/model/detail/bolt_assembly.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/detail/next_round.hpp>
@@ -371,17 +371,10 @@ double ComposedSolver<Models>::aim_at(const std::vector<double>& wall_fractions)
 template <class Models>
 int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, const BoltLaw& law,
                                          double spacing, const Anchors& anchors) {
-  require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
-  const double length = bar.length();
-  require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
-  const auto& domain = mass_->domain;
-  if (any_less(bar.end, domain.low) || any_less(domain.high, bar.end))
-    throw InvalidInput(
-        message({"bolt: its tip at ", text_of<dim>(bar.end),
-                 " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
-                 text_of<dim>(domain.high), " m"}));
-  const int crossed = detail::install_bolt(static_cast<SystemState<Geometry>&>(system_), *mass_,
-                                           bar, law, spacing, anchors, bolt_count_);
+  auto& bolts = bolts_among<dim, BoltLaw>(system_.supports);
+  const BodiesAtRest<SystemState<Geometry>> bodies{system_};
+  const int crossed = voussoir::install_bolt(bolts, *mass_, bar, bolts.add_law(law), bolt_count_,
+                                             spacing, anchors, bodies);
   ++bolt_count_;
   started_ = true;
   return crossed;
