@@ -165,7 +165,8 @@ TEST_SUITE("dynamics/bolts") {
     struct Case {
       double axial, shear;
     };
-    for (const auto& [axial, shear] : {Case{2e6, 2e6}, Case{1e5, 2e7}}) {
+    for (const Case& bar : {Case{2e6, 2e6}, Case{1e5, 2e7}}) {
+      const double axial = bar.axial, shear = bar.shear;
       CAPTURE(shear);
       const double mass = 2700, omega = std::sqrt(shear / mass);
       const AxialShearBolt law({.axial = {.axial_stiffness = axial}, .shear_stiffness = shear});

@@ -14,7 +14,7 @@ namespace voussoir {
 /// property, the first case of it.
 class LawFindings {
  public:
-  explicit LawFindings(std::string law) : law_(std::move(law)) {}
+  explicit LawFindings(const char* law) : law_(law) {}
 
   /// @param sentence  as it is written in the source up to its first digit it names the property
   void add(const std::string& sentence) {

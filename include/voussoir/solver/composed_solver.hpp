@@ -106,7 +106,7 @@ class ComposedSolver {
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
   /// @throws InvalidInput  no length or spacing, or the tip is outside the domain
   int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
-                   const Anchors& anchors = {});
+                   const Anchors& anchors = Anchors());
 
   /// Installs a lining on the wall in its present position, free of force. There may be several, on
   /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
@@ -142,12 +142,12 @@ class ComposedSolver {
   /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before; a limit of
   ///                         the acceptance out of range
   /// @throws NumericalFault  see the method
-  EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
+  EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = Method(),
                                 const Acceptance& acceptance = {}, const Progress& progress = {});
 
   /// The same with a part of its own for every round, in the order in which they were excavated.
   EquilibriumReport equilibrium(const std::vector<double>& wall_fractions,
-                                const Method& method = {}, const Acceptance& acceptance = {},
+                                const Method& method = Method(), const Acceptance& acceptance = {},
                                 const Progress& progress = {});
 
   /// Goes on at rest from where a run has brought the bodies (`set_in_motion(solver, settings)`):
