@@ -35,6 +35,7 @@
 #include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/detail/ground_scale.hpp>
 #include <voussoir/solver/detail/system_of.hpp>
 
 namespace voussoir {
@@ -399,8 +400,9 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   acceptance.check();
   const double to = aim_at(wall_fractions);
   started_ = true;
-  const SearchContext context{acceptance,          &measures_,       to,      progress,
-                              open_length(*mass_), in_situ_.gravity, carried_};
+  SearchContext context{acceptance,          &measures_,       to,      progress,
+                        open_length(*mass_), in_situ_.gravity, carried_};
+  context.ground = detail::ground_scale(*mass_, in_situ_, far_field_);
   EquilibriumReport report = method.find(system_, context);
   if (report.contact_update_limit > 0) update_limit_ = report.contact_update_limit;
   walls_.reach(system_.wall_fraction);
