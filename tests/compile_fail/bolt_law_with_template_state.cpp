@@ -29,7 +29,7 @@ struct Bolt {
     return {Stress<Dim>::Identity()};
   }
   template <int Dim>
-  double energy(const BoltSpan<Dim>& span, const State&) const {
+  double energy(const BoltSpan<Dim>& span, const State<Dim>&) const {
     return 0.5 * span.motion.squaredNorm();
   }
 };
