@@ -290,6 +290,15 @@ TEST_SUITE("equilibrium/rock_failure") {
     CHECK_FALSE(detail::moves_beyond_reason(tunnel.system(), context, 0.2 * edge, report));
     CHECK(detail::moves_beyond_reason(tunnel.system(), context, 0.3 * edge, report));
     CHECK(report.reason.find("a quarter of a block") != std::string::npos);
+    // And the third: p0/k_n of a tenth of a block, 2e9 Pa/m under 0.1 edge 2e9 Pa.
+    context.ground.pressure = 0.09 * edge * 2e9;
+    CHECK_FALSE(detail::moves_beyond_reason(tunnel.system(), context, 0, report));
+    context.ground.pressure = 0.11 * edge * 2e9;
+    CHECK(detail::moves_beyond_reason(tunnel.system(), context, 0, report));
+    CHECK(report.reason.find("joints close by more than a tenth") != std::string::npos);
+    // Nothing of this where the limit is given.
+    context.acceptance.displacement_limit = 1;
+    CHECK_FALSE(detail::moves_beyond_reason(tunnel.system(), context, 0.3 * edge, report));
   }
 
   TEST_CASE("a limit that is given below the elastic movement is refused, and named") {
