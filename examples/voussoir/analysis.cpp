@@ -259,8 +259,10 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(needed * 180 / std::numbers::pi) +
          " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
-  for (std::string& text : remarks_on(support_condition(run.tunnel, run.built)))
-    warn(std::move(text));
+  const SupportCondition supports = support_condition(run.tunnel, run.built);
+  for (std::string& text : remarks_on(supports)) warn(std::move(text));
+  if (supports.lining_open)
+    warn("feet of a lining: [support.lining.feet]; its bond: support.lining.interface.shear_bond");
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
     const LiningInput& lining = *input.lining;
     const double node_spacing =

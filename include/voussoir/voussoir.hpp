@@ -7,8 +7,10 @@
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/bolt/check_bolt_law.hpp>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
+#include <voussoir/contact/check_law.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>

@@ -24,8 +24,12 @@ struct Bolt {
     return state.broken;
   }
   template <int Dim>
-  Stress<Dim> stiffness(const BoltSpan<Dim>&) const {
-    return Stress<Dim>::Identity();
+  BoltStiffness<Dim> stiffness(const BoltSpan<Dim>&) const {
+    return {Stress<Dim>::Identity()};
+  }
+  template <int Dim>
+  double energy(const BoltSpan<Dim>& span, const State&) const {
+    return 0.5 * span.motion.squaredNorm();
   }
 };
 

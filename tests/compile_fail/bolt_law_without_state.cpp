@@ -21,8 +21,12 @@ struct Bolt {
     return state > 1;
   }
   template <int Dim>
-  Stress<Dim> stiffness(const BoltSpan<Dim>&) const {
-    return Stress<Dim>::Identity();
+  BoltStiffness<Dim> stiffness(const BoltSpan<Dim>&) const {
+    return {Stress<Dim>::Identity()};
+  }
+  template <int Dim>
+  double energy(const BoltSpan<Dim>& span, const double&) const {
+    return 0.5 * span.motion.squaredNorm();
   }
 };
 

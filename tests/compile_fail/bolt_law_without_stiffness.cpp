@@ -1,6 +1,6 @@
-// expect: bolt law: add `Stress<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m]
+// expect: bolt law: add `BoltStiffness<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m], of the pull and of the dowel
 // SPDX-License-Identifier: MIT
-// Time steps and the elastic matrix need the stiffness of the bolt.
+// Time steps and the elastic matrix need the stiffness of the bolt, its dowel included.
 #include <voussoir/solver/composition.hpp>
 
 namespace {
@@ -22,6 +22,10 @@ struct Bolt {
   bool commit(const BoltSpan<Dim>& span, State& state) const {
     state.broken = state.broken || span.motion.norm() > 1;
     return state.broken;
+  }
+  template <int Dim>
+  double energy(const BoltSpan<Dim>& span, const State&) const {
+    return 0.5 * span.motion.squaredNorm();
   }
 };
 

@@ -255,7 +255,7 @@ inline void check_yielded(const Row& row) {
 template <class Model, class... Others>
 [[nodiscard]] Row in_all_settings() {
   return {Model::role::name,
-          Model::name,
+          static_cast<const char*>(Model::name),
           at_rest<Planar, Model, Others...>(),
           in_motion<Planar, Model, Others...>(),
           at_rest<Spatial, Model, Others...>(),
@@ -265,7 +265,7 @@ template <class Model, class... Others>
 template <class Model, class... Others>
 [[nodiscard]] Row at_rest_only(const char* why) {
   return {Model::role::name,
-          Model::name,
+          static_cast<const char*>(Model::name),
           at_rest<Planar, Model, Others...>(),
           why,
           at_rest<Spatial, Model, Others...>(),

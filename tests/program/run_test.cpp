@@ -505,6 +505,22 @@ TEST_SUITE("program/run") {
               .find("raise displacement_limit") != std::string::npos);
   }
 
+  TEST_CASE("joints a thousandfold too soft are undecided, and named") {
+    // It was "stable", the crown 0.8 m down, status 0.
+    const Folder folder;
+    const Outcome outcome =
+        run_program({"run", write_file(folder / "case.toml", bare), "--out", folder / "out",
+                     "--set", "joint.kn=5 MPa/m", "--set", "tunnel.cover=100 m"});
+    CHECK(outcome.status == 3);
+    const Json json = Json::parse(read_file(folder / "out/run.json"));
+    CHECK(json.at("verdict") == "undecided");
+    const auto reason = json.at("stages").back().at("equilibrium").at("reason").get<std::string>();
+    CAPTURE(reason);
+    CHECK(reason.find("a joint closes by p0/k_n = ") != std::string::npos);
+    CHECK(reason.find("the joint stiffness (k_n = 5 MPa/m") != std::string::npos);
+    CHECK((outcome.out + outcome.err).find("k_n = 5 MPa/m") != std::string::npos);
+  }
+
   TEST_CASE("rock that detached from a tunnel that stands is in every word about it [long]") {
     const Results& r = bare_results();
     const double area = r.json.at("detached_area_m2");

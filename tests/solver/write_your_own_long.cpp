@@ -57,6 +57,13 @@ TEST_SUITE("solver/write_your_own_long") {
     }
   }
 
+  TEST_CASE("the laws of the page are sound, in 3-D too") {
+    for (const auto& faults :
+         {faults_of_this_page(), check_law<3>(PattonJoint({5e9, 5e8, 0.6, 0.17, 1e5})),
+          check_law<3>(FrictionBolt({2e8, 1e5}))})
+      for (const std::string& fault : faults) FAIL_CHECK(fault);
+  }
+
   TEST_CASE("the bolt law of the page holds a tunnel, and slides at its grip") {
     const auto hold = [](double grip) {
       auto tunnel = excavated<BoltedTunnel>(CoulombJoint({5e9, 5e8, 35 * degree}));

@@ -35,6 +35,7 @@ class AxialBolt {
   struct State {
     double plastic_extension = 0;  ///< p [m]
     bool ruptured = false;
+    double lost = 0;  ///< with the bolt when it broke [J]
   };
 
   /// @throws InvalidInput  a parameter is outside the range given in Params
@@ -66,31 +67,58 @@ class AxialBolt {
   template <int Dim>
   [[nodiscard]] BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
     if (state.ruptured) return {};
-    const auto [direction, extension] = stretch(span);
-    const double axial = std::min(returned(extension, state).force, params_.rupture_force);
-    return {axial * direction, axial};
+    const Stretch<Dim> now = stretch(span);
+    const double axial = std::min(returned(now, state).force, params_.rupture_force);
+    BoltForce<Dim> force{axial * now.direction, axial};
+    if (now.closing < 0) {
+      force.pull += params_.axial_stiffness * now.closing * span.axis;
+      force.axial = -force.pull.norm();
+    }
+    return force;
   }
 
   template <int Dim>
   bool commit(const BoltSpan<Dim>& span, State& state) const {
     if (state.ruptured) return false;
-    const Return now = returned(stretch(span).extension, state);
+    const Return now = returned(stretch(span), state);
     VOUSSOIR_ASSERT(!(now.plastic_extension < state.plastic_extension),
                     "what has yielded is not taken back");
+    if (now.force >= params_.rupture_force) {
+      state.lost = energy(span, state);
+      state.ruptured = true;
+    }
     state.plastic_extension = now.plastic_extension;
-    state.ruptured = now.force >= params_.rupture_force;
     return state.ruptured;
   }
 
   template <int Dim>
-  [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
+  [[nodiscard]] BoltStiffness<Dim> stiffness(const BoltSpan<Dim>& span) const {
     // Anchors that coincide resist motion in every direction that stretches the bar.
     const double length = span.initial.norm();
-    if (!(length > 0)) return diagonal_of<Dim>(params_.axial_stiffness);
+    if (!(length > 0)) return {diagonal_of<Dim>(params_.axial_stiffness)};
     // A taut bar also resists being moved sideways, by T0 / d.
     const Stress<Dim> along = outer(span.axis, span.axis);
-    return params_.axial_stiffness * along +
-           params_.pretension / length * (diagonal_of<Dim>(1) - along);
+    return {params_.axial_stiffness * along +
+            params_.pretension / length * (diagonal_of<Dim>(1) - along)};
+  }
+
+  ///   E = f^2 / 2 K_a + (f_y + H p / 2) p,   H p: by which the yield force has grown
+  ///
+  /// With what pretension holds at installation, T0^2 / 2 K_a, counted. A bolt that broke keeps
+  /// what it had at the rupture force: all of that is lost.
+  template <int Dim>
+  [[nodiscard]] double energy(const BoltSpan<Dim>& span, const State& state) const {
+    if (state.ruptured) return state.lost;
+    const Stretch<Dim> at = stretch(span);
+    Return now = returned(at, state);
+    // Of a step that passed the rupture force no more than the way to there.
+    if (const double rupture = params_.rupture_force; now.force >= rupture)
+      now = {rupture, rupture > params_.yield_force ? (rupture - params_.yield_force) / hardening()
+                                                    : state.plastic_extension};
+    const double growth = now.plastic_extension, pressed = params_.axial_stiffness * at.closing;
+    const double yielded =
+        growth > 0 ? (params_.yield_force + 0.5 * hardening() * growth) * growth : 0.0;
+    return 0.5 * (now.force * now.force + pressed * pressed) / params_.axial_stiffness + yielded;
   }
 
   template <int Dim>
@@ -106,6 +134,8 @@ class AxialBolt {
   struct Stretch {
     Vec<Dim> direction;
     double extension;
+    double closing = 0;      ///< along the axis, of a strut between anchors that coincide, <= 0 [m]
+    bool may_press = false;  ///< along its direction
   };
   struct Return {
     double force, plastic_extension;
@@ -118,35 +148,40 @@ class AxialBolt {
     if (!(initial > 0)) return stretch_from_joint(span);
     const Vec<Dim> now = span.initial + span.motion;
     const double length = now.norm();
-    if (!(length > 0)) return {span.axis, -initial};
+    if (!(length > 0)) return {span.axis, -initial, 0, params_.carries_compression};
     // l - d = (m^2 + 2 d.m)/(l + d) keeps its digits where the motion is tiny beside the span.
     const double extension =
         (span.motion.squaredNorm() + 2 * span.initial.dot(span.motion)) / (length + initial);
-    return {now / length, extension};
+    return {now / length, extension, 0, params_.carries_compression};
   }
   /// Anchors that coincide have no line between them: the bar starts out along its axis, as long as
   /// the pretension has stretched it, and the joint's motion bends it from there. Closing the joint
-  /// slackens it; it does not pull the bar out on the other side.
+  /// slackens it; it does not pull the bar out on the other side. A strut is pressed along its axis
+  /// then, and pulled across it as before: with one length for both the force would jump where a
+  /// joint closes on a bolt that has yielded.
   template <int Dim>
   [[nodiscard]] Stretch<Dim> stretch_from_joint(const BoltSpan<Dim>& span) const {
     const double seat = params_.pretension / params_.axial_stiffness;
     Vec<Dim> bar = seat * span.axis + span.motion;
-    const double along = span.axis.dot(bar);
-    if (along < 0 && !params_.carries_compression) bar -= along * span.axis;
-    const double length = bar.norm();
-    if (!(length > 0)) return {span.axis, -seat};
-    if (along < 0 && params_.carries_compression) return {-bar / length, -length - seat};
-    return {bar / length, length - seat};
+    const double along = std::min(0.0, span.axis.dot(bar));
+    bar -= along * span.axis;
+    const double length = bar.norm(), closing = params_.carries_compression ? along : 0.0;
+    if (!(length > 0)) return {span.axis, -seat, closing};
+    return {bar / length, length - seat, closing};
   }
 
-  [[nodiscard]] Return returned(double extension, const State& state) const {
+  /// H: by which the yield force grows with the plastic extension [N/m].
+  [[nodiscard]] double hardening() const {
+    return params_.axial_stiffness * params_.hardening_ratio / (1 - params_.hardening_ratio);
+  }
+  template <int Dim>
+  [[nodiscard]] Return returned(const Stretch<Dim>& now, const State& state) const {
     const double stiffness = params_.axial_stiffness;
-    const double trial = params_.pretension + stiffness * (extension - state.plastic_extension);
-    if (trial < 0 && !params_.carries_compression) return {0.0, state.plastic_extension};
-    const double hardening = stiffness * params_.hardening_ratio / (1 - params_.hardening_ratio);
-    const double yield = params_.yield_force + hardening * state.plastic_extension;
+    const double trial = params_.pretension + stiffness * (now.extension - state.plastic_extension);
+    if (trial < 0 && !now.may_press) return {0.0, state.plastic_extension};
+    const double yield = params_.yield_force + hardening() * state.plastic_extension;
     if (trial <= yield) return {trial, state.plastic_extension};
-    const double growth = (trial - yield) / (stiffness + hardening);
+    const double growth = (trial - yield) / (stiffness + hardening());
     // Not a number where a run is not stable; the run finds that out.
     VOUSSOIR_ASSERT(!(growth < 0), "yield makes a bolt longer");
     return {trial - stiffness * growth, state.plastic_extension + growth};

@@ -47,11 +47,20 @@ class AxialShearBolt {
   }
   template <int Dim>
   bool commit(const BoltSpan<Dim>& span, State& state) const {
-    return axial_.commit(span, state);
+    const bool breaks = axial_.commit(span, state);
+    if (breaks) state.lost += dowel_energy(span);
+    return breaks;
   }
   template <int Dim>
-  [[nodiscard]] Stress<Dim> stiffness(const BoltSpan<Dim>& span) const {
-    return axial_.stiffness(span);
+  [[nodiscard]] BoltStiffness<Dim> stiffness(const BoltSpan<Dim>& span) const {
+    BoltStiffness<Dim> bound = axial_.stiffness(span);
+    bound.dowel = shear_stiffness_ * (diagonal_of<Dim>(1) - outer(span.axis, span.axis));
+    return bound;
+  }
+  /// That of the axial spring and K_s t^2 / 2 of the dowel, lost with it.
+  template <int Dim>
+  [[nodiscard]] double energy(const BoltSpan<Dim>& span, const State& state) const {
+    return axial_.energy(span, state) + (state.ruptured ? 0.0 : dowel_energy(span));
   }
 
   template <int Dim>
@@ -71,6 +80,11 @@ class AxialShearBolt {
   template <int Dim>
   [[nodiscard]] static Vec<Dim> across(const BoltSpan<Dim>& span) {
     return span.jump - span.axis.dot(span.jump) * span.axis;
+  }
+
+  template <int Dim>
+  [[nodiscard]] double dowel_energy(const BoltSpan<Dim>& span) const {
+    return 0.5 * shear_stiffness_ * across(span).squaredNorm();
   }
 
   AxialBolt axial_;

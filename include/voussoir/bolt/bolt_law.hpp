@@ -27,6 +27,13 @@ struct BoltForce {
   Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first body where the bar crosses the joint [N]
 };
 
+/// Bounds of the springs that a bolt is at one joint, each symmetric and not negative [N/m].
+template <int Dim>
+struct BoltStiffness {
+  Stress<Dim> pull;                         ///< of `BoltForce::pull` to `BoltSpan::motion`
+  Stress<Dim> dowel = diagonal_of<Dim>(0);  ///< of `BoltForce::dowel` to `BoltSpan::jump`
+};
+
 /// What a bolt does at one joint, and what has become of it there, in words that all laws share:
 /// all that measurements, tables and pictures read of a law. Values of one bolt, not per metre.
 struct BoltReport {
@@ -43,7 +50,7 @@ struct BoltReport {
 };
 
 template <class Law, int Dim>
-concept HasBoltState = DefaultConstructible<typename Law::State>;
+concept HasBoltState = DefaultConstructible<typename Law::State> && Copyable<typename Law::State>;
 /// A `State` that is a template, as that of a contact law is.
 template <class Law, int Dim>
 concept HasTemplateState = requires {
@@ -61,7 +68,12 @@ concept HasBoltCommit = requires(const Law law, const BoltSpan<Dim>& span,
 };
 template <class Law, int Dim>
 concept HasBoltStiffness = requires(const Law law, const BoltSpan<Dim>& span) {
-  { law.stiffness(span) } -> std::same_as<Stress<Dim>>;
+  { law.stiffness(span) } -> std::same_as<BoltStiffness<Dim>>;
+};
+template <class Law, int Dim>
+concept HasBoltEnergy = requires(const Law law, const BoltSpan<Dim>& span,
+                                 const typename Law::State& state) {
+  { law.energy(span, state) } -> std::same_as<double>;
 };
 /// Optional: the law says itself what tables and pictures show of a bolt. Else `report_of` says
 /// what follows from its force.
@@ -73,10 +85,16 @@ concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
 
 /// The spring that a bolt is, at every joint it crosses. Values are per bolt, not per metre.
 ///
-/// What the compiler cannot check: `force` reads and `commit` remembers, as for a contact law;
-/// `pull` follows `motion` and `dowel` follows `jump`, in proportion; `commit` returns true when
-/// the bolt broke, so that equilibrium must be sought anew; `stiffness` [N/m] is that of `pull`,
-/// symmetric, not negative, and bounds the tangent stiffness near the initial span.
+/// What the compiler cannot check:
+///  - `force` reads and `commit` remembers, as for a contact law; `pull` follows `motion` and
+///    `dowel` follows `jump`; a span that is turned as a whole has the force turned with it;
+///  - `commit` returns true when the bolt broke, so that equilibrium must be sought anew;
+///  - `stiffness` bounds the tangents of all its springs near the initial span, the dowel included:
+///    the elastic matrix and the stable time step have nothing else;
+///  - `energy` [J] is the work done on the bolt, what it holds and what it has lost to yield and
+///    rupture alike, counted from anywhere: its change is that of pull . motion + dowel . jump,
+///    and a commit does not change it. The energy balance of a run books it.
+/// `check_law` (bolt/check_bolt_law.hpp) tries all of this.
 ///
 /// Optional: `BoltReport describe(const BoltSpan<Dim>&, const State&) const`, for a law that
 /// remembers what it has yielded (see `report_from_force`).
@@ -85,7 +103,8 @@ concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
 template <class Law, int Dim>
 concept BoltLaw = Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> &&
     HasBoltState<Law, Dim> && HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> &&
-    HasBoltStiffness<Law, Dim> &&(HasBoltReport<Law, Dim> || !NamesDescribe<Law>);
+    HasBoltStiffness<Law, Dim> && HasBoltEnergy<Law, Dim> &&
+    (HasBoltReport<Law, Dim> || !NamesDescribe<Law>);
 
 template <class Law, int Dim>
 consteval bool explain_bolt_law() {
@@ -96,13 +115,18 @@ consteval bool explain_bolt_law() {
   static_assert(!HasTemplateState<Law, Dim>,
                 "bolt law: `State` must be no template: `struct State`");
   static_assert(HasBoltState<Law, Dim>,
-                "bolt law: add `struct State` for what a bolt remembers at a joint");
+                "bolt law: add `struct State` for what a bolt remembers at a joint; it is copied "
+                "and begins as `State{}`");
   static_assert(HasBoltForce<Law, Dim>,
                 "bolt law: add `BoltForce<Dim> force(const BoltSpan<Dim>&, const State&) const`");
   static_assert(HasBoltCommit<Law, Dim>,
                 "bolt law: add `bool commit(const BoltSpan<Dim>&, State&) const` (true: it broke)");
   static_assert(HasBoltStiffness<Law, Dim>,
-                "bolt law: add `Stress<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m]");
+                "bolt law: add `BoltStiffness<Dim> stiffness(const BoltSpan<Dim>&) const` [N/m], "
+                "of the pull and of the dowel");
+  static_assert(HasBoltEnergy<Law, Dim>,
+                "bolt law: add `double energy(const BoltSpan<Dim>&, const State&) const` [J], what "
+                "it holds and has lost");
   static_assert(
       HasBoltReport<Law, Dim> || !NamesDescribe<Law>,
       "bolt law: `describe` must be `BoltReport describe(const BoltSpan<Dim>&, const State&) "
@@ -132,7 +156,7 @@ template <int Dim, class Law>
   constexpr double step = 1e-8;
   BoltSpan<Dim> further = span;
   further.motion += step * along;
-  const double stiffness = span.axis.dot(law.stiffness(span) * span.axis);
+  const double stiffness = span.axis.dot(law.stiffness(span).pull * span.axis);
   VOUSSOIR_ASSERT(stiffness >= 0, "a bolt that is pulled pulls back");
   report.is_yielding = law.force(further, state).axial - force.axial < 0.5 * stiffness * step;
   return report;

@@ -178,9 +178,18 @@ template <int Dim, class Law>
     return release.opening > 0 || release.stretch > 0;
 }
 
+/// Whether a point that nothing presses, in situ or since, holds shear: it is bonded.
+template <int Dim, class Law>
+[[nodiscard]] bool holds_shear(const Law& law) {
+  PointLoad<Dim> load{1.0, {}, {0, zeros<Vec<Dim - 1>>()}};
+  load.motion.slip[0] = 1e-9;  // shorter than any bond bears
+  return law.force(load, typename Law::template State<Dim>{}).tangential.norm() > 0;
+}
+
 /// Turns the motion at one contact point into a force. Reading and remembering are separate.
 ///
-/// What the compiler cannot check, and a law must still honour:
+/// What the compiler cannot check, and a law must still honour (`check_law` tries it,
+/// contact/check_law.hpp):
 ///  - `force` depends on its arguments alone and is continuous in the motion;
 ///  - `commit` sets the state so that `force` at the same motion gives the same force as before,
 ///    and returns the energy that slip, damage and the like have used up since the last commit [J];

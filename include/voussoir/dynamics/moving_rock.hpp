@@ -16,7 +16,7 @@
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/lining/node_spacing.hpp>
-#include <voussoir/model/bolt_crossings.hpp>
+#include <voussoir/model/bolt_installation.hpp>
 #include <voussoir/model/bolt_set.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/lining_feet.hpp>
@@ -65,12 +65,29 @@ template <class InterfaceLaw = CoulombJoint, class Detector = CutContacts, class
                                              far_field);
 }
 
+/// The bodies of a run, for `install_bolt`.
+template <class Run>
+struct BodiesInMotion {
+  const Run& run;
+
+  [[nodiscard]] bool is_gone(int b) const { return run.body(b).is_gone; }
+  [[nodiscard]] auto frame(int b) const { return run.home(b); }
+  template <class Spring>
+  [[nodiscard]] BoltSpan<Spring::dim> span(const Spring& spring) const {
+    const Pose<Spring::dim> a = run.pose(spring.a);
+    BoltSpan<Spring::dim> span = spring.span_at(a, run.pose(spring.b));
+    span.motion = transposed_product(a.rotation, span.motion);
+    span.jump = transposed_product(a.rotation, span.jump);
+    return span;
+  }
+};
+
 /// Installs bolts in the rock as it lies now, free of force but for their pretension.
 /// @param run     made from the same mass, whose body b is its body b
 /// @param bars    where the rock was sliced; a bar has moved with every block that it passes
 /// @param spacing  between bolts along the tunnel (2-D) [m], > 0
 /// @return  the bolts, which the run holds too: forces are read there
-/// @throws InvalidInput  spacing out of range, or a bar without length
+/// @throws InvalidInput  see `install_bolt`
 template <class Geometry, class BoltLaw, class Anchors, class... Parts>
 std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
     Dynamics<Geometry::dim, Parts...>& run, const RockMass<Geometry>& mass,
@@ -78,23 +95,11 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
     const Anchors& anchors) {
   constexpr int dim = Geometry::dim;
   static_assert(explain_bolt_law<BoltLaw, dim>());
-  require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
   auto bolts = std::make_shared<BoltSet<dim, BoltLaw>>(law);
+  const BodiesInMotion<Dynamics<dim, Parts...>> bodies{run};
   int number = 0;
-  for (const auto& bar : bars) {
-    require(bar.length() > 0 && std::isfinite(bar.length()), "bolt length", bar.length(), "> 0 m");
-    const Vec<dim> axis = (bar.end - bar.start) / bar.length();
-    bolts->install(
-        bolt_crossings(block_intersections(mass, bar), bar, anchors, mass.domain.tolerance()), axis,
-        number++, 0, dim == 2 ? 1 / spacing : 1, [&](int b) { return run.home(b); },
-        [&](const auto& spring) {
-          const Pose<dim> a = run.pose(spring.a);
-          BoltSpan<dim> span = spring.span_at(a, run.pose(spring.b));
-          span.motion = transposed_product(a.rotation, span.motion);
-          span.jump = transposed_product(a.rotation, span.jump);
-          return span;
-        });
-  }
+  for (const auto& bar : bars)
+    install_bolt(*bolts, mass, bar, 0, number++, spacing, anchors, bodies);
   run.add_support(bolts);
   return bolts;
 }

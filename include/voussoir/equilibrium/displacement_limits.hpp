@@ -115,6 +115,91 @@ template <class System>
   return chosen;
 }
 
+/// "5 MPa/m"
+[[nodiscard]] inline std::string stiffness_text(double stiffness) {
+  const bool giga = stiffness >= 1e9, mega = stiffness >= 1e6;
+  return message_number(stiffness / (giga   ? 1e9
+                                     : mega ? 1e6
+                                            : 1),
+                        3) +
+         (giga   ? " GPa/m"
+          : mega ? " MPa/m"
+                 : " Pa/m");
+}
+/// "530 mm", "5.7 m"
+[[nodiscard]] inline std::string movement_text(double length) {
+  return length < 1 ? message_number(1e3 * length, 3) + " mm" : message_number(length, 3) + " m";
+}
+
+/// Stiffnesses of a joint that is as soft as all of them are on average [Pa/m].
+struct MeanJoint {
+  double normal, shear;
+  [[nodiscard]] std::string text() const {
+    return "the joint stiffness (k_n = " + stiffness_text(normal) +
+           ", k_s = " + stiffness_text(shear) + ")";
+  }
+};
+/// Over contacts: a soft fault among joints of rock does not make all of it soft.
+template <class System>
+[[nodiscard]] MeanJoint mean_joint(const System& system) {
+  double normal = 0, shear = 0;
+  const auto& contacts = system.joints.contacts();
+  for (const auto& c : contacts) {
+    normal += 1 / system.joints.law_of(c).joint_normal_stiffness();
+    shear += 1 / system.joints.law_of(c).joint_shear_stiffness();
+  }
+  const auto count = static_cast<double>(contacts.size());
+  return {count / normal, count / shear};
+}
+
+/// True, with the reason, if limits that are left to the rock would follow an elastic movement that
+/// is none: more than a fortieth of the span of the opening, or a quarter of a block, so that four
+/// times it is more than a whole one; or joints that the in-situ stress alone closes by a tenth of
+/// a block (docs/decisions.md). Joints a thousandfold too soft would else be stable at whatever
+/// depth the crown has come to.
+///
+/// The value to blame is the one that the in-situ stress strains most: joints, or elastic ground
+/// beyond the domain.
+/// @param given  with the limits as they are given: one that is a number is taken at its word
+/// @param far    elastic displacement at the walls [m]
+template <class System>
+[[nodiscard]] bool moves_beyond_reason(const System& system, const SearchContext& given, double far,
+                                       EquilibriumReport& report) {
+  constexpr double span_share = 1.0 / 40, block_share = 0.25, closure_share = 0.1;
+  if (given.acceptance.displacement_limit != by_the_rock) return false;
+  const double moved = far - given.carried, edge = mean_block_edge(system, given.measures),
+               span = given.ground.span, pressure = given.ground.pressure;
+  if (!(edge > 0) || system.joints.contacts().empty()) return false;
+  const MeanJoint joint = mean_joint(system);
+  const double closure = pressure / joint.normal, strain = pressure / given.ground.modulus;
+  const bool by_span = span > 0 && span_share * span < block_share * edge;
+  const bool moves = moved > (by_span ? span_share * span : block_share * edge);
+  if (!moves && !(closure > closure_share * edge)) return false;
+
+  const std::string block = "a block of " + message_number(edge, 2) + " m",
+                    under = " under the in-situ stress of " + message_number(1e-6 * pressure, 3) +
+                            " MPa";
+  std::string& why = report.reason;
+  why = moves ? "with joints that slip and open no further the rock would have moved " +
+                    movement_text(moved) + ", more than " +
+                    (by_span ? "a fortieth of the span of " + message_number(span, 3) + " m"
+                             : "a quarter of " + block)
+              : "joints close by more than a tenth of " + block;
+  if (!(pressure > 0))
+    why += "; to blame is " + joint.text() + ", of rock 0.1 to 1000 GPa/m, or a load";
+  else if (strain > closure / edge)
+    why += "; to blame is the modulus of the ground around (" +
+           message_number(1e-9 * given.ground.modulus, 3) + " GPa): it is strained by " +
+           message_number(100 * strain, 2) + " %" + under;
+  else
+    why += "; to blame is " + joint.text() +
+           ": a joint closes by p0/k_n = " + movement_text(closure) + under + ", " +
+           message_number(100 * closure / edge, 3) + " % of " + block + ", in rock less than 1 %";
+  why += "; if it is meant, give a displacement_limit";
+  report.largest_displacement = system.largest_translation(system.displacement);
+  return true;
+}
+
 /// True, with the reason, if the rock as a whole is about to move so far that detached blocks
 /// cannot be told by a limit that was given: if more than one block in a hundred would have moved
 /// beyond half of it after one elastic step to the end of the stage. Blocks that slid so far in an

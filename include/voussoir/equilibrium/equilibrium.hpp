@@ -48,7 +48,8 @@ enum class Verdict {
 }
 
 /// A limit of displacements that is chosen from the size of the blocks and the elastic movement of
-/// the rock (see `detail::limits_by_the_rock`).
+/// the rock (see `detail::limits_by_the_rock`), which must itself be small (see
+/// `detail::moves_beyond_reason`).
 inline constexpr double by_the_rock = -1;
 
 /// When a state counts as an equilibrium.
@@ -112,6 +113,14 @@ struct EquilibriumReport {
   return to_string(report.verdict, report.fallen_measure, !report.lost_nodes.empty());
 }
 
+/// What the movement of a rock mass is measured by, and what it may be blamed on.
+struct GroundScale {
+  double span = 0;      ///< of the opening, the longer side of its section; 0: there is none [m]
+  double pressure = 0;  ///< in situ, at the opening: mean of the normal stresses [Pa]
+  /// Of elastic ground beyond the domain: mean of its moduli under normal strain [Pa].
+  double modulus = std::numeric_limits<double>::infinity();
+};
+
 /// The context of a search: what counts as equilibrium, how heavy bodies are, whom to tell.
 struct SearchContext {
   Acceptance acceptance;
@@ -130,6 +139,7 @@ struct SearchContext {
   /// What a block seldom moves in a stage that stands: a search in one step gives up where one
   /// moves further. Set by the stage [m].
   double seldom_moved = std::numeric_limits<double>::infinity();
+  GroundScale ground = {};
 };
 
 namespace detail {

@@ -35,7 +35,7 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
   }
   void add(Spring spring) {
     springs_.push_back(std::move(spring));
-    travels_.emplace_back();
+    axial_.push_back(0);
   }
   /// Installs a bolt where bodies are now, free of force but for its pretension.
   /// @param crossings  of its bar with joints, in the in-situ state
@@ -73,7 +73,7 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
     return laws_[static_cast<std::size_t>(s.law)];
   }
   /// Axial force of a spring at the last step of a run, of the bolt [N].
-  [[nodiscard]] double axial_force(std::size_t spring) const { return travels_[spring].axial; }
+  [[nodiscard]] double axial_force(std::size_t spring) const { return axial_[spring]; }
 
   [[nodiscard]] std::vector<int> bodies() const override {
     std::vector<int> held;
@@ -90,10 +90,10 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
     for (std::size_t k = 0; k < springs_.size(); ++k) {
       if (is_marked(gone, springs_[k].a) || is_marked(gone, springs_[k].b)) continue;
       springs_[kept] = springs_[k];
-      travels_[kept++] = travels_[k];
+      axial_[kept++] = axial_[k];
     }
     springs_.resize(kept, Spring{});
-    travels_.resize(kept);
+    axial_.resize(kept);
   }
   void take_over(const Heirs<Dim>& heirs) override {
     std::size_t kept = 0;
@@ -113,10 +113,10 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
       follow(s.b, s.joint_b, s.arm_b);
       if (s.a < 0 || s.b < 0) continue;
       springs_[kept] = springs_[k];
-      travels_[kept++] = travels_[k];
+      axial_[kept++] = axial_[k];
     }
     springs_.resize(kept, Spring{});
-    travels_.resize(kept);
+    axial_.resize(kept);
   }
   void list_broken(std::vector<bool>& broken) const override {
     for (const Spring& s : springs_) broken.push_back(s.broken);
@@ -154,61 +154,43 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
       const BoltSpan<Dim> span = s.span_at(a, b);
       s.commit(law_of(s), span);
       const BoltForce<Dim> force = law_of(s).force(span, s.state);
-      const Vec<Dim> pull = s.share * force.pull, dowel = s.share * force.dowel;
-      travels_[k].go_to(span.initial + span.motion, pull, span.jump, dowel, force.axial);
-      push(loads[index(s.a)], a.rotation * s.arm_a, pull);
-      push(loads[index(s.b)], b.rotation * s.arm_b, -pull);
-      push(loads[index(s.a)], a.rotation * s.joint_a, dowel);
-      push(loads[index(s.b)], b.rotation * s.joint_b, -dowel);
+      axial_[k] = force.axial;
+      for (const auto& [pull, arm] : {std::pair{s.share * force.pull, &s.arm_b},
+                                      std::pair{s.share * force.dowel, &s.joint_b}}) {
+        // On both where it meets b, wherever it is fixed in a: the span turns with a, and what the
+        // law states as energy is the work of these forces, whatever turns.
+        const Vec<Dim> place = b(*arm);
+        push(loads[index(s.a)], place - a.position, pull);
+        push(loads[index(s.b)], place - b.position, -pull);
+      }
     }
   }
-  [[nodiscard]] double energy(const Bodies&) const override {
+  [[nodiscard]] double energy(const Bodies& bodies) const override {
     double sum = 0;
-    for (const Travel& travel : travels_) sum += travel.work;
+    for (const Spring& s : springs_)
+      sum += s.share *
+             law_of(s).energy(s.span_at(bodies[index(s.a)].pose, bodies[index(s.b)].pose), s.state);
     return sum;
   }
   void add_stiffness_over_mass(const Bodies& bodies, std::vector<double>& sums) const override {
     for (const Spring& s : springs_) {
       if (s.broken) continue;
       const BoltSpan<Dim> span{s.span.initial, s.span.axis, zeros<Vec<Dim>>()};
-      // Of a symmetric matrix without negative eigenvalues the trace bounds the largest; a dowel
-      // may be as stiff again.
-      const double stiffness = 2 * s.share * law_of(s).stiffness(span).trace();
-      for (const auto& [b, arm] : {std::pair{s.a, &s.arm_a}, std::pair{s.b, &s.arm_b}}) {
-        const auto& body = bodies[index(b)];
-        if (body.movable())
-          sums[index(b)] +=
-              stiffness * (1 / body.mass + arm->squaredNorm() / smallest_entry(body.inertia));
-      }
+      const BoltStiffness<Dim> bound = law_of(s).stiffness(span);
+      const Pose<Dim>& at_b = bodies[index(s.b)].pose;
+      // Of a symmetric matrix without negative eigenvalues the trace bounds the largest.
+      for (const auto& [stiffness, arm] : {std::pair{s.share * bound.pull.trace(), &s.arm_b},
+                                           std::pair{s.share * bound.dowel.trace(), &s.joint_b}})
+        for (const int b : {s.a, s.b}) {
+          const auto& body = bodies[index(b)];
+          if (!body.movable()) continue;
+          const double lever = (at_b(*arm) - body.pose.position).squaredNorm();
+          sums[index(b)] += stiffness * (1 / body.mass + lever / smallest_entry(body.inertia));
+        }
     }
   }
 
  private:
-  /// What a run knows of a spring: the work done on it, step by step.
-  struct Travel {
-    Vec<Dim> pull = zeros<Vec<Dim>>();   ///< on the first anchor at the last step, shared [N]
-    Vec<Dim> span = zeros<Vec<Dim>>();   ///< from anchor to anchor then [m]
-    Vec<Dim> dowel = zeros<Vec<Dim>>();  ///< on the first side of the joint then, shared [N]
-    Vec<Dim> jump = zeros<Vec<Dim>>();   ///< of the joint then [m]
-    bool is_under_way = false;
-    double axial = 0;  ///< then, of the bolt [N]
-    double work = 0;   ///< done on the bolt so far, shared [J]
-
-    void go_to(const Vec<Dim>& span_now, const Vec<Dim>& pull_now, const Vec<Dim>& jump_now,
-               const Vec<Dim>& dowel_now, double axial_now) {
-      // The forces on a do the bolt's work with the opposite sign.
-      if (is_under_way)
-        work += 0.5 *
-                ((pull + pull_now).dot(span_now - span) + (dowel + dowel_now).dot(jump_now - jump));
-      is_under_way = true;
-      span = span_now;
-      pull = pull_now;
-      jump = jump_now;
-      dowel = dowel_now;
-      axial = axial_now;
-    }
-  };
-
   [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
   [[nodiscard]] static bool is_chosen(const Spring& s, const BodyMarks* chosen) {
     return chosen == nullptr || is_marked(*chosen, s.a) || is_marked(*chosen, s.b);
@@ -220,7 +202,7 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
 
   std::vector<Law> laws_;
   std::vector<Spring> springs_;
-  std::vector<Travel> travels_;  ///< of each spring
+  std::vector<double> axial_;  ///< of each spring at the last step of a run, of the bolt [N]
 };
 
 }  // namespace voussoir

@@ -74,8 +74,8 @@ struct BoltSpring {
   template <class Sink>
   void add_stiffness(const Law& spring, Sink&& sink) const {
     if (broken) return;
-    hand_over(share * spring.stiffness(span),
-              derivative(spring, span, {}, &BoltSpan<Dim>::jump, &BoltForce<Dim>::dowel), sink);
+    const BoltStiffness<Dim> stiffness = spring.stiffness(span);
+    hand_over(share * stiffness.pull, share * stiffness.dowel, sink);
   }
   /// The negative derivative of the forces at `u`, by differences (see ContactGroup::add_tangent).
   template <class Sink>

@@ -20,8 +20,8 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/farfield/ground_around.hpp>
 #include <voussoir/lining/lining_frame.hpp>
+#include <voussoir/model/bolt_installation.hpp>
 #include <voussoir/model/bolt_set.hpp>
-#include <voussoir/model/detail/bolt_assembly.hpp>
 #include <voussoir/model/detail/initial_model.hpp>
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/detail/next_round.hpp>
@@ -35,6 +35,7 @@
 #include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/detail/ground_scale.hpp>
 #include <voussoir/solver/detail/system_of.hpp>
 
 namespace voussoir {
@@ -106,7 +107,7 @@ class ComposedSolver {
   /// @return  number of joints crossed; 0 is a bolt inside one block, which does nothing
   /// @throws InvalidInput  no length or spacing, or the tip is outside the domain
   int install_bolt(const typename Geometry::Line& bar, const BoltLaw& law, double spacing = 1.0,
-                   const Anchors& anchors = {});
+                   const Anchors& anchors = Anchors());
 
   /// Installs a lining on the wall in its present position, free of force. There may be several, on
   /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
@@ -142,12 +143,12 @@ class ComposedSolver {
   /// @throws InvalidInput    wall_fraction outside 0..1, or more than was left before; a limit of
   ///                         the acceptance out of range
   /// @throws NumericalFault  see the method
-  EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = {},
+  EquilibriumReport equilibrium(double wall_fraction = 0, const Method& method = Method(),
                                 const Acceptance& acceptance = {}, const Progress& progress = {});
 
   /// The same with a part of its own for every round, in the order in which they were excavated.
   EquilibriumReport equilibrium(const std::vector<double>& wall_fractions,
-                                const Method& method = {}, const Acceptance& acceptance = {},
+                                const Method& method = Method(), const Acceptance& acceptance = {},
                                 const Progress& progress = {});
 
   /// Goes on at rest from where a run has brought the bodies (`set_in_motion(solver, settings)`):
@@ -371,17 +372,10 @@ double ComposedSolver<Models>::aim_at(const std::vector<double>& wall_fractions)
 template <class Models>
 int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, const BoltLaw& law,
                                          double spacing, const Anchors& anchors) {
-  require(spacing > 0 && std::isfinite(spacing), "bolt spacing along the tunnel", spacing, "> 0 m");
-  const double length = bar.length();
-  require(length > 0 && std::isfinite(length), "bolt length", length, "> 0 m");
-  const auto& domain = mass_->domain;
-  if (any_less(bar.end, domain.low) || any_less(domain.high, bar.end))
-    throw InvalidInput(
-        message({"bolt: its tip at ", text_of<dim>(bar.end),
-                 " m is outside the domain, which reaches from ", text_of<dim>(domain.low), " to ",
-                 text_of<dim>(domain.high), " m"}));
-  const int crossed = detail::install_bolt(static_cast<SystemState<Geometry>&>(system_), *mass_,
-                                           bar, law, spacing, anchors, bolt_count_);
+  auto& bolts = bolts_among<dim, BoltLaw>(system_.supports);
+  const BodiesAtRest<SystemState<Geometry>> bodies{system_};
+  const int crossed = voussoir::install_bolt(bolts, *mass_, bar, bolts.add_law(law), bolt_count_,
+                                             spacing, anchors, bodies);
   ++bolt_count_;
   started_ = true;
   return crossed;
@@ -406,8 +400,9 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   acceptance.check();
   const double to = aim_at(wall_fractions);
   started_ = true;
-  const SearchContext context{acceptance,          &measures_,       to,      progress,
-                              open_length(*mass_), in_situ_.gravity, carried_};
+  SearchContext context{acceptance,          &measures_,       to,      progress,
+                        open_length(*mass_), in_situ_.gravity, carried_};
+  context.ground = detail::ground_scale(*mass_, in_situ_, far_field_);
   EquilibriumReport report = method.find(system_, context);
   if (report.contact_update_limit > 0) update_limit_ = report.contact_update_limit;
   walls_.reach(system_.wall_fraction);

@@ -143,10 +143,12 @@ struct Composition {
   /// For the first line of every log: "Planar, CutContacts, CoulombJoint, ...".
   [[nodiscard]] static std::string describe() {
     std::string text = Geometry::name;
-    for (const char* name :
-         {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name, Lining::name})
-      text.append(", ").append(name);
-    return text.append(" on ").append(Interface::name).append(", ").append(Method::name);
+    // A name is whatever turns into a `const char*`.
+    const char* const models[] = {Detector::name, JointLaw::name, Anchors::name, BoltLaw::name,
+                                  Lining::name};
+    for (const char* model : models) text.append(", ").append(model);
+    const char* const others[] = {Interface::name, Method::name};
+    return text.append(" on ").append(others[0]).append(", ").append(others[1]);
   }
 };
 

@@ -24,7 +24,8 @@ struct CreepState {
 /// @throws InvalidInput  duration out of range
 template <class Solver, class Seen>
 requires CreepingLaw<typename Solver::JointLaw, Solver::dim> std::vector<CreepState> creep(
-    Solver& solver, double duration, Seen&& seen, const typename Solver::Method& method = {},
+    Solver& solver, double duration, Seen&& seen,
+    const typename Solver::Method& method = typename Solver::Method(),
     const Acceptance& acceptance = {}) {
   require(duration > 0 && std::isfinite(duration), "duration of creep", duration, "> 0 s");
   std::vector<CreepState> states;

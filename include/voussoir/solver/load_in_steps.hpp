@@ -25,8 +25,8 @@ namespace voussoir {
 template <class Solver>
 [[nodiscard]] std::vector<EquilibriumReport> load_in_steps(
     Solver& solver, const std::vector<PrescribedDisplacement<Solver::dim>>& displacements,
-    int steps, const typename Solver::Method& method = {}, const Acceptance& acceptance = {},
-    const Progress& progress = {}) {
+    int steps, const typename Solver::Method& method = typename Solver::Method(),
+    const Acceptance& acceptance = {}, const Progress& progress = {}) {
   require(steps > 0, "steps of a loading", steps, "> 0");
   std::vector<PrescribedDisplacement<Solver::dim>> each = displacements;
   for (auto& motion : each) motion = {motion.block, motion.by / steps, motion.rotation / steps};

@@ -41,7 +41,7 @@ struct BoltInstallation {
   std::vector<typename Solver::Geometry::Line> bars;  ///< head first [m]
   typename Solver::BoltLaw law;
   double spacing = 1;  ///< between bolts along the tunnel (2-D) [m], > 0
-  typename Solver::Anchors anchors = {};
+  typename Solver::Anchors anchors = typename Solver::Anchors();
 };
 
 /// A lining on the wall of an opening.
@@ -94,7 +94,7 @@ struct ConstructionStage {
 template <class Solver>
 struct Construction {
   std::vector<ConstructionStage<Solver>> stages;
-  typename Solver::Method method;
+  typename Solver::Method method = typename Solver::Method();
   Acceptance acceptance;
 
   /// @param wall_traction  part of the in-situ traction left at the end [-], 0 to 1

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+#include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/tunnel/construction.hpp>
@@ -108,10 +109,8 @@ template <class Solver>
     condition.lost += result.crossings[k] > 0 && held[k] == 0;
   }
   bool is_bonded = false;
-  using Law = typename Solver::InterfaceLaw;
   for (const auto& law : solver.system().interface.laws())
-    if constexpr (requires(const Law& of) { of.params().cohesion; })
-      is_bonded = is_bonded || law.template as<Law>()->params().cohesion > 0;
+    is_bonded = is_bonded || holds_shear<Solver::dim>(law);
   const bool is_joined =
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto& lining : solver.system().linings) {
@@ -153,8 +152,7 @@ template <class Solver>
   if (condition.lining_open)
     remarks.emplace_back(
         "the lining is open and its ends stand on nothing: it carries what friction on the rock "
-        "gives it, next to no thrust; give them feet, or bond it ([support.lining.feet], "
-        "interface.shear_bond)");
+        "gives it, next to no thrust; give them feet, or bond it to the rock");
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +
                       " m: the rock there had fallen before it was installed; that end hangs free");

@@ -121,6 +121,7 @@ void carry_out_stage(System& system, const SearchContext& given, Solve&& solve,
   drop(system, {}, given, report);
   if (has_collapsed<System::dim>(report, given)) return;
   const ElasticOutlook outlook = look_ahead(system, given, solve, detachment);
+  if (moves_beyond_reason(system, given, outlook.far, report)) return;
   const SearchContext context = limits_by_the_rock(system, given, outlook.far);
   report.displacement_limit = context.acceptance.displacement_limit;
   report.contact_update_limit = context.acceptance.contact_update_limit;

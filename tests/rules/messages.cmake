@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# The library knows no input file: no text of its headers names a table or a key of one ("[run]",
+# "support.lining"). The program adds them to what it prints.
+#   cmake -DROOT=<include/voussoir> -P messages.cmake
+cmake_minimum_required(VERSION 3.25)
+set(tables
+    "run|rock|stress|joint|joints|joint_set|tunnel|blocks|boundary|support[a-z.]*|bolts|lining|feet|interface|failure|seismic|loading")
+set(found "")
+set(texts 0)
+file(GLOB_RECURSE headers RELATIVE "${ROOT}" "${ROOT}/*.hpp")
+foreach(header IN LISTS headers)
+  file(STRINGS "${ROOT}/${header}" lines REGEX "\"[^\"]+\"")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^ *(//|#include)")
+      continue()
+    endif()
+    string(REPLACE ";" "," line "${line}")
+    string(REGEX MATCHALL "\"[^\"]*\"" literals "${line}")
+    foreach(literal IN LISTS literals)
+      math(EXPR texts "${texts} + 1")
+      if(literal MATCHES "\\[(${tables})\\]" OR literal MATCHES "[\" (](${tables})\\.[a-z]")
+        string(APPEND found "\n  ${header}: ${literal}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(texts LESS 500)
+  message(FATAL_ERROR "only ${texts} lines with a text found in ${ROOT}")
+endif()
+if(found)
+  message(FATAL_ERROR "messages of the library that name an input file's tables or keys:${found}")
+endif()
