@@ -16,6 +16,7 @@
 #include <voussoir/rockmass/detail/cell_faces.hpp>
 #include <voussoir/rockmass/detail/cell_tree.hpp>
 #include <voussoir/rockmass/detail/joined_cells.hpp>
+#include <voussoir/rockmass/joint.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/rockmass/slicing.hpp>
@@ -42,18 +43,22 @@ struct MappedRock {
   std::size_t too_small = 0;       ///< blocks that were left in one piece with a neighbour
 };
 
-/// Slices the domain by mapped joints: as far as they were mapped, no farther (but see
-/// `DeadEnds`). What parts nothing, as an end in whole rock or an overshoot does not, is left out.
-/// A block may so be hollow, or have a hole: it is then a body of several convex parts.
+/// Slices the domain by mapped joints as far as they were mapped, no farther (but see `DeadEnds`),
+/// then by others, which cut whole blocks as in `slice`. What parts nothing, as an end in whole rock
+/// or an overshoot does not, is left out. A block may so be hollow, or have a hole: it is then a
+/// body of several convex parts.
 ///
-/// @param min_inscribed_radius  a block in which no circle of this radius fits is left in one piece
-///                              with the neighbour beyond the joint that counts least [m], > 0
+/// A block that mapped joints make too small, and that is all that is asked of these, is left in one
+/// piece with the neighbour beyond the joint that counts least.
+/// @param limits    `min_inscribed_radius` > 0
 /// @param openings  that will be taken out: a joint that ends at one is kept, for it parts the wall
+/// @return  joints: the pieces of those mapped, then the others
 /// @throws InvalidInput, Stopped
-/// @cost  about 50 microseconds per piece
+/// @cost  about 50 microseconds per piece, and as `slice`
 [[nodiscard]] VOUSSOIR_INLINE MappedRock slice_mapped(const Domain<2>& domain,
-                                                      const MappedJoints& joints,
-                                                      double min_inscribed_radius,
+                                                      const MappedJoints& mapped,
+                                                      const std::vector<Joint>& others,
+                                                      const BlockLimits& limits,
                                                       const std::vector<SimplePolygon>& openings,
                                                       const Progress& progress = {});
 
@@ -70,16 +75,15 @@ class MappedSlicer {
         stop_(stop),
         // What is drawn on so far, to meet what it ends on, makes no block.
         radius_(std::max({radius, 2 * stub(), domain.tolerance()})) {
-    for (const MappedPiece& piece : joints.pieces)
-      rock_.mass.joints.push_back({piece.mapped, piece.set});
     kept_.resize(joints.pieces.size());
   }
 
-  [[nodiscard]] MappedRock rock(const std::vector<SimplePolygon>& openings) {
+  /// @param rock  gets what became of the joints
+  [[nodiscard]] SlicedSoFar sliced(const std::vector<SimplePolygon>& openings, MappedRock& rock) {
     find_parting(openings);
-    make_bodies();
-    account();
-    return std::move(rock_);
+    cut_cells();
+    account(rock);
+    return std::move(made_);
   }
 
  private:
@@ -114,7 +118,7 @@ class MappedSlicer {
       for (std::size_t e = 0; e < opening.size(); ++e)
         tree.insert({opening.edge(e), 0, opening.edge(e).length(), pieces.size(), true});
     CellFaces faces(tree, gap(), outlines, stop_);
-    rock_.too_small = faces.remove_smaller_than(radius_);
+    too_small_ = faces.remove_smaller_than(radius_);
     const std::vector<bool> parting = faces.parting();
     for (std::size_t p = 0; p < parting.size(); ++p) {
       if (!parting[p]) continue;
@@ -142,8 +146,8 @@ class MappedSlicer {
     intervals = std::move(joined);
   }
 
-  /// Cuts cells by what parts blocks, and makes bodies of those that hang together.
-  void make_bodies() {
+  /// Cuts cells by what parts blocks, and numbers the bodies of those that hang together.
+  void cut_cells() {
     CellTree tree(domain_, stop_);
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const Segment& line = joints_.pieces[k].mapped;
@@ -151,26 +155,35 @@ class MappedSlicer {
         tree.insert({line, i.from - stub(), i.to + stub(), k, is_mapped(k, i)});
     }
     CellFaces faces(tree, gap(), CellFaces::none, stop_);
-    rock_.too_small += faces.remove_smaller_than(radius_);
+    too_small_ += faces.remove_smaller_than(radius_);
     std::vector<ConvexPolygon> cells = labelled(tree, faces);
     VertexWelder<2> welder(domain_.tolerance());
-    for (ConvexPolygon& cell : cells) rock_.mass.slicing.vanished_faces += cell.move_vertices(welder);
+    for (ConvexPolygon& cell : cells) made_.report.vanished_faces += cell.move_vertices(welder);
     std::vector<std::size_t> body(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) body[c] = faces.body(c);
     std::vector<bool> is_seam;
-    for (const Cut& cut : rock_.mass.cuts) is_seam.push_back(cut.kind == Cut::Kind::seam);
-    join_cells(cells, body, is_seam, domain_.tolerance(), stop_);
-    RockMass<Planar>& mass = rock_.mass;
-    mass.domain = domain_;
-    std::map<std::size_t, std::size_t> number;  // of the body of a first cell
-    for (const std::size_t c : tree.order()) {
-      if (cells[c].size() == 0) continue;
-      const auto [at, is_new] = number.emplace(body[c], mass.bodies.size());
-      if (is_new) mass.bodies.emplace_back();
-      mass.bodies[at->second].parts.push_back(std::move(cells[c]));
+    for (const Cut& cut : made_.cuts) is_seam.push_back(cut.kind == Cut::Kind::seam);
+    const std::vector<std::size_t> into =
+        join_cells(cells, body, is_seam, domain_.tolerance(), stop_);
+    std::vector<std::size_t> number(cells.size());  // of the part that a cell has become
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (into[c] != c) continue;
+      number[c] = made_.parts.size();
+      made_.parts.push_back(std::move(cells[c]));
+      made_.body.push_back(body[c]);
     }
-    for (auto& each : mass.bodies) each.properties = mass_properties(each.parts);
-    mass.slicing.cuts = mass.bodies.size() - 1;
+    // Bodies are numbered by their first cells.
+    std::vector<std::size_t> bodies = made_.body;
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    for (std::size_t& b : made_.body)
+      b = static_cast<std::size_t>(std::lower_bound(bodies.begin(), bodies.end(), b) -
+                                   bodies.begin());
+    made_.nodes = tree.nodes();
+    for (SlicedSoFar::Node& node : made_.nodes)
+      if (node.part >= 0)
+        node.part = static_cast<std::ptrdiff_t>(number[into[static_cast<std::size_t>(node.part)]]);
+    made_.report.cuts = bodies.size() - 1;
   }
 
   /// Whether most of an interval was mapped.
@@ -185,13 +198,13 @@ class MappedSlicer {
   /// The cells, every face divided where it goes over from one joint to another or from a joint to
   /// a seam, with labels that are those of the rock.
   [[nodiscard]] std::vector<ConvexPolygon> labelled(const CellTree& tree, const CellFaces& faces) {
-    for (int side = 0; side < 4; ++side) rock_.mass.cuts.push_back({Cut::Kind::boundary, side});
+    for (int side = 0; side < 4; ++side) made_.cuts.push_back({Cut::Kind::boundary, side});
     std::map<std::pair<std::size_t, bool>, int> labels;
     const auto label_of = [&](std::size_t piece, bool is_seam) {
       const auto [at, is_new] =
-          labels.emplace(std::pair(piece, is_seam), static_cast<int>(rock_.mass.cuts.size()));
+          labels.emplace(std::pair(piece, is_seam), static_cast<int>(made_.cuts.size()));
       if (is_new)
-        rock_.mass.cuts.push_back(
+        made_.cuts.push_back(
             {is_seam ? Cut::Kind::seam : Cut::Kind::joint, static_cast<int>(piece)});
       return at->second;
     };
@@ -260,10 +273,10 @@ class MappedSlicer {
   }
 
   /// What became of the joints, by set and by piece.
-  void account() {
+  void account(MappedRock& rock) {
     const auto& pieces = joints_.pieces;
     std::map<int, MappedSet> sets;
-    SlicingReport& report = rock_.mass.slicing;
+    SlicingReport& report = made_.report;
     std::vector<char> is_used(joints_.joints, 0), is_inside(joints_.joints, 0), is_counted(joints_.joints, 0);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       MappedSet& set = sets[pieces[k].set];
@@ -292,7 +305,8 @@ class MappedSlicer {
       set.used += is_used[piece.joint] != 0;
       set.outside += is_inside[piece.joint] == 0;
     }
-    for (const auto& [number, set] : sets) rock_.sets.push_back(set);
+    for (const auto& [number, set] : sets) rock.sets.push_back(set);
+    rock.too_small = too_small_;
   }
 
   const Domain<2>& domain_;
@@ -300,19 +314,32 @@ class MappedSlicer {
   StopCheck& stop_;
   double radius_;
   std::vector<std::vector<Interval>> kept_;  ///< of every piece, what parts blocks
-  MappedRock rock_;
+  SlicedSoFar made_;
+  std::size_t too_small_ = 0;
 };
 
 }  // namespace detail
 
-VOUSSOIR_INLINE MappedRock slice_mapped(const Domain<2>& domain, const MappedJoints& joints,
-                                        double min_inscribed_radius,
+VOUSSOIR_INLINE MappedRock slice_mapped(const Domain<2>& domain, const MappedJoints& mapped,
+                                        const std::vector<Joint>& others,
+                                        const BlockLimits& limits,
                                         const std::vector<SimplePolygon>& openings,
                                         const Progress& progress) {
   domain.check();
-  BlockLimits{min_inscribed_radius}.check();
+  limits.check();
   StopCheck stop(progress);
-  return detail::MappedSlicer(domain, joints, min_inscribed_radius, stop).rock(openings);
+  MappedRock rock;
+  std::vector<Joint> all;
+  for (const MappedPiece& piece : mapped.pieces) all.push_back({piece.mapped, piece.set});
+  all.insert(all.end(), others.begin(), others.end());
+  detail::MappedSlicer first(domain, mapped, limits.min_inscribed_radius, stop);
+  detail::Slicer<Planar> slicer(domain, first.sliced(openings, rock), limits, stop);
+  for (std::size_t k = mapped.pieces.size(); k < all.size(); ++k) {
+    stop(static_cast<double>(k) / static_cast<double>(all.size()));
+    slicer.cut_by(all[k], static_cast<int>(k));
+  }
+  rock.mass = slicer.finish(all);
+  return rock;
 }
 
 #endif

@@ -13,6 +13,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/rockmass/domain.hpp>
+#include <voussoir/rockmass/slicing.hpp>
 
 namespace voussoir::detail {
 
@@ -139,21 +140,12 @@ class CellTree {
     return dot_product(stretch.along(), p - stretch.line.start);
   }
 
-  /// The cells as the tree has them: neighbours in space are near in this order.
-  [[nodiscard]] std::vector<std::size_t> order() const {
-    std::vector<std::size_t> cells, stack{0};
-    cells.reserve(cells_.size());
-    while (!stack.empty()) {
-      const Node& node = nodes_[stack.back()];
-      stack.pop_back();
-      if (node.cell < 0) {
-        stack.push_back(node.above);
-        stack.push_back(node.below);
-      } else {
-        cells.push_back(static_cast<std::size_t>(node.cell));
-      }
-    }
-    return cells;
+  /// The tree, its leaves the numbers of cells. Neighbours in space are near in it.
+  [[nodiscard]] std::vector<SlicedSoFar::Node> nodes() const {
+    std::vector<SlicedSoFar::Node> all;
+    all.reserve(nodes_.size());
+    for (const Node& node : nodes_) all.push_back({node.plane, node.below, node.above, node.cell});
+    return all;
   }
 
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
