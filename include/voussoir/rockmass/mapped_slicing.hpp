@@ -27,29 +27,29 @@ namespace voussoir {
 
 /// What became of the mapped joints of one set.
 struct MappedSet {
-  int set = -1;            ///< -1: of those that name none
-  std::size_t joints = 0;  ///< traces, those that touch end to end counted as one
-  std::size_t used = 0;    ///< of them, those that part blocks
-  std::size_t outside = 0; ///< of them, those that do not reach the domain
-  double mapped = 0;       ///< length within the domain [m]
-  double cut = 0;          ///< of that, what parts blocks [m]
-  double made = 0;         ///< parts blocks where nothing was mapped [m]
+  int set = -1;             ///< -1: of those that name none
+  std::size_t joints = 0;   ///< traces, those that touch end to end counted as one
+  std::size_t used = 0;     ///< of them, those that part blocks
+  std::size_t outside = 0;  ///< of them, those that do not reach the domain
+  double mapped = 0;        ///< length within the domain [m]
+  double cut = 0;           ///< of that, what parts blocks [m]
+  double made = 0;          ///< parts blocks where nothing was mapped [m]
 };
 
 /// Rock with mapped joints, and what became of these.
 struct MappedRock {
   RockMass<Planar> mass;
-  std::vector<MappedSet> sets;     ///< ascending, those that have a joint
-  std::size_t too_small = 0;       ///< blocks that were left in one piece with a neighbour
+  std::vector<MappedSet> sets;  ///< ascending, those that have a joint
+  std::size_t too_small = 0;    ///< blocks that were left in one piece with a neighbour
 };
 
 /// Slices the domain by mapped joints as far as they were mapped, no farther (but see `DeadEnds`),
-/// then by others, which cut whole blocks as in `slice`. What parts nothing, as an end in whole rock
-/// or an overshoot does not, is left out. A block may so be hollow, or have a hole: it is then a
-/// body of several convex parts.
+/// then by others, which cut whole blocks as in `slice`. What parts nothing, as an end in whole
+/// rock or an overshoot does not, is left out. A block may so be hollow, or have a hole: it is then
+/// a body of several convex parts.
 ///
-/// A block that mapped joints make too small, and that is all that is asked of these, is left in one
-/// piece with the neighbour beyond the joint that counts least.
+/// A block that mapped joints make too small, and that is all that is asked of these, is left in
+/// one piece with the neighbour beyond the joint that counts least.
 /// @param limits    `min_inscribed_radius` > 0
 /// @param openings  that will be taken out: a joint that ends at one is kept, for it parts the wall
 /// @return  joints: the pieces of those mapped, then the others
@@ -218,14 +218,14 @@ class MappedSlicer {
     for (const CellFaces::Portion& p : faces.portions()) {
       const bool parts = faces.body(p.below) != faces.body(p.above);
       // A stub parts nothing; a joint that ends at the wall to be will.
-      const bool is_slit = p.stretch != CellFaces::none && !p.is_removed && p.to - p.from > 3 * stub();
+      const bool is_slit =
+          p.stretch != CellFaces::none && !p.is_removed && p.to - p.from > 3 * stub();
       const std::size_t line = tree.stretches()[tree.cuts()[p.cut].stretch].piece;
-      const int label = parts || is_slit
-                            ? label_of(p.stretch == CellFaces::none
-                                           ? line
-                                           : tree.stretches()[p.stretch].piece,
-                                       false)
-                            : label_of(line, true);
+      const int label =
+          parts || is_slit
+              ? label_of(p.stretch == CellFaces::none ? line : tree.stretches()[p.stretch].piece,
+                         false)
+              : label_of(line, true);
       for (const std::size_t cell : {p.below, p.above})
         of_cell[cell].push_back({p.cut, p.from, p.to, p.from_end, p.to_end, label});
     }
@@ -263,7 +263,9 @@ class MappedSlicer {
         }
         for (std::size_t i = 0; i < pieces.size(); ++i) {
           if (i > 0 && pieces[i].label == pieces[i - 1].label) continue;
-          append(i == 0 ? face.start : is_along ? pieces[i].from_end : pieces[i].to_end,
+          append(i == 0     ? face.start
+                 : is_along ? pieces[i].from_end
+                            : pieces[i].to_end,
                  pieces[i].label);
         }
       }
@@ -277,7 +279,8 @@ class MappedSlicer {
     const auto& pieces = joints_.pieces;
     std::map<int, MappedSet> sets;
     SlicingReport& report = made_.report;
-    std::vector<char> is_used(joints_.joints, 0), is_inside(joints_.joints, 0), is_counted(joints_.joints, 0);
+    std::vector<char> is_used(joints_.joints, 0), is_inside(joints_.joints, 0),
+        is_counted(joints_.joints, 0);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       MappedSet& set = sets[pieces[k].set];
       set.set = pieces[k].set;
@@ -321,8 +324,7 @@ class MappedSlicer {
 }  // namespace detail
 
 VOUSSOIR_INLINE MappedRock slice_mapped(const Domain<2>& domain, const MappedJoints& mapped,
-                                        const std::vector<Joint>& others,
-                                        const BlockLimits& limits,
+                                        const std::vector<Joint>& others, const BlockLimits& limits,
                                         const std::vector<SimplePolygon>& openings,
                                         const Progress& progress) {
   domain.check();

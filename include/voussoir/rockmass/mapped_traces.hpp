@@ -112,9 +112,8 @@ VOUSSOIR_INLINE void direct(std::vector<Vec2>& points) {
     return reverse_if(place_of(points.back()) < place_of(points.front()));
   points.pop_back();
   const auto first =
-      std::min_element(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-        return place_of(a) < place_of(b);
-      });
+      std::min_element(points.begin(), points.end(),
+                       [](const Vec2& a, const Vec2& b) { return place_of(a) < place_of(b); });
   std::rotate(points.begin(), first, points.end());
   points.push_back(points.front());
   reverse_if(place_of(points[points.size() - 2]) < place_of(points[1]));
@@ -132,8 +131,7 @@ VOUSSOIR_INLINE void simplify(std::vector<Vec2>& points, double tolerance) {
     double largest = tolerance;
     std::size_t at = from;
     for (std::size_t k = from + 1; k < to; ++k) {
-      const double away =
-          length_of(points[k] - nearest_on({points[from], points[to]}, points[k]));
+      const double away = length_of(points[k] - nearest_on({points[from], points[to]}, points[k]));
       // Of two as far away the first along the trace, beyond roundings.
       if (away > largest * (1 + 1e-9)) {
         largest = away;
@@ -265,8 +263,7 @@ class TraceEnds {
     for (std::size_t k = 0; k < count; ++k) {
       stop_();
       const bool is_first = k == 0 || joints_.pieces[k - 1].joint != joints_.pieces[k].joint,
-                 is_last =
-                     k + 1 == count || joints_.pieces[k + 1].joint != joints_.pieces[k].joint;
+                 is_last = k + 1 == count || joints_.pieces[k + 1].joint != joints_.pieces[k].joint;
       // Within a joint far enough that no rounding parts its pieces.
       joints_.pieces[k].before = is_first ? snap : 0.01 * snap;
       joints_.pieces[k].after = is_last ? snap : 0.01 * snap;
@@ -394,9 +391,8 @@ VOUSSOIR_INLINE MappedJoints mapped_joints(std::vector<MappedTrace> traces, cons
       // Of one length between the same ends: by their points.
       return std::lexicographical_compare(
           all[a.second].points.begin(), all[a.second].points.end(), all[b.second].points.begin(),
-          all[b.second].points.end(), [](const Vec2& p, const Vec2& q) {
-            return detail::place_of(p) < detail::place_of(q);
-          });
+          all[b.second].points.end(),
+          [](const Vec2& p, const Vec2& q) { return detail::place_of(p) < detail::place_of(q); });
     });
     std::vector<MappedTrace> sorted;
     sorted.reserve(all.size());

@@ -327,8 +327,8 @@ class Slicer {
   /// is not limited, as that of what was mapped is not.
   bool cut_group_at(std::size_t block, const HalfSpace<2>& plane, int joint) {
     std::vector<std::size_t> members = groups_[static_cast<std::size_t>(group_of_[block])];
-    const auto reached = static_cast<std::size_t>(
-        std::find(members.begin(), members.end(), block) - members.begin());
+    const auto reached = static_cast<std::size_t>(std::find(members.begin(), members.end(), block) -
+                                                  members.begin());
     std::vector<const Shape*> parts;
     for (const std::size_t k : members) parts.push_back(&blocks_[k]);
     cuts_.push_back({Cut::Kind::joint, joint});

@@ -114,10 +114,10 @@ class CellFaces {
           ends[k] = ends[k - 1];
           continue;
         }
-        const Vec2 end = k + 1 == ends.size() ? touch.to_end
-                                              : Vec2(line.line.start + ends[k] * line.along());
-        Portion portion{touch.below, touch.above, touch.cut, ends[k - 1], ends[k],
-                        begin,       end,         none};
+        const Vec2 end =
+            k + 1 == ends.size() ? touch.to_end : Vec2(line.line.start + ends[k] * line.along());
+        Portion portion{touch.below, touch.above, touch.cut, ends[k - 1],
+                        ends[k],     begin,       end,       none};
         const double middle = 0.5 * (ends[k - 1] + ends[k]);
         for (const CellTree::Cover& cover : covers) {
           if (!(cover.from <= middle && middle <= cover.to)) continue;
@@ -146,7 +146,7 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
   const auto& cells = tree_.cells();
   struct Block {
     double area = 0;
-    bool is_large = false;               ///< a circle fits in one of its cells
+    bool is_large = false;                  ///< a circle fits in one of its cells
     std::vector<std::size_t> cells, sides;  ///< the latter: portions of joints
   };
   std::vector<Block> blocks(cells.size());
@@ -154,7 +154,8 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
     stop_();
     Block& block = blocks[body(c)];
     block.area += mass_properties(cells[c]).measure;
-    block.is_large = block.is_large || fits(cells[c], {.min_inscribed_radius = radius}) == Fit::good;
+    block.is_large =
+        block.is_large || fits(cells[c], {.min_inscribed_radius = radius}) == Fit::good;
     block.cells.push_back(c);
   }
   for (std::size_t k = 0; k < portions_.size(); ++k)

@@ -125,8 +125,8 @@ class CellTree {
         const bool begins_below = below.from >= above.from, ends_below = below.to <= above.to;
         const Face &begin = begins_below ? below : above, &end = ends_below ? below : above;
         if (end.to - begin.from > tolerance_)
-          touches.push_back({below.cell, above.cell, below.cut, begin.from, end.to, begin.from_end,
-                             end.to_end});
+          touches.push_back(
+              {below.cell, above.cell, below.cut, begin.from, end.to, begin.from_end, end.to_end});
         ++(ends_below ? i : j);
       }
       first = last;

@@ -65,8 +65,8 @@ class SegmentGrid {
         return run > 0 ? from.y() + std::clamp((x - from.x()) / run, 0.0, 1.0) * (to.y() - from.y())
                        : from.y();
       };
-      double low = c == first ? from.y() : y_at(left_of(c)), high = c == last ? to.y()
-                                                                              : y_at(left_of(c + 1));
+      double low = c == first ? from.y() : y_at(left_of(c)),
+             high = c == last ? to.y() : y_at(left_of(c + 1));
       if (high < low) std::swap(low, high);
       // A rounding at the border of a cell must not hide it.
       const std::size_t bottom = row(low - 1e-6 * cell_), top = row(high + 1e-6 * cell_);
@@ -79,8 +79,9 @@ class SegmentGrid {
   template <class Visit>
   void near(const Vec2& low, const Vec2& high, Visit&& visit) const {
     ++turn_;
-    const std::size_t first = column(low.x() - 1e-6 * cell_), last = column(high.x() + 1e-6 * cell_),
-                      bottom = row(low.y()), top = row(high.y());
+    const std::size_t first = column(low.x() - 1e-6 * cell_),
+                      last = column(high.x() + 1e-6 * cell_), bottom = row(low.y()),
+                      top = row(high.y());
     for (std::size_t r = bottom; r <= top; ++r)
       for (std::size_t c = first; c <= last; ++c)
         for (const std::size_t number : cells_[r * columns_ + c])
