@@ -17,6 +17,7 @@
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/rockmass/detail/segment_grid.hpp>
 #include <voussoir/rockmass/domain.hpp>
+#include <voussoir/rockmass/joint.hpp>
 
 namespace voussoir {
 
@@ -25,6 +26,15 @@ struct MappedTrace {
   std::vector<Vec2> points;  ///< two or more [m]
   int set = -1;              ///< index of its joint set; -1: none
 };
+
+/// Every straight piece of some traces as a joint of its own, for `slice` and for estimates.
+[[nodiscard]] inline std::vector<Joint> straight_pieces(const std::vector<MappedTrace>& traces) {
+  std::vector<Joint> pieces;
+  for (const MappedTrace& trace : traces)
+    for (std::size_t k = 1; k < trace.points.size(); ++k)
+      pieces.push_back({{trace.points[k - 1], trace.points[k]}, trace.set});
+  return pieces;
+}
 
 /// What becomes of a trace that ends in whole rock.
 enum class DeadEnds {
@@ -152,7 +162,9 @@ VOUSSOIR_INLINE void simplify(std::vector<Vec2>& points, double tolerance) {
 /// Joins traces of one set that touch end to end where they go on in nearly the same direction.
 class ChainOfTraces {
  public:
-  explicit ChainOfTraces(std::vector<MappedTrace>& traces) : traces_(traces) {}
+  /// @param straight  a point so close to a line is on it [m]
+  ChainOfTraces(std::vector<MappedTrace>& traces, double straight)
+      : traces_(traces), straight_(straight) {}
 
   [[nodiscard]] std::vector<MappedTrace> joined() {
     pair_ends();
@@ -208,18 +220,47 @@ class ChainOfTraces {
 
   [[nodiscard]] MappedTrace chain_from(std::size_t entry, std::vector<char>& is_used) const {
     MappedTrace chain{{}, traces_[entry / 2].set};
+    std::vector<char> is_joined;  // of every point: whether two traces touch there
     while (entry != none && !is_used[entry / 2]) {
       is_used[entry / 2] = 1;
       std::vector<Vec2> points = traces_[entry / 2].points;
       if (entry % 2 == 1) std::reverse(points.begin(), points.end());
-      chain.points.insert(chain.points.end(), points.begin() + (chain.points.empty() ? 0 : 1),
-                          points.end());
+      if (!is_joined.empty()) is_joined.back() = 1;
+      for (std::size_t k = chain.points.empty() ? 0 : 1; k < points.size(); ++k) {
+        chain.points.push_back(points[k]);
+        is_joined.push_back(0);
+      }
       entry = next_[entry ^ 1];
     }
+    leave_out_straight(chain.points, is_joined);
     return chain;
   }
 
+  /// A trace that was split is as it was before: of points between two traces those on the line
+  /// through the points around them go, before `simplify` chooses among what is left.
+  void leave_out_straight(std::vector<Vec2>& points, const std::vector<char>& is_joined) const {
+    std::vector<Vec2> kept;
+    for (std::size_t k = 0; k < points.size();) {
+      std::size_t end = k;  // of the points between two traces that follow one another
+      while (end < points.size() && is_joined[end]) ++end;
+      const bool has_sides = end > k && !kept.empty() && end < points.size();
+      const bool is_straight =
+          has_sides &&
+          std::all_of(
+              points.begin() + static_cast<std::ptrdiff_t>(k),
+              points.begin() + static_cast<std::ptrdiff_t>(end), [&](const Vec2& p) {
+                return length_of(p - nearest_on({kept.back(), points[end]}, p)) <= straight_;
+              });
+      if (!is_straight)
+        for (std::size_t i = k; i < end; ++i) kept.push_back(points[i]);
+      if (end == k) kept.push_back(points[end++]);
+      k = end;
+    }
+    points = std::move(kept);
+  }
+
   std::vector<MappedTrace>& traces_;
+  double straight_;
   std::vector<std::size_t> next_;  ///< of every end (two a trace) the one that goes on
 };
 
@@ -401,7 +442,7 @@ VOUSSOIR_INLINE MappedJoints mapped_joints(std::vector<MappedTrace> traces, cons
   };
   for (MappedTrace& trace : traces) detail::direct(trace.points);
   in_order(traces);  // so that of ends that are equally straight on the same are joined
-  traces = detail::ChainOfTraces(traces).joined();
+  traces = detail::ChainOfTraces(traces, 0.2 * rule.straightness()).joined();
   // 2. and 3.
   for (MappedTrace& trace : traces) {
     stop();

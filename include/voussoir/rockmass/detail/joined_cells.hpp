@@ -66,8 +66,9 @@ VOUSSOIR_INLINE std::vector<std::size_t> join_cells(std::vector<ConvexPolygon>& 
   const auto convex_at = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 in = b - a, out = c - b;
     const double turn = cross(in, out);
-    // Straight to the tolerance is straight.
-    return turn >= 0 || -turn <= tolerance * length_of(c - a);
+    // Straight to the tolerance is straight; back on itself is not, as beside the end of a slit.
+    const bool is_straight = std::abs(turn) <= tolerance * std::max(length_of(in), length_of(out));
+    return is_straight ? dot_product(in, out) > 0 : turn > 0;
   };
   const auto join = [&](std::size_t a, std::size_t i, std::size_t b, std::size_t j) {
     const Part &p = parts[a], &q = parts[b];

@@ -306,15 +306,15 @@ VOUSSOIR_INLINE std::pair<std::string, std::string> name_and_unit(std::string_vi
 
 /// Metres of a unit; 0: it is not known.
 [[nodiscard]] VOUSSOIR_INLINE double metres_of(const std::string& unit) {
-  struct Unit {
+  struct Known {
     std::string_view names;
     double metres;
   };
-  for (const Unit& known : {Unit{" m metre metres meter meters mtr ", 1},
-                            Unit{" mm millimetre millimetres millimeter millimeters ", 1e-3},
-                            Unit{" cm centimetre centimetres centimeter centimeters ", 1e-2},
-                            Unit{" dm ", 0.1}, Unit{" km kilometre kilometres kilometer ", 1e3},
-                            Unit{" ft foot feet ", 0.3048}, Unit{" in inch inches ", 0.0254}})
+  for (const Known& known : {Known{" m metre metres meter meters mtr ", 1},
+                             Known{" mm millimetre millimetres millimeter millimeters ", 1e-3},
+                             Known{" cm centimetre centimetres centimeter centimeters ", 1e-2},
+                             Known{" dm ", 0.1}, Known{" km kilometre kilometres kilometer ", 1e3},
+                             Known{" ft foot feet ", 0.3048}, Known{" in inch inches ", 0.0254}})
     if (known.names.find(" " + unit + " ") != std::string_view::npos) return known.metres;
   return 0;
 }
