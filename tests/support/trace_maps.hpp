@@ -26,20 +26,22 @@ inline Vec2 written(const Vec2& p) {
   return {std::round(1e4 * p.x()) / 1e4, std::round(1e4 * p.y()) / 1e4};
 }
 
-/// Three sets: long ones right through the domain, and shorter ones of which many end on others, a
-/// little before or beyond; a third are polylines, a tenth is there twice, the copy moved by some
-/// millimetres.
+/// Three sets: twenty long ones right through the domain, and shorter ones of which many end on
+/// others, a little before or beyond; a third are polylines, a tenth is there twice, the copy moved
+/// by some millimetres.
 inline std::vector<MappedTrace> trace_map(std::size_t count, std::uint64_t seed,
                                           const voussoir::Domain<2>& domain) {
   voussoir::Random random(seed, 7);
   std::vector<MappedTrace> traces;
   const Vec2 size = domain.size();
   const double typical = std::sqrt(size.x() * size.y() / static_cast<double>(count));
+  int long_ones = 0;
   while (traces.size() < count) {
     const int set = static_cast<int>(3 * random.uniform());
     const double turn =
         std::array{0.2, 1.3, 2.4}[static_cast<std::size_t>(set)] + 0.1 * (random.uniform() - 0.5);
-    const bool is_long = set == 0 && random.uniform() < 0.5;
+    const bool is_long = set == 0 && long_ones < 20 && random.uniform() < 0.5;
+    long_ones += is_long;
     const double length = is_long ? 2 * size.x() : typical * (1.5 + 3 * random.uniform());
     const Vec2 middle = domain.low + Vec2(size.x() * random.uniform(), size.y() * random.uniform()),
                along(std::cos(turn), std::sin(turn));
