@@ -103,7 +103,7 @@ struct MappedInput {
   /// What ends closer to another joint ends on it [m], > 0, at most blocks.min_inscribed_radius;
   /// none: half of that.
   std::optional<double> snap;
-  DeadEnds dead_ends = DeadEnds::do_not_cut;
+  DeadEnds dead_ends = DeadEnds::cut_through;
 };
 
 /// [joint] The mechanics of all joints whose set does not say otherwise.

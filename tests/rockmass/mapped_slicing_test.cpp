@@ -88,10 +88,10 @@ bool same(const RockMass<Planar>& a, const RockMass<Planar>& b) {
 
 /// A map of so many traces is the same rock in other orders, directions, pieces, and on other
 /// grids.
-void check_map(std::size_t count) {
+void check_map(std::size_t count, DeadEnds dead_ends) {
   CAPTURE(count);
   const auto map = voussoir_test::trace_map(count, 11 + count, ground);
-  const auto reference = rock(map).mass;
+  const auto reference = rock(map, dead_ends).mass;
   CHECK(reference.bodies.size() > count / 8);
   CHECK(std::abs(total_area(reference) - 3600) < 1e-7);  // thousands of areas, to roundings
   CHECK(largest_gap(reference) < 1e-8);                  // the tolerance of the ground
@@ -100,12 +100,13 @@ void check_map(std::size_t count) {
     apart += detail::connected_groups(body.parts, reference.cuts, ground.tolerance()).size() != 1;
   CHECK(apart == 0);
   for (std::uint64_t k = 1; k <= 20; ++k)
-    CHECK(same(reference, rock(voussoir_test::shuffled(map, k)).mass));
-  CHECK(same(reference, rock(voussoir_test::turned(map)).mass));
-  CHECK(same(reference, rock(voussoir_test::shuffled(voussoir_test::in_pieces(map), 3)).mass));
+    CHECK(same(reference, rock(voussoir_test::shuffled(map, k), dead_ends).mass));
+  CHECK(same(reference, rock(voussoir_test::turned(map), dead_ends).mass));
+  CHECK(same(reference,
+             rock(voussoir_test::shuffled(voussoir_test::in_pieces(map), 3), dead_ends).mass));
   for (const Vec2& origin : {Vec2(0, 0), Vec2(621000, 5140000), Vec2(-37.5, 12.25)}) {
     std::istringstream in(voussoir_test::table_of(map, origin));
-    CHECK(same(reference, rock(read_traces(in, "map", origin).traces).mass));
+    CHECK(same(reference, rock(read_traces(in, "map", origin).traces, dead_ends).mass));
   }
 }
 
@@ -221,10 +222,12 @@ TEST_SUITE("rockmass/mapped_slicing") {
   }
 
   TEST_CASE("a map gives the same rock in any order, direction, pieces and on any grid") {
-    check_map(100);
-    check_map(1000);
+    for (const DeadEnds dead_ends : {DeadEnds::do_not_cut, DeadEnds::cut_through}) {
+      check_map(100, dead_ends);
+      check_map(1000, dead_ends);
+    }
   }
-  TEST_CASE("so does a map of 3000 traces [long]") { check_map(3000); }
+  TEST_CASE("so does a map of 3000 traces [long]") { check_map(3000, DeadEnds::cut_through); }
 
   TEST_CASE("random joints cut blocks of several parts right through, within the limits") {
     const std::vector<JointSet> sets{{"a", 0.9, DipDirection::east, 0.1, 0.3, 0, 3},

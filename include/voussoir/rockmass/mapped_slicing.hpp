@@ -300,7 +300,8 @@ class MappedSlicer {
       is_used[pieces[k].joint] |= !kept_[k].empty();
       is_inside[pieces[k].joint] |= inside.has_value();
     }
-    report.joints = pieces.size();
+    report.joints = pieces.size() + joints_.duplicates;
+    report.unused_joints += joints_.duplicates;
     for (const MappedPiece& piece : pieces) {
       if (std::exchange(is_counted[piece.joint], 1)) continue;
       MappedSet& set = sets[piece.set];

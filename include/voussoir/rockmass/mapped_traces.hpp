@@ -48,7 +48,7 @@ struct MappedRule {
   /// What ends closer than this to another joint, before or beyond it, ends on it; traces so close
   /// all along are one [m], > 0.
   double snap = 0;
-  DeadEnds dead_ends = DeadEnds::do_not_cut;
+  DeadEnds dead_ends = DeadEnds::cut_through;
 
   /// A polyline may be drawn with fewer points if it moves by no more than this [m].
   [[nodiscard]] double straightness() const { return 0.1 * snap; }
