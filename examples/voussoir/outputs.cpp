@@ -148,8 +148,8 @@ nlohmann::json joints_json(const std::vector<JointSource>& sources) {
                     {"used", s.used},
                     {"outside", s.outside},
                     {"refused", s.refused},
-                    {"kn_Pa_per_m", s.law.normal_stiffness},
-                    {"ks_Pa_per_m", s.law.shear_stiffness},
+                    {"kn_Pa_per_m", s.law.joint_normal_stiffness},
+                    {"ks_Pa_per_m", s.law.joint_shear_stiffness},
                     {"friction_deg", s.law.friction_angle * 180 / std::numbers::pi}});
     if (s.mapped)
       list.back().update({{"set", s.mapped->set},
@@ -313,8 +313,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
     if (const auto& mapped = s.mapped)
       out += text("; %.1f m mapped", mapped->mapped) + text(", %.1f m of it cut", mapped->cut) +
              text(", %.1f m made beyond", mapped->made);
-    out += "; kn " + format_quantity(s.law.normal_stiffness, dimension::stiffness_per_area) +
-           ", ks " + format_quantity(s.law.shear_stiffness, dimension::stiffness_per_area) +
+    out += "; kn " + format_quantity(s.law.joint_normal_stiffness, dimension::stiffness_per_area) +
+           ", ks " + format_quantity(s.law.joint_shear_stiffness, dimension::stiffness_per_area) +
            ", friction " + format_quantity(s.law.friction_angle, dimension::angle) + "\n";
   }
   out += "boundary " + boundary_text(run.boundary) + "\n";
