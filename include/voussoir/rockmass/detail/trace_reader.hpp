@@ -137,7 +137,7 @@ class TraceReader {
         what += ": this line is separated otherwise than the first";
       return fail(number, what, line);
     }
-    if (layout_.count(TraceColumn::x1) == 1)
+    if (layout_.has_ends())
       segment_row(fields, line, number);
     else
       point_row(fields, line, number);

@@ -37,6 +37,11 @@ struct TraceLayout {
   [[nodiscard]] std::size_t count(TraceColumn column) const {
     return static_cast<std::size_t>(std::count(columns.begin(), columns.end(), column));
   }
+  /// A row is a trace, from one end to the other.
+  [[nodiscard]] bool has_ends() const {
+    return count(TraceColumn::x1) == 1 && count(TraceColumn::y1) == 1 &&
+           count(TraceColumn::x2) == 1 && count(TraceColumn::y2) == 1;
+  }
   [[nodiscard]] std::size_t index(TraceColumn column) const {
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) -
                                     columns.begin());
@@ -322,8 +327,7 @@ VOUSSOIR_INLINE std::pair<std::string, std::string> name_and_unit(std::string_vi
 /// Whether the columns are enough to make traces of.
 [[nodiscard]] VOUSSOIR_INLINE bool is_table_of_traces(const TraceLayout& layout) {
   const auto has = [&](TraceColumn column) { return layout.count(column) == 1; };
-  return (has(TraceColumn::x1) && has(TraceColumn::y1) && has(TraceColumn::x2) &&
-          has(TraceColumn::y2)) ||
+  return layout.has_ends() ||
          (has(TraceColumn::x) && (has(TraceColumn::y) || has(TraceColumn::z)) &&
           has(TraceColumn::id)) ||
          has(TraceColumn::wkt);
