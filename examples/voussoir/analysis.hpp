@@ -27,7 +27,7 @@ struct JointSource {
   std::size_t outside = 0;        ///< that do not reach the domain
   std::size_t refused = 0;        ///< for parts too small or too long, or where a joint was already
   CoulombJoint::Params law = {};  ///< mechanics taken
-  std::optional<MappedSet> mapped;  ///< none: they are random
+  std::optional<MappedSet> mapped = {};  ///< none: they are random
 };
 
 /// A finished run.

@@ -26,6 +26,9 @@ std::string metres(double length) {
   return text;
 }
 
+/// Pieces of traces in the domain: they are cut in a quarter of a minute.
+constexpr std::size_t most_pieces = 200'000;
+
 /// Half of what the smallest block measures from its middle: a bridge of rock that is narrower
 /// holds no block.
 double snap_of(const Input& input) {
@@ -104,6 +107,14 @@ std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>&
 void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<MappedTrace> traces,
                      const std::vector<Joint>& random, const Progress& progress,
                      GeneratedRock& rock) {
+  std::size_t inside = 0;
+  for (const Joint& piece : straight_pieces(traces))
+    inside += inside_of(domain, piece.trace).has_value();
+  if (inside > most_pieces)
+    throw InvalidInput("joints.file: " + counted(inside, "piece") +
+                       " of traces lie in the domain\n   = accepted: at most " +
+                       std::to_string(most_pieces) +
+                       ": a smaller domain, or a map without traces shorter than blocks");
   const MappedRule rule{snap_of(input), input.mapped.dead_ends};
   const MappedJoints mapped = mapped_joints(std::move(traces), domain, rule, progress);
   const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};

@@ -306,7 +306,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
   if (!run.joints_read.empty()) out += "traces   " + run.joints_read + "\n";
   for (const JointSource& s : run.joints) {
-    out += "joints   " + s.name + ": " + std::to_string(s.asked) + " joints, " +
+    out += "joints   " + s.name + ": " + std::to_string(s.asked) +
+           (s.mapped ? (s.asked == 1 ? " trace, " : " traces, ") : " joints, ") +
            std::to_string(s.used) + " used, " + std::to_string(s.refused) +
            (s.mapped ? " part nothing, " : " without room, ") + std::to_string(s.outside) +
            " outside";

@@ -132,11 +132,11 @@ TEST_SUITE("program/traces") {
     REQUIRE((outcome.status == 0 || outcome.status == 6));
     CHECK(contains(outcome.out, "map.csv: 4 traces, fields separated by ;, columns by the header"));
     CHECK(contains(outcome.out,
-                   "joints   joints.file, bedding: 2 joints, 2 used, 0 part nothing, 0 outside; "
+                   "joints   joints.file, bedding: 2 traces, 2 used, 0 part nothing, 0 outside; "
                    "120.0 m mapped, 120.0 m of it cut, 0.0 m made beyond; kn 5 GPa/m, ks "
-                   "0.5 GPa/m, friction 25 deg"));
-    CHECK(contains(outcome.out, "joints   joints.file, cross joints: 1 joints, 1 used"));
-    CHECK(contains(outcome.out, "joints   joints.file, no set: 1 joints, 1 used"));
+                   "500 MPa/m, friction 25 deg"));
+    CHECK(contains(outcome.out, "joints   joints.file, cross joints: 1 trace, 1 used"));
+    CHECK(contains(outcome.out, "joints   joints.file, no set: 1 trace, 1 used"));
     CHECK(contains(outcome.out + outcome.err, "joint_set[2] faults has no joint"));
     const Json json = Json::parse(read_file(folder / "out/run.json"));
     const Json& sources = json.at("rock").at("joints_by_source");
@@ -185,7 +185,7 @@ TEST_SUITE("program/traces") {
     };
     const std::string plain = read_file(data + "overshoot.toml");
     CHECK(fault(plain, {"joints.snap=10 cm"}) == "accepted");
-    CHECK(contains(fault(plain, {"joints.snap=11 cm"}), "at most 10 cm"));
+    CHECK(contains(fault(plain, {"joints.snap=11 cm"}), "at most 100 mm"));
     CHECK(contains(fault(plain, {"joints.snap=0 m"}), "above 0"));
     CHECK(contains(fault(plain, {"joints.first_set=2"}), "joints.first_set"));
     CHECK(contains(fault(plain, {"joints.dead_ends=cut"}), "cut_through"));
