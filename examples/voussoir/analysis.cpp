@@ -6,12 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <system_error>
 #include <thread>
 #include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
@@ -20,6 +17,7 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "mapped_rock.hpp"
 #include "plausibility.hpp"
 
 namespace voussoir::program {
@@ -47,16 +45,12 @@ Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
 
 /// The law of the joints, and of those sets that differ.
 LawsBySet<CoulombJoint> laws_of(const Input& input) {
-  const JointInput& common = input.joint;
-  LawsBySet<CoulombJoint> laws(
-      CoulombJoint({common.normal_stiffness, common.shear_stiffness, common.friction_angle}));
+  LawsBySet<CoulombJoint> laws(CoulombJoint(mechanics_of(input, -1)));
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     const JointSetInput& set = input.joint_sets[k];
     if (!set.normal_stiffness && !set.shear_stiffness && !set.friction_angle) continue;
-    laws.add(static_cast<int>(k),
-             CoulombJoint({set.normal_stiffness.value_or(common.normal_stiffness),
-                           set.shear_stiffness.value_or(common.shear_stiffness),
-                           set.friction_angle.value_or(common.friction_angle)}));
+    const int index = static_cast<int>(k);
+    laws.add(index, CoulombJoint(mechanics_of(input, index)));
   }
   return laws;
 }
@@ -139,38 +133,6 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
   return construction;
 }
 
-/// Mapped joints as the input's file has them.
-std::vector<Joint> mapped_joints(const Input& input, const Domain<2>& domain,
-                                 const Progress& progress, std::vector<std::string>& warnings) {
-  const std::string name = utf8_text(input.joints_file);
-  const std::string accepted =
-      "\n   = accepted: the name of a file of traces, relative to the input file";
-  std::error_code error;
-  const auto kind = std::filesystem::status(input.joints_file, error).type();
-  // A device or a pipe may never end, and to open one may take for ever.
-  if (kind != std::filesystem::file_type::regular &&
-      std::filesystem::exists(input.joints_file, error))
-    throw InvalidInput("joints.file: cannot read " + name + ": it is not a regular file" +
-                       accepted);
-  std::ifstream file(input.joints_file, std::ios::binary);
-  if (!file) throw InvalidInput("joints.file: cannot read " + name + accepted);
-  TraceFileLimits limits;
-  limits.sets = static_cast<int>(input.joint_sets.size());
-  std::vector<Joint> traces = read_traces(file, name, domain.site_origin, limits, progress);
-  const TraceCoverage coverage = trace_coverage(traces, domain);
-  if (2 * coverage.inside < coverage.count) {
-    const std::string text =
-        "joints.file: " + name + ": " + coverage_text(coverage, domain, "model.origin");
-    if (coverage.inside == 0) throw InvalidInput(text);
-    warnings.push_back(text);
-  }
-  return traces;
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 /// What became of the joints: how often one went into a block, and why a cut was not made.
 std::string slicing_text(const SlicingReport& slicing, const Input& input) {
   std::string text = counted(slicing.joints, "joint") + ", of which " +
@@ -195,7 +157,8 @@ void check_slicing(const Input& input, const SlicingReport& slicing,
   if (slicing.joints == slicing.outside_joints) {
     warnings.push_back("the rock is one block without joints, though there are joint sets: " +
                        text);
-  } else if (slicing.cuts == 0) {
+  } else if (slicing.cuts == 0 && input.joints_file.empty()) {
+    // Traces may all end in whole rock: what of them cuts nothing is said with its metres.
     throw InvalidInput("no joint cuts the rock, which stays one block: " + text +
                        "\n   = accepted: limits in [blocks] that let joints cut");
   } else if (2 * slicing.refused_too_long > slicing.offered_cuts() ||
@@ -209,17 +172,17 @@ void check_slicing(const Input& input, const SlicingReport& slicing,
         number(input.blocks.max_elongation) + ", as the domain is: no joint cut them shorter");
 }
 
-/// Of every source, what became of its joints. @throws InvalidInput  none of one is used
-std::vector<JointSource> sources_of(const Input& input, std::size_t mapped,
-                                    const RockMass<Planar>& mass) {
+/// What became of the random joints of every set, after `mapped` others.
+/// @throws InvalidInput  none of one set is used
+void add_random_sources(const Input& input, std::size_t mapped, GeneratedRock& rock) {
   std::vector<JointSource> sources;
-  if (mapped > 0) sources.push_back({"joints.file"});
-  const std::size_t first_set = sources.size();
-  for (const JointSetInput& set : input.joint_sets) sources.push_back({set.name});
-  for (std::size_t k = 0; k < mass.joints.size(); ++k) {
-    JointSource& source =
-        sources[k < mapped ? 0 : first_set + static_cast<std::size_t>(mass.joints[k].set)];
-    const JointFate fate = mass.slicing.fates[k];
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
+    sources.push_back({input.joint_sets[k].name});
+    sources.back().law = mechanics_of(input, static_cast<int>(k));
+  }
+  for (std::size_t k = mapped; k < rock.mass.joints.size(); ++k) {
+    JointSource& source = sources[static_cast<std::size_t>(rock.mass.joints[k].set)];
+    const JointFate fate = rock.mass.slicing.fates[k];
     ++source.asked;
     source.used += fate == JointFate::used;
     source.outside += fate == JointFate::outside;
@@ -233,7 +196,18 @@ std::vector<JointSource> sources_of(const Input& input, std::size_t mapped,
                          " refused for parts too small or too long, or where a joint was already" +
                          "\n   = accepted: limits in [blocks] that let them cut, or a source of "
                          "joints that are not there yet");
-  return sources;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const bool is_mapped =
+        std::any_of(rock.joints.begin(), rock.joints.end(), [&](const JointSource& source) {
+          return source.mapped && source.mapped->set == static_cast<int>(k);
+        });
+    if (input.joint_sets[k].is_random())
+      rock.joints.push_back(std::move(sources[k]));
+    else if (!is_mapped)
+      rock.warnings.push_back("joint_set[" + std::to_string(k) + "] " + sources[k].name +
+                              " has no joint: no trace of joints.file names it, and it has neither "
+                              "intensity nor spacing");
+  }
 }
 
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
@@ -307,32 +281,40 @@ SimplePolygon opening_of(const Input& input) {
 GeneratedRock rock_of(const Input& input, const Progress& progress) {
   const Domain<2> domain = domain_of(input);
   std::vector<JointSet> sets;
-  for (const JointSetInput& s : input.joint_sets)
+  std::vector<int> index;  // of a random set among those of the input
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
+    const JointSetInput& s = input.joint_sets[k];
+    if (!s.is_random()) continue;
     sets.push_back({s.name, s.dip,
                     s.dip_direction == DipDirection::east ? voussoir::DipDirection::east
                                                           : voussoir::DipDirection::west,
                     s.sd, s.intensity.value_or(0.0), s.spacing.value_or(0.0), s.extent});
+    index.push_back(static_cast<int>(k));
+  }
   GeneratedRock rock;
-  std::vector<Joint> joints;
-  // Mapped joints come first: what was seen takes precedence over what was drawn at random.
-  if (!input.joints_file.empty()) joints = mapped_joints(input, domain, progress, rock.warnings);
-  const std::size_t mapped = joints.size();
-  const auto random = joint_network(sets, domain, input.model.seed, progress);
-  joints.insert(joints.end(), random.begin(), random.end());
   const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
-  if (!input.joints_file.empty()) {
+  // Mapped joints come first: what was seen takes precedence over what was drawn at random.
+  std::vector<MappedTrace> traces;
+  if (!input.joints_file.empty()) traces = read_mapped_traces(input, domain, progress, rock);
+  auto random = joint_network(sets, domain, input.model.seed, progress);
+  for (Joint& joint : random) joint.set = index[static_cast<std::size_t>(joint.set)];
+  if (input.joints_file.empty()) {
+    rock.mass = slice(domain, random, limits, progress);
+  } else {
     // What the sets alone come to was checked when the input was read.
-    const double blocks = estimated_blocks(joints, domain, limits.min_inscribed_radius);
-    if (blocks > largest_count || static_cast<double>(joints.size()) > largest_count)
+    std::vector<Joint> all = straight_pieces(traces);
+    all.insert(all.end(), random.begin(), random.end());
+    const double blocks = estimated_blocks(all, domain, limits.min_inscribed_radius);
+    if (blocks > largest_count || static_cast<double>(all.size()) > largest_count)
       throw InvalidInput(
           "joints.file: with " + utf8_text(input.joints_file) + " the rock has " +
-          counted(joints.size(), "joint") + " and would come to about " + number(blocks, "%.0f") +
+          counted(all.size(), "joint") + " and would come to about " + number(blocks, "%.0f") +
           " blocks\n   = accepted: at most 1000000 of either in the domain: a smaller "
           "domain, fewer joints, or a larger blocks.min_inscribed_radius");
+    slice_by_traces(input, domain, std::move(traces), random, progress, rock);
   }
-  rock.mass = slice(domain, joints, limits, progress);
   check_slicing(input, rock.mass.slicing, rock.warnings);
-  rock.joints = sources_of(input, mapped, rock.mass);
+  add_random_sources(input, rock.mass.joints.size() - random.size(), rock);
   return rock;
 }
 
@@ -361,8 +343,9 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
            std::sqrt(block_sizes(rock.mass).mean),
            radial_spacing(rock.mass, Vec2::Zero(), half_width, 2 * half_width))))
     warnings.push_back(std::move(text));
-  return {std::move(bounded.tunnel),   rock.joints, opening,
-          std::move(bounded.boundary), unbalance,   std::move(warnings)};
+  return {
+      std::move(bounded.tunnel), rock.joints,     opening, std::move(bounded.boundary), unbalance,
+      std::move(warnings),       rock.joints_read};
 }
 
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
@@ -434,6 +417,7 @@ RunResult computed_run(const Input& input, const Report& report) {
   RunResult run{std::move(excavated.tunnel), excavated.opening, excavated.boundary};
   run.warnings = run.rock_warnings = std::move(excavated.warnings);
   run.joints = std::move(excavated.joints);
+  run.joints_read = std::move(excavated.joints_read);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/rockmass/mapped_slicing.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
@@ -18,13 +19,16 @@
 /// From a checked input to results: the analyses behind the verbs of the program.
 namespace voussoir::program {
 
-/// What became of the joints of one source: a set, or the file of traces.
+/// What became of the joints of one source: random ones of a set, or those of a set that were
+/// mapped. And what the set is made of.
 struct JointSource {
   std::string name;
-  std::size_t asked = 0;    ///< joints
-  std::size_t used = 0;     ///< that cut a block
-  std::size_t outside = 0;  ///< that do not reach the domain
-  std::size_t refused = 0;  ///< for parts too small or too long, or where a joint was already
+  std::size_t asked = 0;          ///< joints
+  std::size_t used = 0;           ///< that cut a block
+  std::size_t outside = 0;        ///< that do not reach the domain
+  std::size_t refused = 0;        ///< for parts too small or too long, or where a joint was already
+  CoulombJoint::Params law = {};  ///< mechanics taken
+  std::optional<MappedSet> mapped = {};  ///< none: they are random
 };
 
 /// A finished run.
@@ -37,6 +41,7 @@ struct RunResult {
   int bonded_nodes =
       0;  ///< of the lining on the full outline, chosen for its bond; 0: they are not
   std::vector<JointSource> joints = {};
+  std::string joints_read = {};                 ///< how the file of traces was read, in words
   std::vector<std::string> rock_warnings = {};  ///< of `warnings`, those that the picture shows too
   std::vector<std::string> warnings = {};
   double generation_seconds = 0, equilibrium_seconds = 0;
@@ -59,6 +64,7 @@ struct GeneratedRock {
   RockMass<Planar> mass;
   std::vector<JointSource> joints;
   std::vector<std::string> warnings;
+  std::string joints_read;  ///< how the file of traces was read, in words; empty: there is none
 };
 
 /// Slices the rock of an input: random sets and mapped traces, together.
@@ -80,6 +86,7 @@ struct ExcavatedRock {
   ChosenBoundary boundary;
   double in_situ_unbalance;           ///< of the worst block over its weight [-]
   std::vector<std::string> warnings;  ///< about the rock
+  std::string joints_read = {};       ///< how the file of traces was read, in words
 };
 
 /// @param wants_bias  see `bounded_tunnel`

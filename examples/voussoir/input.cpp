@@ -178,24 +178,31 @@ void read_tunnel(Section& s, TunnelInput& tunnel) {
   s.integer("facets", tunnel.facets, 12, 720);
 }
 
-void read_joint_set(Section& s, JointSetInput& set) {
+/// @param is_mapped  joints.file may give the joints of a set that has no random ones
+void read_joint_set(Section& s, JointSetInput& set, bool is_mapped) {
+  const bool is_random = s.has("intensity") || s.has("spacing");
+  const Need need = is_mapped && !is_random ? Need::optional : Need::required;
   s.text("name", set.name);
-  read_orientation(s, set, Need::required);
-  s.quantity("sd", set.sd, dimension::angle, between(0, degrees(45)), Need::optional);
+  read_orientation(s, set, need);
   // One of the two, so the one that is there decides which of them is needed.
   const bool both = s.has("intensity") && s.has("spacing");
   s.quantity("intensity", set.intensity, dimension::intensity,
              {.low = 0, .high = 1e4, .low_included = false});
   s.quantity("spacing", set.spacing, dimension::length, above(0));
-  s.quantity("extent", set.extent, dimension::length, above(0), Need::optional, Infinity::allowed);
+  s.only_with(is_random || !is_mapped, "intensity or spacing", [&] {
+    s.quantity("sd", set.sd, dimension::angle, between(0, degrees(45)), Need::optional);
+    s.quantity("extent", set.extent, dimension::length, above(0), Need::optional,
+               Infinity::allowed);
+  });
   s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, per_area_range);
   s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, per_area_range);
   s.quantity("friction", set.friction_angle, dimension::angle, angle_below_90());
   if (both) {
     s.complain("spacing", "is given besides intensity", "one of intensity and spacing");
-  } else if (!s.has("intensity") && !s.has("spacing")) {
-    s.complain("intensity", "is missing, and so is spacing",
-               R"(either intensity = "1 /m^2" or spacing = "1.2 m")");
+  } else if (!is_random && !is_mapped) {
+    s.complain(
+        "intensity", "is missing, and so is spacing",
+        R"(either intensity = "1 /m^2" or spacing = "1.2 m"; or joints.file, with mapped joints of this set)");
   } else if (set.intensity && std::isinf(set.extent) && !s.faulty("extent")) {
     s.complain(
         "intensity",
@@ -203,6 +210,28 @@ void read_joint_set(Section& s, JointSetInput& set) {
         "domain than into a small one",
         R"(extent = "2 m", the length of their traces; or spacing = "1.2 m" in place of intensity: joints that go right through, as far apart in any domain)");
   }
+}
+
+void read_mapped(Section& s, Input& input, const std::filesystem::path& directory) {
+  MappedInput& mapped = input.mapped;
+  if (const auto value = s.find("first_set", Need::optional)) {
+    if (const auto first = value->as_integer(0, 1)) mapped.first_set = static_cast<int>(*first);
+  }
+  s.quantity("snap", mapped.snap, dimension::length, above(0));
+  (void)s.choice<DeadEnds>(
+      "dead_ends", mapped.dead_ends,
+      {{"do_not_cut", DeadEnds::do_not_cut}, {"cut_through", DeadEnds::cut_through}},
+      Need::optional);
+  const std::string form = "a file name, relative to the input file";
+  const auto value = s.find("file", Need::required, form);
+  const auto text = value ? value->as_text() : std::nullopt;
+  if (!text) return;
+  if (text->empty()) {
+    value->refuse("is empty", form);
+    return;
+  }
+  // A path in the file is UTF-8 whatever the system's own encoding.
+  input.joints_file = directory / utf8_path(*text);
 }
 
 void read_joint(Section& s, JointInput& joint) {
@@ -493,20 +522,9 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.tables("joint_set", [&](Section& s, std::size_t i) {
     JointSetInput& set = input.joint_sets.emplace_back();
     set.name = "set " + std::to_string(i + 1);
-    read_joint_set(s, set);
+    read_joint_set(s, set, file.has("joints"));
   });
-  file.optional_table("joints", [&](Section& s) {
-    const std::string form = "a file name, relative to the input file";
-    const auto value = s.find("file", Need::required, form);
-    const auto text = value ? value->as_text() : std::nullopt;
-    if (!text) return;
-    if (text->empty()) {
-      value->refuse("is empty", form);
-      return;
-    }
-    // A path in the file is UTF-8 whatever the system's own encoding.
-    input.joints_file = directory / utf8_path(*text);
-  });
+  file.optional_table("joints", [&](Section& s) { read_mapped(s, input, directory); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
     support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
@@ -550,6 +568,15 @@ void check_opening(Checker& checker, const Input& input) {
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
     checker.report("diagram.thickness", "fills the opening" + opening, below);
+}
+
+void check_snap(Checker& checker, const Input& input) {
+  if (!input.mapped.snap || checker.faulty("joints") || checker.faulty("blocks")) return;
+  if (*input.mapped.snap > input.blocks.min_inscribed_radius)
+    checker.report("joints.snap", "closes more than the smallest block is wide",
+                   "at most " +
+                       format_quantity(input.blocks.min_inscribed_radius, dimension::length) +
+                       ", blocks.min_inscribed_radius");
 }
 
 std::string counted(double count) {
@@ -768,6 +795,7 @@ Input read_input_text(std::string_view text, const std::string& name,
     return input;
   }
   check_opening(checker, input);
+  check_snap(checker, input);
   check_bond(checker, input);
   check_boundary(checker, input);
   check_size(checker, input);

@@ -15,7 +15,9 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/linear/linear_method.hpp>
+#include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/theory/foot_beam.hpp>
+#include <voussoir/tunnel/ring_nodes.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
 ///
@@ -80,10 +82,11 @@ struct BoundaryInput {
   double poisson_ratio = 0;  ///< nu, with E [-], -1 < . < 0.5
 };
 
-/// [[joint_set]] One family of random joints. Exactly one of intensity and spacing is given.
+/// [[joint_set]] One family of joints: random ones, of which exactly one of intensity and spacing
+/// is given; or, with neither, those that joints.file has of it.
 struct JointSetInput {
   std::string name;  ///< default "set 1", "set 2", ...
-  double dip = 0;    ///< from the horizontal [rad], 0 to pi/2
+  double dip = 0;    ///< from the horizontal [rad], 0 to pi/2; of random joints
   DipDirection dip_direction = DipDirection::east;
   double sd = 0;                    ///< standard deviation of the dip [rad], 0 to pi/4
   std::optional<double> intensity;  ///< joint centres per area [1/m^2], > 0, <= 1e4
@@ -91,6 +94,17 @@ struct JointSetInput {
   double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
   /// Mechanics, where they differ from those of [joint]; ranges as there.
   std::optional<double> normal_stiffness, shear_stiffness, friction_angle;
+
+  [[nodiscard]] bool is_random() const { return intensity || spacing; }
+};
+
+/// [joints] Mapped joints.
+struct MappedInput {
+  std::optional<int> first_set;  ///< number of the first set in the file, 0 or 1; none: what fits
+  /// What ends closer to another joint ends on it [m], > 0, at most blocks.min_inscribed_radius;
+  /// none: half of that.
+  std::optional<double> snap;
+  DeadEnds dead_ends = DeadEnds::cut_through;
 };
 
 /// [joint] The mechanics of all joints whose set does not say otherwise.
@@ -254,6 +268,7 @@ struct Input {
   BoundaryInput boundary;
   std::vector<JointSetInput> joint_sets;
   std::filesystem::path joints_file;  ///< measured traces, resolved, not opened; empty: none
+  MappedInput mapped;
   JointInput joint;
   BlocksInput blocks;
   std::optional<BoltsInput> bolts;

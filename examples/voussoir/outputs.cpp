@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
@@ -182,12 +183,21 @@ std::string rockfall_sentence(const RunResult& run) {
 
 nlohmann::json joints_json(const std::vector<JointSource>& sources) {
   nlohmann::json list = nlohmann::json::array();
-  for (const JointSource& s : sources)
+  for (const JointSource& s : sources) {
     list.push_back({{"source", s.name},
                     {"asked", s.asked},
                     {"used", s.used},
                     {"outside", s.outside},
-                    {"refused", s.refused}});
+                    {"refused", s.refused},
+                    {"kn_Pa_per_m", s.law.joint_normal_stiffness},
+                    {"ks_Pa_per_m", s.law.joint_shear_stiffness},
+                    {"friction_deg", s.law.friction_angle * 180 / std::numbers::pi}});
+    if (s.mapped)
+      list.back().update({{"set", s.mapped->set},
+                          {"mapped_m", s.mapped->mapped},
+                          {"cut_m", s.mapped->cut},
+                          {"made_m", s.mapped->made}});
+  }
   return list;
 }
 
@@ -251,6 +261,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"rock",
        {{"joints", mass.slicing.joints},
         {"joints_by_source", joints_json(run.joints)},
+        {"joints_read", run.joints_read},
         {"bodies", sizes.count},
         {"contacts", run.tunnel.system().joints.contacts().size()},
         {"mean_block_area_m2", sizes.mean},
@@ -344,10 +355,20 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
-  for (const JointSource& s : run.joints)
-    out += "joints   " + s.name + ": " + std::to_string(s.asked) + " joints, " +
-           std::to_string(s.used) + " used, " + std::to_string(s.refused) + " without room, " +
-           std::to_string(s.outside) + " outside\n";
+  if (!run.joints_read.empty()) out += "traces   " + run.joints_read + "\n";
+  for (const JointSource& s : run.joints) {
+    out += "joints   " + s.name + ": " + std::to_string(s.asked) +
+           (s.mapped ? (s.asked == 1 ? " trace, " : " traces, ") : " joints, ") +
+           std::to_string(s.used) + " used, " + std::to_string(s.refused) +
+           (s.mapped ? " part nothing, " : " without room, ") + std::to_string(s.outside) +
+           " outside";
+    if (const auto& mapped = s.mapped)
+      out += text("; %.1f m mapped", mapped->mapped) + text(", %.1f m of it cut", mapped->cut) +
+             text(", %.1f m made beyond", mapped->made);
+    out += "; kn " + format_quantity(s.law.joint_normal_stiffness, dimension::stiffness_per_area) +
+           ", ks " + format_quantity(s.law.joint_shear_stiffness, dimension::stiffness_per_area) +
+           ", friction " + format_quantity(s.law.friction_angle, dimension::angle) + "\n";
+  }
   out += "boundary " + boundary_text(run.boundary) + "\n";
   for (const StageResult& stage : run.built.stages) {
     out += "stage    " + stage.name + ": " + to_string(stage.report) +

@@ -40,6 +40,8 @@
 #include <voussoir/rockmass/isotropic_sets.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/laid_blocks.hpp>
+#include <voussoir/rockmass/mapped_slicing.hpp>
+#include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>

@@ -477,8 +477,8 @@ TEST_SUITE("equilibrium/verdict") {
       std::istringstream in(file.str());
       Domain<2> placed = ground;
       placed.site_origin = site_origin;
-      Solver<> tunnel(slice(placed, read_traces(in, "traces", site_origin), {0.25, 5}),
-                      joints(40 * degree), {.density = 2700});
+      const auto traces = straight_pieces(read_traces(in, "traces", site_origin).traces);
+      Solver<> tunnel(slice(placed, traces, {0.25, 5}), joints(40 * degree), {.density = 2700});
       tunnel.excavate(opening);
       CHECK(tunnel.equilibrium(0, {}, {.error_estimate = 1e-6, .unbalance_over_weight = 1e-5})
                 .verdict == Verdict::stable);

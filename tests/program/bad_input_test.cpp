@@ -192,7 +192,7 @@ TEST_SUITE("program/bad_input") {
       CHECK(outcome.status == 2);
       CHECK(outcome.err.find("traces.csv:3: ") != std::string::npos);
       CHECK(outcome.err.find(line) != std::string::npos);
-      CHECK(outcome.err.find("accepted: x1,y1,x2,y2") != std::string::npos);
+      CHECK(outcome.err.find("the header is: x1, y1, x2, y2") != std::string::npos);
       CHECK_FALSE(std::filesystem::exists(folder / "out"));
     }
     std::filesystem::remove(folder / "traces.csv");

@@ -85,7 +85,7 @@ TEST_SUITE("program/rock") {
   }
 
   TEST_CASE("traces that miss the model, all or most of them, are refused or said") {
-    const std::string beds = "-9,4,9,4\n-9,5,9,5\n-9,6,9,6\n";
+    const std::string beds = "-12,4,12,4\n-12,5,12,5\n-12,6,12,6\n";
     CHECK(said(beds).empty());
     const std::string millimetres = said("-9000,4000,-5000,4500\n-9000,5000,-5000,6000\n");
     CHECK(contains(millimetres, "refused: joints.file: "));
@@ -94,7 +94,7 @@ TEST_SUITE("program/rock") {
     const std::string site = said("512291,152,512309,152\n");
     CHECK(contains(site, "0 of 1 trace reaches into the domain"));
     CHECK(contains(site, "model.origin, the place of the model on the site grid, which is (0, 0)"));
-    CHECK(said("512291,152,512309,152\n", {"model.origin=[\"512300 m\", \"148 m\"]"}).empty());
+    CHECK(said("512288,152,512312,152\n", {"model.origin=[\"512300 m\", \"148 m\"]"}).empty());
     const std::string most = said("-9,4,9,4\n100,0,120,0\n100,1,120,1\n");
     CHECK(contains(most, "warning: joints.file: "));
     CHECK(contains(most, "1 of 3 traces reach into the domain"));

@@ -70,7 +70,7 @@ void check_carved(const RockMass<Planar>& mass, bool lost) {
     CHECK(std::abs(properties.measure - body.properties.measure) < 1e-12);
     CHECK(std::abs(properties.second_moment(0, 0) - body.properties.second_moment(0, 0)) <
           1e-12 * std::max(1.0, properties.second_moment(0, 0)));
-    CHECK(detail::connected_groups(body.parts, mass.domain.tolerance()).size() == 1);
+    CHECK(detail::connected_groups(body.parts, mass.cuts, mass.domain.tolerance()).size() == 1);
     for (const ConvexPolygon& part : body.parts)
       CHECK_FALSE(opening.contains(mass_properties(part).centroid));
   }

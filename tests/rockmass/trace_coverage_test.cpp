@@ -32,6 +32,14 @@ std::vector<Joint> map_of(const Vec2& middle, double unit, const Domain<2>& doma
   return joints;
 }
 
+/// Every joint as a trace of its own.
+std::vector<MappedTrace> traces(const std::vector<Joint>& joints) {
+  std::vector<MappedTrace> all;
+  for (const Joint& joint : joints)
+    all.push_back({{joint.trace.start, joint.trace.end}, joint.set});
+  return all;
+}
+
 const Domain<2> mapped_ground{{-35, -35}, {35, 25}};
 
 }  // namespace
@@ -41,7 +49,7 @@ TEST_SUITE("rockmass/trace_coverage") {
     const std::vector<Joint> joints{trace(0, 0, 1, 1),      trace(-100, 0, 100, 0),
                                     trace(-50, 30, 50, 31), trace(35, -10, 35, 10),
                                     trace(40, 0, 50, 0),    trace(-36, 24, -30, 40)};
-    const TraceCoverage found = trace_coverage(joints, mapped_ground);
+    const TraceCoverage found = trace_coverage(traces(joints), mapped_ground);
     CHECK(found.count == 6);
     CHECK(found.inside == 2);
     CHECK(found.low == Vec2(-100, -10));
@@ -52,7 +60,7 @@ TEST_SUITE("rockmass/trace_coverage") {
     Domain<2> there = mapped_ground;
     there.site_origin = {512300, 148};
     const auto text = [](const std::vector<Joint>& joints, const Domain<2>& domain) {
-      return coverage_text(trace_coverage(joints, domain), domain, "model.origin");
+      return coverage_text(trace_coverage(traces(joints), domain), domain, "model.origin");
     };
     const std::string good = text(map_of({512300, 148}, 1, there), there);
     CHECK(says(good, "50 of 50 traces reach into the domain"));
@@ -63,6 +71,20 @@ TEST_SUITE("rockmass/trace_coverage") {
     CHECK(says(text(map_of({0, 0}, 1000, mapped_ground), mapped_ground),
                "coordinates in millimetres"));
     CHECK(says(text(map_of({512300, 148}, 1 / 0.3048, there), there), "coordinates in feet"));
+    // y counted downwards, in metres and in millimetres.
+    const auto upside_down = [](std::vector<Joint> joints) {
+      for (Joint& joint : joints)
+        for (Vec2* end : {&joint.trace.start, &joint.trace.end}) *end = Vec2(end->x(), -end->y());
+      return joints;
+    };
+    const std::string down =
+        text(upside_down(map_of({0, 100}, 1, {{-35, 70}, {35, 130}})), {{-35, 70}, {35, 130}});
+    CHECK(says(down, "probable cause: y counted downwards"));
+    CHECK(says(
+        text(upside_down(map_of({0, 100}, 1000, {{-35, 70}, {35, 130}})), {{-35, 70}, {35, 130}}),
+        "coordinates in millimetres, where metres are read, and y counted downwards"));
+    // A single short trace far away: no unit makes it as large as the domain there.
+    CHECK(says(text({trace(900, 900, 900.1, 900.1)}, mapped_ground), "none that fits"));
     const std::string origin = text(map_of({512300, 148}, 1, mapped_ground), mapped_ground);
     CHECK(says(origin, "0 of 50 traces reach"));
     CHECK(says(origin, "the domain within (-35, -35) and (35, 25) m"));

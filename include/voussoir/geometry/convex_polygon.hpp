@@ -44,6 +44,17 @@ class ConvexPolygon {
     check();
   }
 
+  /// Of corners that are convex to roundings, as what was cut from a polygon has; nothing is
+  /// checked.
+  [[nodiscard]] static ConvexPolygon trusted(std::vector<Vec2> vertices, std::vector<int> cuts) {
+    ConvexPolygon made;
+    made.vertices_ = std::move(vertices);
+    made.cuts_ = std::move(cuts);
+    VOUSSOIR_ASSERT(made.size() >= 3 && made.cuts_.size() == made.size(),
+                    "a face has a vertex and a label");
+    return made;
+  }
+
   [[nodiscard]] std::size_t size() const { return vertices_.size(); }
   [[nodiscard]] const std::vector<Vec2>& vertices() const { return vertices_; }
   [[nodiscard]] const Vec2& vertex(std::size_t k) const { return vertices_[k]; }

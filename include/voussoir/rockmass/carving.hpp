@@ -15,6 +15,7 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/detail/connected_parts.hpp>
 #include <voussoir/rockmass/opening_box.hpp>
 #include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -55,50 +56,6 @@ namespace detail {
   for (std::size_t k = 0; inside && k < shape.size(); ++k)
     inside = split(std::move(*inside), shape.half_space(k), tolerance).below;
   return inside && inside->area() > tolerance * tolerance;
-}
-
-/// True if two faces of one cut touch over more than `tolerance`.
-[[nodiscard]] inline bool overlap(const Segment& a, const Segment& b, double tolerance) {
-  const Vec2 along = normalized(a.end - a.start);
-  const double a1 = a.length(), b0 = dot_product(along, b.start - a.start),
-               b1 = dot_product(along, b.end - a.start);
-  return std::min(a1, std::max(b0, b1)) - std::max(0.0, std::min(b0, b1)) > tolerance;
-}
-/// The part of a face inside the prism over another, which faces the other way.
-[[nodiscard]] VOUSSOIR_INLINE std::optional<JointPlane> common_part(const SpatialFacet& a,
-                                                                    const SpatialFacet& b,
-                                                                    double tolerance);
-[[nodiscard]] inline bool overlap(const SpatialFacet& a, const SpatialFacet& b, double tolerance) {
-  const auto common = common_part(a, b, tolerance);
-  return common && common->area() > tolerance * std::sqrt(a.measure());
-}
-
-/// Sorts parts into connected groups: parts are connected if they share a piece of face.
-template <class Shape>
-[[nodiscard]] std::vector<std::vector<Shape>> connected_groups(const std::vector<Shape>& parts,
-                                                               double tolerance) {
-  std::vector<std::size_t> group(parts.size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      bool touch = false;
-      for (std::size_t a = 0; !touch && a < parts[i].size(); ++a)
-        for (std::size_t b = 0; !touch && b < parts[j].size(); ++b)
-          touch = parts[i].cut(a) == parts[j].cut(b) &&
-                  overlap(parts[i].face(a), parts[j].face(b), tolerance);
-      if (touch) {
-        const std::size_t from = group[i], to = group[j];
-        std::replace(group.begin(), group.end(), from, to);
-      }
-    }
-  std::vector<std::vector<Shape>> groups;
-  for (std::size_t g = 0; g < parts.size(); ++g) {
-    std::vector<Shape> members;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (group[i] == g) members.push_back(parts[i]);
-    if (!members.empty()) groups.push_back(std::move(members));
-  }
-  return groups;
 }
 
 }  // namespace detail
@@ -188,7 +145,7 @@ template <class Geometry>
     VOUSSOIR_ASSERT(pieces.size() >= body.parts.size() || pieces.size() < before,
                     "an outline cuts pieces, and takes out whole ones");
     ++report.cut_bodies;
-    auto groups = detail::connected_groups(pieces, tolerance);
+    auto groups = detail::connected_groups(pieces, mass.cuts, tolerance);
     VOUSSOIR_ASSERT(!groups.empty() && groups.size() <= pieces.size(),
                     "every piece is in one group");
     report.separated_bodies += groups.size() - 1;
@@ -218,28 +175,5 @@ template <class Geometry>
   check_in_one_piece(mass);
   return mass;
 }
-
-#if VOUSSOIR_BODIES
-
-namespace detail {
-
-VOUSSOIR_INLINE std::optional<JointPlane> common_part(const SpatialFacet& a, const SpatialFacet& b,
-                                                      double tolerance) {
-  const Vec3 normal = normalized(a.area_vector());
-  std::optional<JointPlane> rest =
-      JointPlane{HalfSpace<3>::through(a.vertices.front(), normal), a.vertices};
-  const Vec3 other = normalized(b.area_vector());
-  for (std::size_t k = 0; rest && k < b.vertices.size(); ++k) {
-    const Vec3 &from = b.vertices[k], &to = b.vertices[k + 1 == b.vertices.size() ? 0 : k + 1];
-    const Vec3 out = cross(Vec3(to - from), other);
-    if (!(length_of(out) > tolerance)) continue;
-    rest = split(std::move(*rest), HalfSpace<3>::through(from, normalized(out)), tolerance).below;
-  }
-  return rest;
-}
-
-}  // namespace detail
-
-#endif
 
 }  // namespace voussoir

@@ -15,9 +15,14 @@ namespace voussoir {
 /// The two sides of a cut are tiled by faces that all carry its number, so initial contacts come
 /// from sorting the faces of each cut, T-junctions included, without a search.
 struct Cut {
-  enum class Kind { boundary, joint, outline };
+  enum class Kind {
+    boundary,
+    joint,
+    outline,
+    seam,  ///< between parts of one body, where mapped joints leave it whole
+  };
   Kind kind;
-  int source;  ///< side of the domain, index of the joint, index of the outline edge
+  int source;  ///< side of the domain, index of the joint, of the outline edge, of the joint beside
 };
 
 /// A rigid body: one or more convex parts that move as one.

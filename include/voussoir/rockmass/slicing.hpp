@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include <voussoir/geometry/inscribed_ball.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/detail/group_cut.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/rockmass/welding.hpp>
 
@@ -117,6 +119,20 @@ template <class Shape>
   return covering(trace, 0.5 * (domain.low + domain.high), domain.diameter());
 }
 
+/// Rock that is cut so far, and the tree of its cuts: blocks of one convex part or of several.
+struct SlicedSoFar {
+  struct Node {
+    HalfSpace<2> plane{};
+    std::size_t below = 0, above = 0;
+    std::ptrdiff_t part = 0;  ///< >= 0: a leaf. Several may be one part
+  };
+  std::vector<Cut> cuts;
+  std::vector<Node> nodes;
+  std::vector<ConvexPolygon> parts;
+  std::vector<std::size_t> body;  ///< of every part
+  SlicingReport report;
+};
+
 /// Cuts blocks one after the other. The cuts made so far form a binary tree over the blocks: a
 /// joint walks down it, clipped at each cut, and arrives in exactly the blocks it reaches. The work
 /// is therefore linear in the number of blocks but for the depth of the tree.
@@ -139,6 +155,39 @@ class Slicer {
     if (excess_.front() > 0) longest_ = elongation(blocks_.front());
     for (std::size_t face = 0; face < blocks_.front().size(); ++face)
       sides_.push_back(blocks_.front().half_space(face));
+  }
+
+  /// Goes on where other cuts have been made.
+  /// @param limits  a block that is too long so far may be cut where no part is longer than that
+  Slicer(const Domain<2>& domain, SlicedSoFar start, const BlockLimits& limits, StopCheck& stop)
+      : Slicer(domain, limits, stop) {
+    cuts_ = std::move(start.cuts);
+    blocks_ = std::move(start.parts);
+    report_ = std::move(start.report);
+    nodes_.clear();
+    groups_.resize(blocks_.size());
+    for (std::size_t k = 0; k < blocks_.size(); ++k) groups_[start.body[k]].push_back(k);
+    group_of_.assign(blocks_.size(), -1);
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      if (groups_[start.body[k]].size() > 1)
+        group_of_[k] = static_cast<std::ptrdiff_t>(start.body[k]);
+    excess_.assign(blocks_.size(), 0.0);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      if (group_of_[k] >= 0) continue;
+      excess_[k] = detail::excess_length(blocks_[k], limits);
+      if (excess_[k] > 0) longest_ = std::max(longest_, elongation(blocks_[k]));
+    }
+    leaf_of_.assign(blocks_.size(), none);
+    for (const SlicedSoFar::Node& node : start.nodes) {
+      nodes_.push_back({node.plane, node.below, node.above, node.part});
+      if (node.part < 0) continue;
+      std::size_t& leaf = leaf_of_[static_cast<std::size_t>(node.part)];
+      if (leaf == none) {
+        leaf = nodes_.size() - 1;
+      } else {  // the rest of a part that has a leaf: all of space is below
+        nodes_.back() = {{zeros<Vec2>(), 1}, leaf, leaf, -1};
+      }
+    }
   }
 
   void cut_by(const JointOf<Geometry::dim>& joint, int index) {
@@ -182,27 +231,33 @@ class Slicer {
     mass.bodies.reserve(blocks_.size());
     // In the order of the tree neighbours in space are neighbours in memory.
     std::vector<std::size_t> stack{0};
+    std::map<std::ptrdiff_t, std::size_t> of_group;  // the body that a group becomes
     while (!stack.empty()) {
       stop_();
       const Node& node = nodes_[stack.back()];
       stack.pop_back();
       if (node.block < 0) {
+        if (node.above == node.below) continue;  // stands for a leaf elsewhere
         stack.push_back(node.above);
         stack.push_back(node.below);
       } else {
-        Body<Geometry> body;
-        body.parts.push_back(std::move(blocks_[static_cast<std::size_t>(node.block)]));
-        body.properties = mass_properties(body.parts);
-        mass.bodies.push_back(std::move(body));
+        const auto block = static_cast<std::size_t>(node.block);
+        const std::ptrdiff_t group = group_of_.empty() ? -1 : group_of_[block];
+        const auto [at, is_new] = group < 0 ? std::pair(of_group.end(), true)
+                                            : of_group.emplace(group, mass.bodies.size());
+        if (is_new) mass.bodies.emplace_back();
+        Body<Geometry>& body = is_new ? mass.bodies.back() : mass.bodies[at->second];
+        body.parts.push_back(std::move(blocks_[block]));
       }
     }
+    for (Body<Geometry>& body : mass.bodies) body.properties = mass_properties(body.parts);
     VOUSSOIR_ASSERT(mass.bodies.size() == report_.cuts + 1, "every block becomes a body");
     VOUSSOIR_ASSERT(
         report_.outside_joints <= report_.unused_joints && report_.unused_joints <= report_.joints,
         "a joint outside the domain cuts nothing");
     mass.slicing.blocks_too_long = static_cast<std::size_t>(
         std::count_if(excess_.begin(), excess_.end(), [](double excess) { return excess > 0; }));
-    mass.slicing.vanished_faces = weld(mass.bodies, tolerance_, stop_);
+    mass.slicing.vanished_faces += weld(mass.bodies, tolerance_, stop_);
     return mass;
   }
 
@@ -216,6 +271,8 @@ class Slicer {
   bool cut_block(std::size_t at, const HalfSpace<Geometry::dim>& plane, int joint) {
     VOUSSOIR_ASSERT(nodes_[at].block >= 0, "a leaf of the tree is a block");
     const auto block = static_cast<std::size_t>(nodes_[at].block);
+    if constexpr (Geometry::dim == 2)
+      if (!group_of_.empty() && group_of_[block] >= 0) return cut_group_at(block, plane, joint);
     auto parts = blocks_[block].split(plane, static_cast<int>(cuts_.size()), tolerance_);
     if (!parts) {
       ++report_.coincident;
@@ -238,23 +295,70 @@ class Slicer {
     }
     cuts_.push_back({Cut::Kind::joint, joint});
     ++report_.cuts;
-    Node below, above;
-    below.block = static_cast<std::ptrdiff_t>(block);
-    above.block = static_cast<std::ptrdiff_t>(blocks_.size());
-    nodes_[at] = {plane, nodes_.size(), nodes_.size() + 1, -1};
-    nodes_.push_back(below);
-    nodes_.push_back(above);
     excess_[block] = excess[0];
-    excess_.push_back(excess[1]);
-    blocks_[block] = std::move(parts->first);
-    blocks_.push_back(std::move(parts->second));
-    VOUSSOIR_ASSERT(nodes_.size() == 2 * blocks_.size() - 1, "a cut makes two leaves of one");
-    VOUSSOIR_ASSERT(blocks_.size() == report_.cuts + 1 && excess_.size() == blocks_.size(),
-                    "a cut makes two blocks of one");
+    divide(at, plane, std::move(parts->first), std::move(parts->second));
+    excess_.back() = excess[1];
+    return true;
+  }
+
+  /// Makes two leaves of one.
+  void divide(std::size_t at, const HalfSpace<Geometry::dim>& plane, Shape below, Shape above) {
+    const auto block = static_cast<std::size_t>(nodes_[at].block);
+    Node lower, upper;
+    lower.block = static_cast<std::ptrdiff_t>(block);
+    upper.block = static_cast<std::ptrdiff_t>(blocks_.size());
+    nodes_[at] = {plane, nodes_.size(), nodes_.size() + 1, -1};
+    nodes_.push_back(lower);
+    nodes_.push_back(upper);
+    blocks_[block] = std::move(below);
+    blocks_.push_back(std::move(above));
+    excess_.push_back(0);
+    if (group_of_.empty()) {
+      VOUSSOIR_ASSERT(nodes_.size() == 2 * blocks_.size() - 1, "a cut makes two leaves of one");
+      VOUSSOIR_ASSERT(blocks_.size() == report_.cuts + 1, "a cut makes two blocks of one");
+      return;
+    }
+    group_of_.push_back(-1);
+    leaf_of_[block] = nodes_.size() - 2;
+    leaf_of_.push_back(nodes_.size() - 1);
+  }
+
+  /// Cuts the block of several parts that one of them, reached by a joint, belongs to. Its length
+  /// is not limited, as that of what was mapped is not.
+  bool cut_group_at(std::size_t block, const HalfSpace<2>& plane, int joint) {
+    std::vector<std::size_t> members = groups_[static_cast<std::size_t>(group_of_[block])];
+    const auto reached = static_cast<std::size_t>(std::find(members.begin(), members.end(), block) -
+                                                  members.begin());
+    std::vector<const Shape*> parts;
+    for (const std::size_t k : members) parts.push_back(&blocks_[k]);
+    cuts_.push_back({Cut::Kind::joint, joint});
+    auto made = detail::cut_group(parts, reached, plane, static_cast<int>(cuts_.size()) - 1, cuts_,
+                                  limits_.min_inscribed_radius, tolerance_);
+    if (!made || made->is_too_small || made->groups.size() < 2) {
+      cuts_.pop_back();
+      ++(made && made->is_too_small ? report_.refused_too_small : report_.coincident);
+      return false;
+    }
+    report_.cuts += made->groups.size() - 1;
+    for (auto& halves : made->halves) {
+      divide(leaf_of_[members[halves.part]], plane, std::move(halves.below),
+             std::move(halves.above));
+      members.push_back(blocks_.size() - 1);
+    }
+    for (const auto& group : made->groups) {
+      const bool is_alone = group.size() == 1;
+      const auto number = is_alone ? -1 : static_cast<std::ptrdiff_t>(groups_.size());
+      if (!is_alone) groups_.emplace_back();
+      for (const std::size_t k : group) {
+        group_of_[members[k]] = number;
+        if (!is_alone) groups_.back().push_back(members[k]);
+      }
+    }
     return true;
   }
 
   static constexpr double same_length = 1e-9;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   StopCheck& stop_;
   Domain<Geometry::dim> domain_;
@@ -264,6 +368,11 @@ class Slicer {
   std::vector<Shape> blocks_;
   std::vector<double> excess_;  ///< of each block: its length beyond the limit, 0 for most [m]
   double longest_ = 0;          ///< elongation of the domain, where it is beyond the limit [-]
+  /// Blocks of several parts, where cutting began with such: of every part its group, -1 if it is
+  /// alone; and its leaf.
+  std::vector<std::ptrdiff_t> group_of_;
+  std::vector<std::size_t> leaf_of_;
+  std::vector<std::vector<std::size_t>> groups_;
   std::vector<HalfSpace<Geometry::dim>> sides_;  ///< of the domain
   std::vector<Cut> cuts_;
   std::vector<std::pair<std::size_t, Trace>> pending_;

@@ -17,6 +17,7 @@
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/joint.hpp>
+#include <voussoir/rockmass/mapped_traces.hpp>
 
 namespace voussoir {
 
@@ -32,7 +33,7 @@ struct TraceCoverage {
 };
 
 /// @pre  at least one trace
-[[nodiscard]] VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<Joint>& traces,
+[[nodiscard]] VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<MappedTrace>& traces,
                                                            const Domain<2>& domain);
 
 /// Says how many traces reach the domain, where both lie, and what is probably wrong: the unit of
@@ -67,13 +68,16 @@ VOUSSOIR_INLINE std::optional<Segment> inside_of(const Domain<2>& domain, const 
   return inside;
 }
 
-VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<Joint>& traces,
+VOUSSOIR_INLINE TraceCoverage trace_coverage(const std::vector<MappedTrace>& traces,
                                              const Domain<2>& domain) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   TraceCoverage found{traces.size(), 0, Vec2(inf, inf), Vec2(-inf, -inf)};
-  for (const Joint& joint : traces) {
-    found.inside += inside_of(domain, joint.trace).has_value();
-    for (const Vec2& end : {joint.trace.start, joint.trace.end})
+  for (const MappedTrace& trace : traces) {
+    bool is_inside = false;
+    for (std::size_t k = 1; k < trace.points.size(); ++k)
+      is_inside = is_inside || inside_of(domain, {trace.points[k - 1], trace.points[k]});
+    found.inside += is_inside;
+    for (const Vec2& end : trace.points)
       for (int axis = 0; axis < 2; ++axis) {
         const double at = end[axis] + domain.site_origin[axis];
         found.low[axis] = std::min(found.low[axis], at);
@@ -95,20 +99,35 @@ VOUSSOIR_INLINE std::string coverage_text(const TraceCoverage& found, const Doma
     const char* name;
     double metres;
   };
-  for (const Unit& unit : {Unit{"millimetres", 1e-3}, Unit{"centimetres", 1e-2},
-                           Unit{"feet", 0.3048}, Unit{"kilometres", 1e3}}) {
-    // As large as the domain in that unit, and lying on it; a thousand times as large is no map.
-    const double size = unit.metres * span / domain.diameter();
-    if (cause.empty() && (found.inside == 0 || unit.metres == 1e-3) && size > 0.1 && size < 10 &&
-        meets(unit.metres * found.low, unit.metres * found.high))
-      cause = std::string("coordinates in ") + unit.name + ", where metres are read";
-  }
-  if (cause.empty() && span > 100 * domain.diameter())
+  // A guess is said where it fits: traces that are then as large as the domain, and lie on it.
+  for (const Unit& unit : {Unit{"", 1}, Unit{"millimetres", 1e-3}, Unit{"centimetres", 1e-2},
+                           Unit{"feet", 0.3048}, Unit{"kilometres", 1e3}})
+    for (const bool is_down : {false, true}) {
+      const bool is_metres = unit.metres == 1;
+      if (!cause.empty() || (is_metres && !is_down)) continue;
+      if (found.inside > 0 && (is_metres || unit.metres != 1e-3)) continue;
+      const double size = unit.metres * span / domain.diameter();
+      Vec2 a = unit.metres * found.low, b = unit.metres * found.high;
+      if (is_down) {
+        a = Vec2(a.x(), -unit.metres * found.high.y());
+        b = Vec2(b.x(), -unit.metres * found.low.y());
+      }
+      if (!(size > 0.1 && size < 10 && meets(a, b))) continue;
+      if (!is_metres)
+        cause = std::string("coordinates in ") + unit.name + ", where metres are read";
+      if (is_down)
+        cause += std::string(is_metres ? "" : ", and ") +
+                 "y counted downwards, where it is read upwards";
+    }
+  const std::string middle = text_of<2>(Vec2(0.5 * (found.low + found.high))) + " m";
+  const double size = span / domain.diameter();
+  if (cause.empty() && size > 100)
     cause = "coordinates that are not in metres, or a map of a far larger area";
-  if (cause.empty())
+  if (cause.empty() && size > 0.02)
     cause = origin_name + ", the place of the model on the site grid, which is " +
-            text_of<2>(domain.site_origin) + " m: the middle of the traces is " +
-            text_of<2>(Vec2(0.5 * (found.low + found.high))) + " m";
+            text_of<2>(domain.site_origin) + " m: the middle of the traces is " + middle;
+  if (cause.empty())
+    cause = "none that fits: the traces are far smaller than the domain and lie around " + middle;
   return std::to_string(found.inside) + " of " + std::to_string(found.count) +
          (found.count == 1 ? " trace reaches" : " traces reach") +
          " into the domain: on the site grid the traces lie within " + text_of<2>(found.low) +

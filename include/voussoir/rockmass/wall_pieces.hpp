@@ -14,6 +14,7 @@
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/detail/connected_parts.hpp>
 #include <voussoir/rockmass/opening_box.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/rockmass/wall_outline.hpp>
@@ -141,12 +142,15 @@ class WallFinder {
           wall_.pieces.push_back({static_cast<int>(b), std::move(facet), static_cast<int>(e),
                                   start + from, start + to});
         });
-    // Pieces that lay side by side have left one hole.
+
     std::vector<Shape> dropped;
     for (const Body<Geometry>& body : mass_.dropped)
       dropped.insert(dropped.end(), body.parts.begin(), body.parts.end());
+    // Pieces that lay side by side have left one hole, across joints, too.
+    const std::vector<Cut> all_connect(mass_.cuts.size(), Cut{Cut::Kind::seam, 0});
     int number = 0;
-    for (const auto& group : connected_groups(dropped, tolerance_)) add_holes(group, number++);
+    for (const auto& group : connected_groups(dropped, all_connect, tolerance_))
+      add_holes(group, number++);
     if (!faces_.empty()) add_faces_of_holes();
     sort();
     return std::move(wall_);

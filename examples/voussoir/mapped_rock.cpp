@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "mapped_rock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <voussoir/core/units.hpp>
+#include <voussoir/io/operating_system.hpp>
+#include <voussoir/rockmass/trace_coverage.hpp>
+#include <voussoir/rockmass/trace_file.hpp>
+
+namespace voussoir::program {
+
+namespace {
+
+/// Of the metres mapped: what is not cut, or is cut beyond, is warned of from here on.
+constexpr double share_said = 0.25;
+
+std::string metres(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f m", length);
+  return text;
+}
+
+/// Pieces of traces in the domain: they are cut in a quarter of a minute.
+constexpr std::size_t most_pieces = 200'000;
+
+/// Half of what the smallest block measures from its middle: a bridge of rock that is narrower
+/// holds no block.
+double snap_of(const Input& input) {
+  return input.mapped.snap.value_or(0.5 * input.blocks.min_inscribed_radius);
+}
+
+/// What of a set is not as it was mapped.
+void warn_of(const Input& input, const MappedSet& set, std::vector<std::string>& warnings) {
+  const std::string of = "joints.file, " + set_name(input, set.set) + ": ";
+  if (set.mapped - set.cut > share_said * set.mapped)
+    warnings.push_back(
+        of + "of " + metres(set.mapped) + " mapped " + metres(set.cut) +
+        " part blocks; the rest ends in whole rock, or would part blocks smaller than "
+        "blocks.min_inscribed_radius" +
+        (input.mapped.dead_ends == DeadEnds::cut_through
+             ? ""
+             : R"(; joints.dead_ends = "cut_through" draws dead ends on to the next joint)"));
+  if (set.made > share_said * set.mapped)
+    warnings.push_back(of + metres(set.made) + " of joint are made where none was mapped, of " +
+                       metres(set.mapped) +
+                       R"( mapped: dead ends are drawn on to the next joint; )" +
+                       R"(joints.dead_ends = "do_not_cut" leaves them out)");
+}
+
+}  // namespace
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string set_name(const Input& input, int set) {
+  return set < 0 ? std::string("no set") : input.joint_sets[static_cast<std::size_t>(set)].name;
+}
+
+CoulombJoint::Params mechanics_of(const Input& input, int set) {
+  const JointInput& common = input.joint;
+  if (set < 0) return {common.normal_stiffness, common.shear_stiffness, common.friction_angle};
+  const JointSetInput& own = input.joint_sets[static_cast<std::size_t>(set)];
+  return {own.normal_stiffness.value_or(common.normal_stiffness),
+          own.shear_stiffness.value_or(common.shear_stiffness),
+          own.friction_angle.value_or(common.friction_angle)};
+}
+
+std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>& domain,
+                                            const Progress& progress, GeneratedRock& rock) {
+  const std::string name = utf8_text(input.joints_file);
+  const std::string accepted =
+      "\n   = accepted: the name of a file of traces, relative to the input file";
+  std::error_code error;
+  const auto kind = std::filesystem::status(input.joints_file, error).type();
+  // A device or a pipe may never end, and to open one may take for ever.
+  if (kind != std::filesystem::file_type::regular &&
+      std::filesystem::exists(input.joints_file, error))
+    throw InvalidInput("joints.file: cannot read " + name + ": it is not a regular file" +
+                       accepted);
+  std::ifstream file(input.joints_file, std::ios::binary);
+  if (!file) throw InvalidInput("joints.file: cannot read " + name + accepted);
+  TraceFileLimits limits;
+  limits.sets = static_cast<int>(input.joint_sets.size());
+  for (const JointSetInput& set : input.joint_sets) limits.set_names.push_back(set.name);
+  limits.first_set = input.mapped.first_set;
+  limits.first_set_key = "joints.first_set";
+  TraceFile read = read_traces(file, name, domain.site_origin, limits, progress);
+  rock.joints_read = name + ": " + counted(read.traces.size(), "trace") + ", " + read.layout;
+  for (const std::string& note : read.notes) rock.joints_read += "; " + note;
+  const TraceCoverage coverage = trace_coverage(read.traces, domain);
+  if (2 * coverage.inside < coverage.count) {
+    const std::string text =
+        "joints.file: " + name + ": " + coverage_text(coverage, domain, "model.origin");
+    if (coverage.inside == 0) throw InvalidInput(text);
+    rock.warnings.push_back(text);
+  }
+  return std::move(read.traces);
+}
+
+void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<MappedTrace> traces,
+                     const std::vector<Joint>& random, const Progress& progress,
+                     GeneratedRock& rock) {
+  std::size_t inside = 0;
+  for (const Joint& piece : straight_pieces(traces))
+    inside += inside_of(domain, piece.trace).has_value();
+  if (inside > most_pieces)
+    throw InvalidInput("joints.file: " + counted(inside, "piece") +
+                       " of traces lie in the domain\n   = accepted: at most " +
+                       std::to_string(most_pieces) +
+                       ": a smaller domain, or a map without traces shorter than blocks");
+  const MappedRule rule{snap_of(input), input.mapped.dead_ends};
+  const MappedJoints mapped = mapped_joints(std::move(traces), domain, rule, progress);
+  const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
+  MappedRock made = slice_mapped(domain, mapped, random, limits, {opening_of(input)}, progress);
+  rock.mass = std::move(made.mass);
+  if (mapped.duplicates > 0)
+    rock.warnings.push_back("joints.file: " + counted(mapped.duplicates, "trace") +
+                            " left out: a longer one runs within joints.snap = " +
+                            format_quantity(rule.snap, dimension::length) + " all along");
+  for (const MappedSet& set : made.sets) {
+    JointSource source{"joints.file, " + set_name(input, set.set)};
+    source.asked = set.joints;
+    source.used = set.used;
+    source.outside = set.outside;
+    source.refused = set.joints - set.used - set.outside;
+    source.law = mechanics_of(input, set.set);
+    source.mapped = set;
+    rock.joints.push_back(std::move(source));
+    warn_of(input, set, rock.warnings);
+  }
+}
+
+}  // namespace voussoir::program
