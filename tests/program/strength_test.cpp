@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -96,7 +97,7 @@ TEST_SUITE("program/strength") {
     }
     // The stress in a bar of 28 mm, and in a section 8 cm thick of thrust and moment at one node.
     const double force = bolts["largest_force_kN"], stress = bolts["largest_stress_in_bar_MPa"];
-    CHECK(stress == near(1e-3 * force / (M_PI * 0.014 * 0.014)).epsilon(1e-9));
+    CHECK(stress == near(1e-3 * force / (std::numbers::pi * 0.014 * 0.014)).epsilon(1e-9));
     CHECK(lining["largest_stress_MPa"].get<double>() <=
           1e-3 * lining["largest_thrust_kN_per_m"].get<double>() / 0.08 +
               6e-3 * lining["largest_moment_kNm_per_m"].get<double>() / (0.08 * 0.08) + 1e-9);
