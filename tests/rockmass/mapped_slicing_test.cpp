@@ -229,6 +229,18 @@ TEST_SUITE("rockmass/mapped_slicing") {
   }
   TEST_CASE("so does a map of 3000 traces [long]") { check_map(3000, DeadEnds::cut_through); }
 
+  TEST_CASE("a polyline that was split keeps the points that it had") {
+    // The middle point is 0.2 mm beyond what may be left out; the split beside it, a tenth of a
+    // millimetre off the line, would be taken in its place.
+    const std::vector<MappedTrace> whole{{{{0, 0}, {5, 0.0052}, {10, 0}}}},
+        split{{{{0, 0}, {4.99, 0.0053}}}, {{{4.99, 0.0053}, {5, 0.0052}, {10, 0}}}};
+    const auto a = mapped_joints(whole, ground, {snap}), b = mapped_joints(split, ground, {snap});
+    REQUIRE(a.pieces.size() == 2);
+    REQUIRE(b.pieces.size() == 2);
+    CHECK(a.pieces[0].mapped.end == Vec2(5, 0.0052));
+    CHECK(b.pieces[0].mapped.end == Vec2(5, 0.0052));
+  }
+
   TEST_CASE("random joints cut blocks of several parts right through, within the limits") {
     const std::vector<JointSet> sets{{"a", 0.9, DipDirection::east, 0.1, 0.3, 0, 3},
                                      {"b", 0.3, DipDirection::west, 0.1, 0.3, 0, 3}};
