@@ -85,7 +85,6 @@ struct SupportCondition {
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
   std::string widest_place;               ///< of that node
-  int fills = 0;                          ///< nodes that fill a hole in the wall
   std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
 
@@ -115,10 +114,6 @@ template <class Solver>
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto& lining : solver.system().linings) {
     if (!solver.system().body(lining.first).movable) continue;
-    std::vector<int> filled;
-    for (const auto& fill : lining.fills) filled.push_back(fill.node);
-    std::sort(filled.begin(), filled.end());
-    condition.fills += static_cast<int>(std::unique(filled.begin(), filled.end()) - filled.begin());
     for (const LiningGap& gap : lining.gaps) {
       ++condition.gaps;
       if (!(gap.share > condition.widest_gap)) continue;
