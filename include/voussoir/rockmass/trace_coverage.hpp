@@ -17,7 +17,7 @@
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/joint.hpp>
-#include <voussoir/rockmass/mapped_traces.hpp>
+#include <voussoir/rockmass/mapped_trace.hpp>
 
 namespace voussoir {
 

@@ -18,7 +18,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/detail/bounded_lines.hpp>
 #include <voussoir/rockmass/detail/trace_table.hpp>
-#include <voussoir/rockmass/mapped_traces.hpp>
+#include <voussoir/rockmass/mapped_trace.hpp>
 
 namespace voussoir {
 
