@@ -117,13 +117,15 @@ template <class System>
 
 /// "5 MPa/m"
 [[nodiscard]] inline std::string stiffness_text(double stiffness) {
-  const bool giga = stiffness >= 1e9, mega = stiffness >= 1e6;
+  const bool giga = stiffness >= 1e9, mega = stiffness >= 1e6, kilo = stiffness >= 1e3;
   return message_number(stiffness / (giga   ? 1e9
                                      : mega ? 1e6
+                                     : kilo ? 1e3
                                             : 1),
                         3) +
          (giga   ? " GPa/m"
           : mega ? " MPa/m"
+          : kilo ? " kPa/m"
                  : " Pa/m");
 }
 /// "530 mm", "5.7 m"
