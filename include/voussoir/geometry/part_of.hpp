@@ -27,9 +27,9 @@ namespace voussoir {
                                                          double tolerance) {
   const HalfSpace<3> plane =
       HalfSpace<3>::through(facet.vertices.front(), normalized(facet.area_vector()));
-  auto part = split(JointPlane{plane, facet.vertices}, side, tolerance).below;
-  if (!part) return {};
-  return SpatialFacet{std::move(part->corners)};
+  JointPlaneSplit parts = split(JointPlane{plane, facet.vertices}, side, tolerance);
+  if (!parts.below) return {};
+  return SpatialFacet{std::move(parts.below->corners)};
 }
 
 /// What of a convex shape lies in a half space; the new face has no cut.
