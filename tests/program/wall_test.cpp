@@ -24,20 +24,20 @@ using namespace voussoir::program;
 
 std::string line(double x0, double y0, double x1, double y1) {
   char text[128];
-  std::snprintf(text, sizeof text, "%.12f,%.12f,%.12f,%.12f,0\n", x0, y0, x1, y1);
+  std::snprintf(text, sizeof text, "%.12f,%.12f,%.12f,%.12f\n", x0, y0, x1, y1);
   return text;
 }
 
-/// Level joints 2 m apart, every second course moved by half a block of 2.5 m, with one level joint
-/// at the roof of an 8 m x 6 m box, or `above` it.
+/// Level joints 2 m apart, every second course moved by half a block of 2 m, with one level joint
+/// at the roof of an 8 m x 6 m box, or `above` it. Upright joints below it end the slab at both
+/// walls: it would be an arm of the blocks beside the opening else, and stay.
 std::string beds(double above) {
-  std::string text = "x0,y0,x1,y1,set\n";
+  std::string text = "x1,y1,x2,y2\n";
   for (int k = -12; k <= 10; ++k) {
     const double low = k == 0 ? 3 + above : 3 + 2.0 * k;
     const double high = k == -1 ? 3 + above : 3 + 2.0 * (k + 1);
     text += line(-30, low, 30, low);
-    for (double x = -28.75 + (k % 2 == 0 ? 0 : 1.25); x < 30; x += 2.5)
-      text += line(x, low, x, high);
+    for (double x = k % 2 == 0 ? -29 : -28; x < 30; x += 2) text += line(x, low, x, high);
   }
   return text;
 }
@@ -52,7 +52,7 @@ Answer answer_of(const std::string& traces, const std::vector<std::string>& over
   write_file(folder / "bedding-above-flat-roof.csv", traces);
   const Input input = read_input_text(read_file(data + "bedding-above-flat-roof.toml"), "walls",
                                       folder / ".", overrides);
-  const RunResult run = run_tunnel(input, {});
+  const RunResult run = run_tunnel(input, [](const std::string&, double) { return true; });
   const auto demand = voussoir::support_demand(run.tunnel);
   CHECK(run.verdict() == voussoir::Verdict::stable);
   return {demand.largest_thrust, demand.largest_moment, run.built.stages.back().convergence.crown};
@@ -65,8 +65,7 @@ TEST_SUITE("program/wall") {
     for (const char* edge : {"rollers", "elastic"}) {
       CAPTURE(edge);
       const std::vector<std::string> keys = {std::string("boundary.sides=\"") + edge + '"',
-                                             std::string("boundary.base=\"") + edge + '"',
-                                             "joints.first_set=0"};
+                                             std::string("boundary.base=\"") + edge + '"'};
       const Answer on_roof = answer_of(beds(0), keys);
       Answer before = on_roof;
       for (const double above : {1e-9, 1e-6, 1e-3, 1e-2}) {

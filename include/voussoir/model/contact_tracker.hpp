@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <span>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>

@@ -55,10 +55,38 @@ class LiningOnWall {
         });
       }
     }
+    if constexpr (dim == 2) join_neighbours(frame.contacts);
     add_gaps(frame);
   }
 
  private:
+  /// Makes one of contacts of a node and a body that lie side by side on a line: into how many
+  /// parts a body has been cut, and a hole, is no matter of the lining.
+  void join_neighbours(std::vector<LiningContact<Geometry>>& contacts) const {
+    std::vector<LiningContact<Geometry>> joined;
+    for (LiningContact<Geometry>& contact : contacts) {
+      bool is_taken = false;
+      for (std::size_t k = joined.size(); !is_taken && k-- > 0;) {
+        LiningContact<Geometry>& other = joined[k];
+        if (other.node != contact.node || other.body != contact.body) continue;
+        if (std::abs(dot_product(normalized(contact.facet.area_vector()),
+                                 other.facet.end - other.facet.start)) > 2 * tolerance_)
+          continue;
+        const auto meet = [&](const Vec2& a, const Vec2& b) {
+          return length_of(a - b) <= 2 * tolerance_;
+        };
+        is_taken = true;
+        if (meet(other.facet.end, contact.facet.start))
+          other.facet.end = contact.facet.end;
+        else if (meet(contact.facet.end, other.facet.start))
+          other.facet.start = contact.facet.start;
+        else
+          is_taken = false;
+      }
+      if (!is_taken) joined.push_back(std::move(contact));
+    }
+    contacts = std::move(joined);
+  }
   /// What of the outline is in front of a piece of wall: itself, or what one sees it through if it
   /// lies behind a hole, where that is not too deep to be filled.
   [[nodiscard]] std::vector<Facet> in_front_of(const WallPiece<Geometry>& piece) const {
@@ -68,9 +96,9 @@ class LiningOnWall {
     const HalfSpace<dim> shallow = outline_.template in_space<dim>(outline_.within(e, fill_depth_));
     const auto filled = part_of(piece.facet, shallow, tolerance_);
     const HalfSpace<dim> outside = outline_.template in_space<dim>(outline_.within(e, 0));
-    if (!filled || dot_product(filled->area_vector(), outside.normal) <= 0) return seen;
+    if (!filled) return seen;
     const Facet shadow = on_outline(*filled, e);
-    if (!(shadow.measure() > 0)) return seen;
+    if (!(dot_product(shadow.area_vector(), outside.normal) > 0)) return seen;  // it overhangs
     const int group = wall_.holes[static_cast<std::size_t>(piece.hole)].group;
     for (const WallHole<Geometry>& hole : wall_.holes) {
       if (hole.group != group || hole.edge != piece.edge) continue;

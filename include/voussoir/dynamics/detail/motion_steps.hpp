@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
