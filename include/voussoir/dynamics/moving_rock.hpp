@@ -145,8 +145,9 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
     nodes.push_back(
         {places.back(), surface.tiles(k), shares[k].mass, all_entries<dof - dim>(inertia)});
   }
-  const int first = run.add_lining_nodes(nodes, interface_law);
+  // Before the tiles: contacts of a body and a node are one only if all name the body first.
   for (const auto& fill : frame.fills) run.add_filling(fill.body, fill.shape);
+  const int first = run.add_lining_nodes(nodes, interface_law);
   std::vector<int> numbers(nodes.size());
   std::iota(numbers.begin(), numbers.end(), first);
   auto lining = std::make_shared<LiningMembers<Geometry>>(

@@ -67,8 +67,9 @@ class Handover {
                          all_entries<dof - dim>(node_inertia(mass, body.gyration, lining.thickness,
                                                              lining.is_pinned))});
       }
-      run.add_lining_nodes(nodes, lining.law);
+      // Before the tiles: contacts of a body and a node are one only if all name the body first.
       for (const auto& fill : lining.fills) run.add_filling(fill.body, fill.shape);
+      run.add_lining_nodes(nodes, lining.law);
     }
     for (int b = 0; b < system_.body_count(); ++b) {
       run.place(b, system_.motion_of(b));

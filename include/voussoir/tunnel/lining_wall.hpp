@@ -43,25 +43,32 @@ class LiningOnWall {
   ///                part) for every part, in 3-D between the ribs
   template <class Divide>
   void put_on(LiningFrame<Geometry>& frame, Divide&& divide) {
+    std::vector<LiningContact<Geometry>> of_holes;
     for (const WallPiece<Geometry>& piece : wall_.pieces) {
       const auto e = static_cast<std::size_t>(piece.edge);
       for (const Facet& on_outline : in_front_of(piece)) {
         const auto [from, to] = places(e, on_outline);
         each_stretch(on_outline, e, from, to, [&](int ring_node, const Facet& part) {
           divide(ring_node, part, [&](int node, const Facet& facet) {
-            frame.contacts.push_back({node, piece.body, facet});
-            if (piece.hole >= 0) add_fills(frame, piece, node, facet);
+            if (piece.hole < 0) {
+              frame.contacts.push_back({node, piece.body, facet});
+            } else {
+              of_holes.push_back({node, piece.body, facet});
+              add_fills(frame, piece, node, facet);
+            }
           });
         });
       }
     }
-    if constexpr (dim == 2) join_neighbours(frame.contacts);
+    if constexpr (dim == 2) join_neighbours(of_holes);
+    frame.contacts.insert(frame.contacts.end(), of_holes.begin(), of_holes.end());
     add_gaps(frame);
   }
 
  private:
-  /// Makes one of contacts of a node and a body that lie side by side on a line: into how many
-  /// parts a body has been cut, and a hole, is no matter of the lining.
+  /// Makes one of contacts of a node and a body that lie side by side in front of holes: into how
+  /// many parts these have been cut is no matter of the lining. Not of those on rock with these: in
+  /// motion they are contacts of two shapes, of which one alone would go on from the one at rest.
   void join_neighbours(std::vector<LiningContact<Geometry>>& contacts) const {
     std::vector<LiningContact<Geometry>> joined;
     for (LiningContact<Geometry>& contact : contacts) {
