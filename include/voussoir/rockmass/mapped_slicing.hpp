@@ -74,7 +74,7 @@ class MappedSlicer {
         joints_(joints),
         stop_(stop),
         // What is drawn on so far, to meet what it ends on, makes no block.
-        radius_(std::max({radius, 2 * stub(), domain.tolerance()})) {
+        radius_(std::max({radius, 2 * negligible(), domain.tolerance()})) {
     kept_.resize(joints.pieces.size());
   }
 
@@ -92,9 +92,9 @@ class MappedSlicer {
   };
 
   /// Length by which what parts blocks is drawn on, lest a rounding keeps it from parting them [m].
-  [[nodiscard]] double stub() const { return 0.01 * joints_.rule.snap; }
+  [[nodiscard]] double negligible() const { return 0.01 * joints_.rule.snap; }
   /// What lies open by less holds nothing together [m].
-  [[nodiscard]] double gap() const { return 0.1 * stub(); }
+  [[nodiscard]] double gap() const { return 0.1 * negligible(); }
 
   /// Cuts cells by all joints as far as they go and a little farther, and finds what parts blocks.
   void find_parting(const std::vector<SimplePolygon>& openings) {
@@ -133,13 +133,13 @@ class MappedSlicer {
     for (auto& intervals : kept_) join(intervals);
   }
 
-  /// Joins what touches, to a stub.
+  /// Joins what touches, to a negligible length.
   void join(std::vector<Interval>& intervals) const {
     std::sort(intervals.begin(), intervals.end(),
               [](const Interval& a, const Interval& b) { return a.from < b.from; });
     std::vector<Interval> joined;
     for (const Interval& next : intervals)
-      if (!joined.empty() && next.from <= joined.back().to + stub())
+      if (!joined.empty() && next.from <= joined.back().to + negligible())
         joined.back().to = std::max(joined.back().to, next.to);
       else
         joined.push_back(next);
@@ -152,7 +152,7 @@ class MappedSlicer {
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const Segment& line = joints_.pieces[k].mapped;
       for (const Interval& i : kept_[k])
-        tree.insert({line, i.from - stub(), i.to + stub(), k, is_mapped(k, i)});
+        tree.insert({line, i.from - negligible(), i.to + negligible(), k, is_mapped(k, i)});
     }
     CellFaces faces(tree, gap(), CellFaces::none, stop_);
     too_small_ += faces.remove_smaller_than(radius_);
@@ -217,9 +217,9 @@ class MappedSlicer {
     std::vector<std::vector<Piece>> of_cell(tree.cells().size());
     for (const CellFaces::Portion& p : faces.portions()) {
       const bool parts = faces.body(p.below) != faces.body(p.above);
-      // A stub parts nothing; a joint that ends at the wall to be will.
+      // What is negligibly long parts nothing; a joint that ends at the wall to be will.
       const bool is_slit =
-          p.stretch != CellFaces::none && !p.is_removed && p.to - p.from > 3 * stub();
+          p.stretch != CellFaces::none && !p.is_removed && p.to - p.from > 3 * negligible();
       const std::size_t line = tree.stretches()[tree.cuts()[p.cut].stretch].piece;
       const int label =
           parts || is_slit

@@ -419,7 +419,7 @@ VOUSSOIR_INLINE TraceLayout layout_of(const std::vector<std::string>& lines, Tra
     const std::size_t z = layout.index(TraceColumn::z);
     if (layout.count(TraceColumn::y) == 1)
       faults.add(data, "three coordinates, x, y and z", lines[data - 1],
-                 "traces in the plane of the section: x to the right and y (or z) up");
+                 "traces of the section: x to the right and y (or z) up");
     else
       layout.columns[z] = TraceColumn::y;
   }
