@@ -14,6 +14,7 @@
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/io/operating_system.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
@@ -220,7 +221,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          " times a joint only touched a block or ran along an existing joint: merged, no cut made");
   if (mass.carving.dropped_pieces > 0)
     warn(std::to_string(mass.carving.dropped_pieces) + " pieces at the wall below " +
-         number(input.blocks.min_wall_area) + " m2 were dropped, " +
+         number(input.blocks.min_wall_area) +
+         " m2, or thinner between it and a joint along it than " +
+         number(skin_thickness(2, input.blocks.min_wall_area)) + " m, were dropped, " +
          number(mass.carving.dropped_measure) + " m2 in all; the wall is the rock behind them" +
          (input.lining ? ", a lining fills the holes to " + number(input.lining->fill_depth) + " m"
                        : std::string()));

@@ -132,6 +132,68 @@ TEST_SUITE("rockmass/wall_pieces") {
     }
   }
 
+  TEST_CASE("a joint along the wall, on it or behind it: the same bodies, and the same wall") {
+    // A joint through the whole rock along the roof or the right wall; one across it above, so that
+    // two bodies are behind it; and with `parted` one beside the opening.
+    const SimplePolygon box({{-4, -3}, {4, -3}, {4, 3}, {-4, 3}}), circle(regular(72, 3));
+    for (const SimplePolygon* opening : {&box, &horseshoe, &circle})
+      for (const bool at_roof : {true, false})
+        for (const bool parted : {false, true}) {
+          double wall = 0;
+          for (const Vec2& v : opening->vertices()) wall = std::max(wall, at_roof ? v.y() : v.x());
+          std::vector<double> areas;
+          double dropped = 0;
+          for (const double behind : {0.0, 1e-9, 1e-6, 1e-3, 1e-2, 2e-2}) {
+            CAPTURE(at_roof);
+            CAPTURE(behind);
+            const double w = wall + behind;
+            std::vector<Joint> joints{{{{-10, w}, {10, w}}, 0}, {{{0.3, w}, {0.3, 9}}, 0}};
+            if (parted) joints.push_back({{{-7, -8}, {-7, w}}, 0});
+            if (!at_roof)
+              for (Joint& joint : joints)
+                for (Vec2* p : {&joint.trace.start, &joint.trace.end}) {
+                  std::swap(p->x(), p->y());
+                  if (p->x() < -8) p->x() = -10;
+                }
+            const auto mass = carve(slice(ground, joints, {0, 1e30}), *opening, 0.074);
+            std::vector<double> here;
+            for (const auto& body : mass.bodies) here.push_back(body.properties.measure);
+            std::sort(here.begin(), here.end());
+            if (areas.empty()) areas = here;
+            REQUIRE(here.size() == areas.size());
+            // What the joint moves from one side of it to the other: 20 m of it.
+            for (std::size_t k = 0; k < here.size(); ++k)
+              CHECK(std::abs(here[k] - areas[k]) <= 20 * behind + 1e-6);
+            CHECK(worst_gap<Planar>(mass, *opening) < 1e-7);
+            // Along the straight walls what is behind them; along a circle of 3 m, also without the
+            // joint's distance, where it comes within a tenth of 0.272 m: 0.8 m of it.
+            CHECK(mass.carving.dropped_measure <=
+                  behind * opening->perimeter() + (opening == &circle ? 0.8 * 0.0272 : 0));
+            dropped = mass.carving.dropped_measure;
+          }
+          // The apex of the horseshoe is a point: no joint runs along it.
+          CHECK((dropped > 0) == !(opening == &horseshoe && at_roof));
+        }
+  }
+
+  TEST_CASE("in 3-D, beyond the face a skin is rock") {
+    const Domain<3> rock{{-6, -4, -6}, {6, 4, 6}};
+    const SimplePolygon box({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}});
+    const PrismaticOpening opening(box, TunnelAxis({0, 0, 0}, 0.4), -1.5, 1);
+    std::size_t bodies = 0;
+    for (const double behind : {0.0, 1e-6, 1e-3, 2e-2}) {
+      CAPTURE(behind);
+      const std::vector<SpatialJoint> bed{
+          {joint_rectangle({0, 0, 2 + behind}, {40, 0, 0}, {0, 40, 0}), 0}};
+      const auto mass = carve(slice<Spatial>(rock, bed, {0, 1e30}), opening, 0.02);
+      if (bodies == 0) bodies = mass.bodies.size();
+      CHECK(mass.bodies.size() == bodies);
+      // Over the corners of the roof half of a square.
+      CHECK(mass.carving.dropped_measure == near(2.5 * (4 + behind) * behind).epsilon(1e-6));
+      CHECK(worst_gap<Spatial>(mass, opening) < 1e-7);
+    }
+  }
+
   TEST_CASE("in 3-D") {
     const Domain<3> rock{{-6, -4, -6}, {6, 4, 6}};
     for (const auto& axis : {TunnelAxis(), TunnelAxis({0, 0, 0}, 0.4)})

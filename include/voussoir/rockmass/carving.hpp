@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +16,7 @@
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/detail/connected_parts.hpp>
+#include <voussoir/rockmass/detail/thin_rock.hpp>
 #include <voussoir/rockmass/opening_box.hpp>
 #include <voussoir/rockmass/opening_checks.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -64,8 +65,9 @@ namespace detail {
 ///
 /// The pieces of a block that remain outside stay one rigid body as long as they touch each other;
 /// where a block falls apart each connected group becomes a body of its own. Outline cuts do not
-/// obey the block limits, so bodies at the wall smaller than `smallest` are dropped: they leave
-/// holes in the wall, which lie in `RockMass::dropped`.
+/// obey the block limits, so bodies at the wall smaller than `smallest` are dropped, and what is
+/// left of larger ones as a skin between the wall and a joint along it, thinner than a tenth of the
+/// side of a smallest body: they leave holes in the wall, which lie in `RockMass::dropped`.
 /// New corners are welded with the corners nearby; bodies that no edge of the outline cuts stay as
 /// they are, bit for bit. Of which body each is what is left: `RockMass::origins`.
 ///
@@ -95,6 +97,7 @@ template <class Geometry>
   std::vector<decltype(detail::outline_piece(opening, 0, domain))> outline;
   for (std::size_t e = 0; e < opening.size(); ++e)
     outline.push_back(detail::outline_piece(opening, e, domain));
+  const detail::ThinRock<Geometry> thin_rock(opening, smallest, tolerance);
   CarvingReport& report = mass.carving;
   std::vector<Body<Geometry>> kept;
   kept.reserve(mass.bodies.size());
@@ -113,50 +116,65 @@ template <class Geometry>
       keep(std::move(body), b);
       continue;
     }
-    std::vector<Shape> pieces = body.parts;
-    for (std::size_t e = 0; e < outline.size(); ++e) {
-      const std::size_t count = pieces.size();
-      for (std::size_t p = 0; p < count; ++p) {
-        if (!detail::crosses(pieces[p], outline[e], tolerance)) continue;
-        auto parts = pieces[p].split(detail::plane_of(outline[e]),
-                                     static_cast<int>(mass.cuts.size()), tolerance);
-        if (!parts) continue;
-        mass.cuts.push_back({Cut::Kind::outline, static_cast<int>(e)});
-        pieces[p] = std::move(parts->first);
-        pieces.push_back(std::move(parts->second));
+    std::vector<Shape> pieces, skin;
+    bool is_cut = false;
+    for (const Shape& part : body.parts) {
+      std::vector<Shape> of_part{part};
+      for (std::size_t e = 0; e < outline.size(); ++e) {
+        const std::size_t count = of_part.size();
+        for (std::size_t p = 0; p < count; ++p) {
+          if (!detail::crosses(of_part[p], outline[e], tolerance)) continue;
+          auto parts = of_part[p].split(detail::plane_of(outline[e]),
+                                        static_cast<int>(mass.cuts.size()), tolerance);
+          if (!parts) continue;
+          mass.cuts.push_back({Cut::Kind::outline, static_cast<int>(e)});
+          of_part[p] = std::move(parts->first);
+          of_part.push_back(std::move(parts->second));
+        }
       }
+      const bool was_split = of_part.size() > 1;
+      const std::size_t taken = std::erase_if(of_part, [&](const Shape& piece) {
+        const MassProperties<dim> properties = mass_properties(piece);
+        const bool inside = opening.contains(properties.centroid);
+        if (inside) report.removed_measure += properties.measure;
+        return inside;
+      });
+      if (was_split || taken > 0) {
+        is_cut = true;
+        for (Shape& piece : thin_rock.take_off(part, of_part, mass.cuts))
+          skin.push_back(std::move(piece));
+      }
+      std::move(of_part.begin(), of_part.end(), std::back_inserter(pieces));
     }
-    const std::size_t before = pieces.size();
-    std::erase_if(pieces, [&](const Shape& piece) {
-      const MassProperties<dim> properties = mass_properties(piece);
-      const bool inside = opening.contains(properties.centroid);
-      if (inside) report.removed_measure += properties.measure;
-      return inside;
-    });
-    if (pieces.size() == before && pieces.size() == body.parts.size()) {
+    if (!is_cut) {
       beside.push_back(kept.size());
       keep(std::move(body), b);
       continue;
     }
-    if (pieces.empty()) {
+    if (pieces.empty() && skin.empty()) {
       ++report.removed_bodies;
       continue;
     }
-    VOUSSOIR_ASSERT(pieces.size() >= body.parts.size() || pieces.size() < before,
-                    "an outline cuts pieces, and takes out whole ones");
     ++report.cut_bodies;
-    auto groups = detail::connected_groups(pieces, mass.cuts, tolerance);
-    VOUSSOIR_ASSERT(!groups.empty() && groups.size() <= pieces.size(),
-                    "every piece is in one group");
-    report.separated_bodies += groups.size() - 1;
-    for (auto& group : groups) {
+    const auto drop = [&](Body<Geometry> rest) {
+      ++report.dropped_pieces;
+      report.dropped_measure += rest.properties.measure;
+      mass.dropped.push_back(std::move(rest));
+    };
+    const auto body_of = [](std::vector<Shape> parts) {
       Body<Geometry> rest;
-      rest.properties = mass_properties(group);
-      rest.parts = std::move(group);
+      rest.properties = mass_properties(parts);
+      rest.parts = std::move(parts);
+      return rest;
+    };
+    for (auto& group : detail::connected_groups(skin, mass.cuts, tolerance))
+      drop(body_of(std::move(group)));
+    auto groups = detail::connected_groups(pieces, mass.cuts, tolerance);
+    if (groups.size() > 1) report.separated_bodies += groups.size() - 1;
+    for (auto& group : groups) {
+      Body<Geometry> rest = body_of(std::move(group));
       if (rest.properties.measure < smallest) {
-        ++report.dropped_pieces;
-        report.dropped_measure += rest.properties.measure;
-        mass.dropped.push_back(std::move(rest));
+        drop(std::move(rest));
       } else {
         cut.push_back(kept.size());
         keep(std::move(rest), b);

@@ -27,6 +27,13 @@ template <class Geometry>
   return std::min(area * std::sqrt(area), 0.1 * mean);
 }
 
+/// Below which thickness rock between the wall and a joint along it is dropped, a tenth of the side
+/// of the smallest piece [m].
+/// @param smallest  area or volume [m^2], [m^3]
+[[nodiscard]] inline double skin_thickness(int dim, double smallest) {
+  return 0.1 * (dim == 2 ? std::sqrt(smallest) : std::cbrt(smallest));
+}
+
 /// From where to where along its axis an opening lies inside the domain [m]: of an inclined one as
 /// far as any part of the domain reaches.
 [[nodiscard]] inline std::pair<double, double> stretch_inside(const PrismaticOpening& opening,
