@@ -60,9 +60,9 @@ template <class Geometry>
 struct LiningEnd {
   static constexpr int dim = Geometry::dim;
   int node;
-  int neighbour;             ///< index of the place where it would go on: its own
+  int neighbour;             ///< index of the place where the lining ends, and would go on
   int body;                  ///< of the rock that is there; -1: none
-  Vec<dim> place;            ///< where the lining ends, and the foot acts [m]
+  Vec<dim> place;            ///< where the foot acts [m]
   Vec<dim> direction;        ///< from the lining into the rock, a unit vector
   double length = 1;         ///< of the tunnel that it stands for; 1 in 2-D [m]
   std::string refusal = {};  ///< why no foot can stand there, whatever the rock; empty: one can

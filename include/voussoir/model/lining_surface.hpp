@@ -102,11 +102,12 @@ class LiningSurface {
   std::vector<Vec<dim>> shift_;
 };
 
-/// Where a lining that stands could go on.
+/// Where a lining that stands ends.
 template <int Dim>
 struct FreeEnd {
-  int node;                   ///< counted from the first
-  Vec<Dim> place, direction;  ///< see `LiningEnd`
+  int node;            ///< the last, counted from the first
+  Vec<Dim> place;      ///< of the end [m]
+  Vec<Dim> direction;  ///< in which it would go on, a unit vector
 };
 
 /// A lining among the bodies of a model.
@@ -119,7 +120,7 @@ struct InstalledLining {
   LiningSurface<Geometry> surface;
   std::vector<LiningFill<Geometry>> fills;  ///< of holes in the wall
   std::vector<LiningGap> gaps;              ///< nodes are counted from the first
-  std::vector<FreeEnd<Geometry::dim>> ends;
+  std::vector<FreeEnd<Geometry::dim>> ends{};
 };
 
 /// The members of a lining between its nodes.

@@ -67,17 +67,26 @@ template <class Geometry>
 /// piece of the wall has been left out because it is too small for a block, what is nearest within
 /// a stretch, for concrete fills such a hole.
 /// @param inward  at right angles to its direction, into the opening
-/// @param end     its body is given
+/// @param end     its place is where the lining ends; its body is given, and its place where the
+///                foot acts, a thousandth of a stretch inside, for a foot goes with its rock
 template <class Geometry>
 [[nodiscard]] LiningEnd<Geometry> founded(const RockMass<Geometry>& mass, LiningEnd<Geometry> end,
                                           const Vec<Geometry::dim>& inward, double stretch) {
+  using Point = Vec<Geometry::dim>;
   end.body = -1;
-  const auto look = [&](double ahead, double side) {
-    if (end.body < 0)
-      end.body =
-          body_at<Geometry>(mass, end.place + stretch * (ahead * end.direction + side * inward));
+  const auto at = [&](double ahead, double side) {
+    return Point(end.place + stretch * (ahead * end.direction + side * inward));
   };
-  for (const double side : {0.05, -0.05, 0.0}) look(0.05, side);
+  for (const double side : {1e-3, -1e-3, 0.0}) {
+    const Point here = at(1e-3, side);
+    end.body = body_at<Geometry>(mass, here);
+    if (end.body < 0) continue;
+    end.place = here;
+    return end;
+  }
+  const auto look = [&](double ahead, double side) {
+    if (end.body < 0) end.body = body_at<Geometry>(mass, at(ahead, side));
+  };
   const double distances[] = {0.05, 0.35, 0.65, 1};
   for (const double ahead : distances) look(ahead, 0.05);
   for (const double behind : distances) {

@@ -64,10 +64,15 @@ class LiningAssembly {
         wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
     std::vector<int> there(beside.neighbours.size()), standing;
     for (std::size_t m = 0; m < there.size(); ++m) there[m] = standing_node(beside.neighbours[m]);
+    std::vector<FreeEnd<dim>> free;
     for (const LiningEnd<Geometry>& end : beside.ends) {
       const auto m = static_cast<std::size_t>(end.neighbour);
-      there[m] = standing_end(end);
-      if (there[m] >= 0) beside.neighbours[m] = system_.body(there[m]).centre;
+      const FreeEnd<dim> here{end.node, beside.neighbours[m], end.direction};
+      there[m] = node_before(here);
+      if (there[m] >= 0)
+        beside.neighbours[m] = system_.body(there[m]).centre;
+      else
+        free.push_back(here);
     }
     const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
       if (there[m] >= 0) standing.push_back(there[m]);
@@ -80,7 +85,7 @@ class LiningAssembly {
     add_nodes(frame, node_shares(frame, sections), standing);
     add_members(frame, sections, standing);
     if (feet) add_feet(*feet, std::move(springs));
-    add_surface(frame, sections, interface_law);
+    add_surface(frame, sections, interface_law, std::move(free));
     return hanging;
   }
 
@@ -95,7 +100,7 @@ class LiningAssembly {
 
   /// The node of a lining that stands from which an end goes on; -1: there is none. One that ends
   /// in the same place and direction lies below, and is not carried on.
-  [[nodiscard]] int standing_end(const LiningEnd<Geometry>& end) const {
+  [[nodiscard]] int node_before(const FreeEnd<dim>& end) const {
     for (const auto& lining : system_.linings)
       for (const FreeEnd<dim>& other : lining.ends)
         if (system_.body(lining.first + other.node).movable &&
@@ -168,24 +173,17 @@ class LiningAssembly {
   /// What rock touches: here at a point for every piece of wall, at two (in 3-D four) where the
   /// interface holds tension; in motion the surface.
   void add_surface(const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-                   const InterfaceLaw& interface_law) {
+                   const InterfaceLaw& interface_law, std::vector<FreeEnd<dim>> free) {
     const int law = system_.interface.add_law(interface_law);
     const bool is_bonded = holds_tension<dim>(interface_law);
     double thickness = 0;
     for (const LiningSection& section : sections)
       thickness = std::max(thickness, section.thickness());
-    system_.linings.push_back({first_node_,
-                               law,
-                               is_pinned_lining<Lining>(),
-                               thickness,
+    system_.linings.push_back({first_node_, law, is_pinned_lining<Lining>(), thickness,
                                LiningSurface<Geometry>(
                                    frame, thickness, [this](int b) { return system_.motion_of(b); },
                                    [this](int b) { return !system_.body(b).movable; }),
-                               frame.fills,
-                               frame.gaps,
-                               {}});
-    for (const LiningEnd<Geometry>& end : frame.ends)
-      system_.linings.back().ends.push_back({end.node, end.place, end.direction});
+                               frame.fills, frame.gaps, std::move(free)});
     const std::size_t before = system_.interface.contacts().size();
     for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
            return std::pair<int, int>(c.body, first_node_ + c.node);
