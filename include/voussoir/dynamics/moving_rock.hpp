@@ -108,7 +108,7 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 ///
 /// Its nodes become bodies of the run. Their mass is that of the sections, their moment of inertia
 /// that of a tile; rock touches tiles of the thickness given, and may land on them.
-/// @param frame      of the mass from which the run was made. It joins no other lining: those that
+/// @param given      of the mass from which the run was made. It joins no other lining: those that
 /// do
 ///                   are installed at rest, and set in motion
 /// @param interface_law  rock on lining
@@ -120,17 +120,18 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
     Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
-    const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
+    const LiningFrame<Geometry>& given, const std::vector<LiningSection>& sections,
     const InterfaceLaw& interface_law, double thickness,
     const std::optional<FootBearing>& feet = {}) {
   constexpr int dim = Geometry::dim, dof = Geometry::dof;
   static_assert(explain_lining_model<Lining, dof>());
   require(thickness > 0 && std::isfinite(thickness), "thickness of the lining", thickness, "> 0 m");
-  if (frame.contacts.empty()) throw InvalidInput("lining: no rock touches it");
+  if (given.contacts.empty()) throw InvalidInput("lining: no rock touches it");
   for (const LiningSection& section : sections)
     require(section.mass > 0 && std::isfinite(section.mass), "mass of a lining that moves",
             section.mass, "> 0 kg per metre of it");
   constexpr bool is_pinned = is_pinned_lining<Lining>();
+  const LiningFrame<Geometry> frame = is_pinned ? without_bare_nodes(given) : given;
   if (!is_pinned && holds_tension<dim>(interface_law))
     require_nodes_for_bond(frame, sections, interface_law.joint_normal_stiffness());
   const std::vector<LiningNodeShare> shares = node_shares(frame, sections);

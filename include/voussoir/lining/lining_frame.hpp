@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <string>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
@@ -57,11 +60,12 @@ template <class Geometry>
 struct LiningEnd {
   static constexpr int dim = Geometry::dim;
   int node;
-  int neighbour;       ///< index of the place where it would go on
-  int body;            ///< of the rock that is there; -1: none
-  Vec<dim> place;      ///< [m]
-  Vec<dim> direction;  ///< from the lining into the rock, a unit vector
-  double length = 1;   ///< of the tunnel that it stands for; 1 in 2-D [m]
+  int neighbour;             ///< index of the place where the lining ends, and would go on
+  int body;                  ///< of the rock that is there; -1: none
+  Vec<dim> place;            ///< where the foot acts [m]
+  Vec<dim> direction;        ///< from the lining into the rock, a unit vector
+  double length = 1;         ///< of the tunnel that it stands for; 1 in 2-D [m]
+  std::string refusal = {};  ///< why no foot can stand there, whatever the rock; empty: one can
 };
 
 /// A lining as solvers take it: nodes, the members between them, and its contact with the rock.
@@ -73,7 +77,11 @@ struct LiningFrame {
   std::vector<LiningPanel<Geometry>> panels;  ///< needed where rock can land on the lining
   std::vector<LiningFill<Geometry>> fills{};
   std::vector<LiningGap> gaps{};  ///< in the order of the nodes
-  /// Places beside its ends where nodes of a lining that stands may be [m].
+  /// Nodes at corners, that touch no rock: what bends goes round the corner with them; bars on pins
+  /// do without (`without_bare_nodes`).
+  std::vector<int> bare{};
+  /// Its ends, which may be those of a lining that stands, and places beside it where nodes of one
+  /// may be [m].
   std::vector<Vec<Geometry::dim>> neighbours{};
   /// Members that join it to those: the number of neighbour m is nodes.size() + m. Where nothing
   /// stands there is no such member.
@@ -189,6 +197,52 @@ template <class Geometry, class Stands>
       rest.panels.push_back(p);
     }
   return rest;
+}
+
+/// The frame without its bare nodes: their members lead from one neighbour to the other, and an end
+/// is that of the last node that touches rock. A pin at a corner would be held by nothing.
+template <class Geometry>
+[[nodiscard]] LiningFrame<Geometry> without_bare_nodes(LiningFrame<Geometry> frame) {
+  if (frame.bare.empty()) return frame;
+  const int count = static_cast<int>(frame.nodes.size());
+  std::vector<int> number(frame.nodes.size() + frame.neighbours.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::vector<int> into = number;
+  for (const int bare : frame.bare) {
+    const auto member =
+        std::find_if(frame.members.begin(), frame.members.end(),
+                     [&](const auto& m) { return m.first == bare || m.second == bare; });
+    VOUSSOIR_ASSERT(member != frame.members.end(), "a bare node is joined to others");
+    into[static_cast<std::size_t>(bare)] = member->first == bare ? member->second : member->first;
+    frame.members.erase(member);
+  }
+  std::vector<Vec<Geometry::dim>> nodes;
+  int kept = 0;
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    const bool is_bare = into[k] != static_cast<int>(k);
+    number[k] = kept;
+    kept += is_bare ? 0 : 1;
+    if (!is_bare && static_cast<int>(k) < count) nodes.push_back(frame.nodes[k]);
+  }
+  const auto renumber = [&](int& k) {
+    k = number[static_cast<std::size_t>(into[static_cast<std::size_t>(k)])];
+  };
+  frame.nodes = std::move(nodes);
+  frame.bare.clear();
+  for (auto* members : {&frame.members, &frame.joints})
+    for (auto& m : *members) {
+      renumber(m.first);
+      renumber(m.second);
+    }
+  const auto renumber_nodes = [&](auto& things) {
+    for (auto& thing : things) renumber(thing.node);
+  };
+  renumber_nodes(frame.contacts);
+  renumber_nodes(frame.panels);
+  renumber_nodes(frame.fills);
+  renumber_nodes(frame.gaps);
+  renumber_nodes(frame.ends);
+  return frame;
 }
 
 /// What a node has of the members that meet there.

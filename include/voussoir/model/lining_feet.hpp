@@ -107,10 +107,11 @@ struct LiningFootSpring {
 
 /// The spring under an end of a lining, its arms left to be set.
 /// @param node  that the end is, among the bodies
-/// @throws InvalidInput  no rock there
+/// @throws InvalidInput  no rock there, or nothing that it could press on
 template <class Geometry>
 [[nodiscard]] LiningFootSpring<Geometry::dim> foot_spring(const LiningEnd<Geometry>& end, int node,
                                                           const FootBearing& bearing) {
+  if (!end.refusal.empty()) throw InvalidInput(end.refusal);
   if (end.body < 0)
     throw InvalidInput(
         message({"lining: there is no rock under the foot at ", text_of<Geometry::dim>(end.place),

@@ -102,6 +102,14 @@ class LiningSurface {
   std::vector<Vec<dim>> shift_;
 };
 
+/// Where a lining that stands ends.
+template <int Dim>
+struct FreeEnd {
+  int node;            ///< the last, counted from the first
+  Vec<Dim> place;      ///< of the end [m]
+  Vec<Dim> direction;  ///< in which it would go on, a unit vector
+};
+
 /// A lining among the bodies of a model.
 template <class Geometry>
 struct InstalledLining {
@@ -112,6 +120,7 @@ struct InstalledLining {
   LiningSurface<Geometry> surface;
   std::vector<LiningFill<Geometry>> fills;  ///< of holes in the wall
   std::vector<LiningGap> gaps;              ///< nodes are counted from the first
+  std::vector<FreeEnd<Geometry::dim>> ends{};
 };
 
 /// The members of a lining between its nodes.

@@ -53,7 +53,8 @@ class RibBuilder {
       : mass_(mass),
         opening_(opening),
         nodes_(ring_nodes(opening.section(), ribs.ring)),
-        fill_depth_(ribs.ring.fill_depth) {
+        fill_depth_(ribs.ring.fill_depth),
+        count_(ribs.ring.nodes.value_or(default_lining_nodes)) {
     const auto [low, high] = stretch_inside(opening, mass.domain);
     from_ = std::max(ribs.from, low);
     const double to = std::min(ribs.to, high);
@@ -70,7 +71,7 @@ class RibBuilder {
   }
 
   [[nodiscard]] LiningFrame<Spatial> build(bool tied) {
-    frame_.count_on_outline = static_cast<int>(nodes_.number.size());
+    frame_.count_on_outline = count_;
     for (int row = 0; row < rows_; ++row)
       for (int n = 0; n < ring_; ++n) {
         const auto here = static_cast<std::size_t>(n);
@@ -80,7 +81,8 @@ class RibBuilder {
           frame_.members.push_back(
               {number(row, n), number(row, next),
                outward(nodes_.places[static_cast<std::size_t>(next)] - nodes_.places[here]), 0});
-        if (tied && row > 0)
+        if (nodes_.is_bare[here]) frame_.bare.push_back(number(row, n));
+        if (tied && row > 0 && !nodes_.is_bare[here])  // ties stand for stretches of the wall
           frame_.members.push_back({number(row - 1, n), number(row, n), outward(chord_at(n)), 1});
       }
     add_neighbours(tied);
@@ -115,26 +117,21 @@ class RibBuilder {
 
   void add_neighbours(bool tied) {
     for (int row = 0; row < rows_; ++row)
-      for (const auto& at : nodes_.neighbours) {
-        const int there = add_neighbour(at.place, middle(row)), here = number(row, at.node);
-        const Vec2& place = nodes_.places[static_cast<std::size_t>(at.node)];
-        const Vec2 step = at.place - place;
-        if (const auto direction = nodes_.direction_of(at)) {
-          const Vec2 inward =
-              at.is_after ? perpendicular(*direction) : Vec2(-perpendicular(*direction));
-          const Vec3 ahead = opening_.axis().direction(*direction);
-          frame_.ends.push_back(
-              founded<Spatial>(mass_,
-                               {here, static_cast<int>(frame_.neighbours.size()) - 1, -1,
-                                opening_.in_space(place, middle(row)), ahead, width_},
-                               ahead, opening_.axis().direction(inward), nodes_.stretch));
-        }
-        if (at.is_after)
-          frame_.joints.push_back({here, there, outward(step), 0});
+      for (const RingEnd& end : nodes_.ends) {
+        const int there = add_neighbour(end.place, middle(row)), here = number(row, end.node);
+        frame_.ends.push_back(
+            founded<Spatial>(mass_,
+                             {here, static_cast<int>(frame_.neighbours.size()) - 1, -1,
+                              opening_.in_space(end.place, middle(row)),
+                              opening_.axis().direction(end.direction), width_, end.refusal},
+                             opening_.axis().direction(end.inward()), nodes_.stretch));
+        if (end.is_after)
+          frame_.joints.push_back({here, there, outward(end.direction), 0});
         else
-          frame_.joints.push_back({there, here, outward(Vec2(-step)), 0});
+          frame_.joints.push_back({there, here, outward(Vec2(-end.direction)), 0});
       }
     for (int n = 0; tied && n < ring_; ++n) {
+      if (nodes_.is_bare[static_cast<std::size_t>(n)]) continue;
       const Vec2& place = nodes_.places[static_cast<std::size_t>(n)];
       const int before = add_neighbour(place, middle(-1)),
                 after = add_neighbour(place, middle(rows_));
@@ -187,7 +184,7 @@ class RibBuilder {
   const PrismaticOpening& opening_;
   RingNodes nodes_;
   double fill_depth_, from_ = 0, width_ = 0;
-  int rows_ = 0, ring_ = 0;
+  int count_, rows_ = 0, ring_ = 0;
   LiningFrame<Spatial> frame_;
 };
 

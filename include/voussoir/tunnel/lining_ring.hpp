@@ -20,10 +20,11 @@ namespace voussoir {
 
 /// Nodes and members of a ring, and its contact with the wall that `carve` left.
 ///
-/// Node k stands for a stretch of the outline divided evenly, symmetrically about the crown, and
-/// lies in its middle: with as many nodes as facets of a circle, on the middle of each facet. Every
-/// piece of wall behind its stretch touches it at one point, so a uniform pressure loads the node
-/// without turning it. On a partial ring a node is there if its angle lies in the arc.
+/// A node stands for a stretch of the outline and lies in its middle: with as many nodes as facets
+/// of a circle, on the middle of each facet. Stretches end at the corners of the outline, where
+/// nodes lie that touch nothing, and at the ends of an arc (`detail::RingNodes`). Every piece of
+/// wall behind its stretch touches a node at one point, so a uniform pressure loads it without
+/// turning it.
 ///
 /// @param opening  that is lined; its outline may be that of a section taken out in rounds
 /// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc; rock
@@ -62,39 +63,38 @@ template <class Geometry>
   return -1;
 }
 
-/// The end of an arc, as far as half a stretch beyond its last node, and the rock that it may stand
-/// on: what is under the lining within a stretch, else what is straight ahead or beside; else,
-/// where a piece of the wall has been left out because it is too small for a block, what is nearest
-/// behind it within a stretch, for concrete fills such a hole.
-/// @param direction  in which the end goes on;  @param inward  at right angles, into the opening
-/// @param end  its node, neighbour, the place of the node and the length are given
+/// The end of an arc, and the rock that it stands on: what is under it or beside it; else, where a
+/// piece of the wall has been left out because it is too small for a block, what is nearest within
+/// a stretch, for concrete fills such a hole.
+/// @param inward  at right angles to its direction, into the opening
+/// @param end     its place is where the lining ends; its body is given, and its place where the
+///                foot acts, a thousandth of a stretch inside, for a foot goes with its rock
 template <class Geometry>
 [[nodiscard]] LiningEnd<Geometry> founded(const RockMass<Geometry>& mass, LiningEnd<Geometry> end,
-                                          const Vec<Geometry::dim>& direction,
                                           const Vec<Geometry::dim>& inward, double stretch) {
   using Point = Vec<Geometry::dim>;
-  const Point last = end.place + 0.5 * stretch * direction;
-  end.place = last;
-  end.direction = direction;
   end.body = -1;
-  const auto look = [&](double ahead, double side) {
-    if (end.body >= 0) return;
-    const Point here = last + stretch * (ahead * direction + side * inward);
+  const auto at = [&](double ahead, double side) {
+    return Point(end.place + stretch * (ahead * end.direction + side * inward));
+  };
+  for (const double side : {1e-3, -1e-3, 0.0}) {
+    const Point here = at(1e-3, side);
     end.body = body_at<Geometry>(mass, here);
-    if (end.body >= 0) end.place = here;
+    if (end.body < 0) continue;
+    end.place = here;
+    return end;
+  }
+  const auto look = [&](double ahead, double side) {
+    if (end.body < 0) end.body = body_at<Geometry>(mass, at(ahead, side));
   };
   const double distances[] = {0.05, 0.35, 0.65, 1};
   for (const double ahead : distances) look(ahead, 0.05);
-  look(0.05, -0.05);
-  look(0.05, 0);
-  if (end.body >= 0) return end;
   for (const double behind : distances) {
     for (const double ahead : distances)
       if (ahead <= behind) look(ahead, -behind);
     for (const double side : distances)
       if (side < behind) look(behind, -side);
   }
-  if (end.body >= 0) end.place = last + 0.05 * stretch * direction;  // the foot is on the axis
   return end;
 }
 
@@ -120,22 +120,20 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
     if (nodes.joined[n])
       frame.members.push_back(
           {static_cast<int>(n), n + 1 == nodes.places.size() ? 0 : static_cast<int>(n) + 1});
-  for (const auto& neighbour : nodes.neighbours) {
+  for (std::size_t n = 0; n < nodes.places.size(); ++n)
+    if (nodes.is_bare[n]) frame.bare.push_back(static_cast<int>(n));
+  for (const detail::RingEnd& end : nodes.ends) {
     const auto there = static_cast<int>(frame.nodes.size() + frame.neighbours.size());
-    frame.neighbours.push_back(neighbour.place);
-    if (const auto direction = nodes.direction_of(neighbour)) {
-      const Vec2 inward =
-          neighbour.is_after ? perpendicular(*direction) : Vec2(-perpendicular(*direction));
-      frame.ends.push_back(detail::founded<Planar>(
-          mass,
-          {neighbour.node, static_cast<int>(frame.neighbours.size()) - 1, -1,
-           nodes.places[static_cast<std::size_t>(neighbour.node)], *direction},
-          *direction, inward, nodes.stretch));
-    }
-    if (neighbour.is_after)
-      frame.joints.push_back({neighbour.node, there});
+    frame.ends.push_back(
+        detail::founded<Planar>(mass,
+                                {end.node, static_cast<int>(frame.neighbours.size()), -1, end.place,
+                                 end.direction, 1, end.refusal},
+                                end.inward(), nodes.stretch));
+    frame.neighbours.push_back(end.place);
+    if (end.is_after)
+      frame.joints.push_back({end.node, there});
     else
-      frame.joints.push_back({there, neighbour.node});
+      frame.joints.push_back({there, end.node});
   }
   const double shortest = mass.domain.tolerance(), inwards = 1e-6 * opening.perimeter();
   for (const detail::OutlinePart& part : detail::outline_parts(opening, nodes, shortest)) {

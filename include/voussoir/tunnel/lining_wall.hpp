@@ -154,15 +154,14 @@ class LiningOnWall {
                     Visit&& visit) const {
     constexpr double endless = std::numeric_limits<double>::infinity();
     const double start = outline_.start(e), end = outline_.start(e + 1) - start;
-    for (int k = nodes_.first_beyond(start + from); nodes_.begin(k) < start + to; ++k) {
-      const int node = nodes_.node_of(k);
-      if (node < 0) continue;
-      const double low = nodes_.begin(k) - start, high = nodes_.begin(k + 1) - start;
+    nodes_.each_stretch(start + from, start + to, [&](int node, double begin, double high) {
+      const double low = begin - start;
+      high -= start;
       if (const auto part =
               outline_.template part_between<dim>(std::optional(facet), e, low > 0 ? low : -endless,
                                                   high < end ? high : endless, tolerance_))
         visit(node, *part);
-    }
+    });
   }
 
   /// What of the holes lies behind a facet on the outline, as deep as it is filled.

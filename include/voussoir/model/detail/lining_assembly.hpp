@@ -48,23 +48,35 @@ class LiningAssembly {
   /// @throws InvalidInput  a member has no length, no rock touches the lining, or was ever under
   /// its
   ///                       feet; nodes are too far apart for a bond
-  std::vector<Vec<dim>> run(const LiningFrame<Geometry>& wanted,
+  std::vector<Vec<dim>> run(const LiningFrame<Geometry>& given,
                             const std::vector<LiningSection>& sections,
                             const InterfaceLaw& interface_law,
                             const std::optional<FootBearing>& feet) {
+    const LiningFrame<Geometry> wanted =
+        is_pinned_lining<Lining>() ? without_bare_nodes(given) : given;
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                      [this](const auto& c) { return system_.body(c.body).movable; }))
       throw InvalidInput("lining: no rock touches it");
     if constexpr (!is_pinned_lining<Lining>())
       if (holds_tension<dim>(interface_law))
         require_nodes_for_bond(wanted, sections, interface_law.joint_normal_stiffness());
-    const LiningFrame<Geometry> beside = with_shared_ends(
+    LiningFrame<Geometry> beside = with_shared_ends(
         wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
-    std::vector<int> standing;
+    std::vector<int> there(beside.neighbours.size()), standing;
+    for (std::size_t m = 0; m < there.size(); ++m) there[m] = standing_node(beside.neighbours[m]);
+    std::vector<FreeEnd<dim>> free;
+    for (const LiningEnd<Geometry>& end : beside.ends) {
+      const auto m = static_cast<std::size_t>(end.neighbour);
+      const FreeEnd<dim> here{end.node, beside.neighbours[m], end.direction};
+      there[m] = node_before(here);
+      if (there[m] >= 0)
+        beside.neighbours[m] = system_.body(there[m]).centre;
+      else
+        free.push_back(here);
+    }
     const LiningFrame<Geometry> frame = with_neighbours(beside, [&](std::size_t m) {
-      const int node = standing_node(beside.neighbours[m]);
-      if (node >= 0) standing.push_back(node);
-      return node >= 0;
+      if (there[m] >= 0) standing.push_back(there[m]);
+      return there[m] >= 0;
     });
     first_node_ = system_.body_count();
     std::vector<LiningFootSpring<dim>> springs;
@@ -73,7 +85,7 @@ class LiningAssembly {
     add_nodes(frame, node_shares(frame, sections), standing);
     add_members(frame, sections, standing);
     if (feet) add_feet(*feet, std::move(springs));
-    add_surface(frame, sections, interface_law);
+    add_surface(frame, sections, interface_law, std::move(free));
     return hanging;
   }
 
@@ -83,6 +95,18 @@ class LiningAssembly {
     for (const auto* lining : system_.supports.template all<LiningMembers<Geometry>>())
       for (int n = lining->first_node(); n < lining->first_node() + lining->node_count(); ++n)
         if (system_.body(n).movable && (system_.body(n).centre - place).norm() < near_) return n;
+    return -1;
+  }
+
+  /// The node of a lining that stands from which an end goes on; -1: there is none. One that ends
+  /// in the same place and direction lies below, and is not carried on.
+  [[nodiscard]] int node_before(const FreeEnd<dim>& end) const {
+    for (const auto& lining : system_.linings)
+      for (const FreeEnd<dim>& other : lining.ends)
+        if (system_.body(lining.first + other.node).movable &&
+            (other.place - end.place).norm() < near_ &&
+            dot_product(other.direction, end.direction) < 0.5)
+          return lining.first + other.node;
     return -1;
   }
 
@@ -149,7 +173,7 @@ class LiningAssembly {
   /// What rock touches: here at a point for every piece of wall, at two (in 3-D four) where the
   /// interface holds tension; in motion the surface.
   void add_surface(const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-                   const InterfaceLaw& interface_law) {
+                   const InterfaceLaw& interface_law, std::vector<FreeEnd<dim>> free) {
     const int law = system_.interface.add_law(interface_law);
     const bool is_bonded = holds_tension<dim>(interface_law);
     double thickness = 0;
@@ -159,7 +183,7 @@ class LiningAssembly {
                                LiningSurface<Geometry>(
                                    frame, thickness, [this](int b) { return system_.motion_of(b); },
                                    [this](int b) { return !system_.body(b).movable; }),
-                               frame.fills, frame.gaps});
+                               frame.fills, frame.gaps, std::move(free)});
     const std::size_t before = system_.interface.contacts().size();
     for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
            return std::pair<int, int>(c.body, first_node_ + c.node);
