@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   const double removed = bare.mass().carving.removed_measure,
                expected = 12 * opening.section().area();
   int crossings = 0;
-  for (const int count : with.crossings) crossings += count;
+  for (const auto& one : supported.installed_bolts()) crossings += one.crossings;
   std::printf(
       "%s\n%zu blocks, %zu lining nodes, %d bolt crossings; unsupported: %s, crown %.2f mm; "
       "supported: %s, "

@@ -224,7 +224,7 @@ Outcome ExcavatedRock::run(const Variant& variant) const {
         before += point.initial.normal;
       });
   outcome.boundary_change = change / before;
-  for (const Segment& bar : built.bars) {
+  for (const Segment& bar : bars_of(tunnel)) {
     BoltOutcome& bolt = outcome.bolts.emplace_back(
         BoltOutcome{elementary::angle_of(bar.start.y(), bar.start.x()), 0, {}});
     if (bolt.angle < -90 * degree) bolt.angle += 360 * degree;

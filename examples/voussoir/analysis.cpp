@@ -236,9 +236,9 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(needed * 180 / std::numbers::pi) +
          " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
-  const SupportCondition supports = support_condition(run.tunnel, run.built);
+  const SupportCondition supports = support_condition(run.tunnel);
   for (std::string& text : remarks_on(supports)) warn(std::move(text));
-  if (supports.lining_open)
+  if (!supports.open_linings.empty())
     warn("feet of a lining: [support.lining.feet]; its bond: support.lining.interface.shear_bond");
   if (input.lining && run.tunnel.first_lining_node() >= 0) {
     const LiningInput& lining = *input.lining;
@@ -475,7 +475,7 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
     result.reason = built.last().reason;
     result.convergence = built.stages.back().convergence;
     result.demand = support_demand(tunnel);
-    const SupportCondition condition = support_condition(tunnel, built);
+    const SupportCondition condition = support_condition(tunnel);
     result.bolts_yielded = condition.yielded;
     result.bolts_ruptured = condition.ruptured;
     result.feet_yielded = static_cast<int>(condition.yielded_feet.size());

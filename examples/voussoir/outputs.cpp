@@ -59,9 +59,8 @@ double bar_stress(const BoltsInput& bolts, const SupportDemand& demand) {
 double lining_stress(const RunResult& run, const LiningInput& lining) {
   const double t = lining.thickness;
   double most = 0;
-  for (const auto* one : run.tunnel.linings())
-    for (const LiningForce& at : lining_forces(run.tunnel, *one))
-      most = std::max(most, std::abs(at.thrust) / t + 6 * std::abs(at.moment) / (t * t));
+  for (const LiningForce& at : lining_forces(run.tunnel))
+    most = std::max(most, std::abs(at.thrust) / t + 6 * std::abs(at.moment) / (t * t));
   return most;
 }
 /// Which supports nothing says of whether they bear what they carry; empty: none.
@@ -323,7 +322,7 @@ std::string run_json(const Input& input, const RunResult& run) {
 }
 
 std::string bolts_csv(const Input& input, const RunResult& run) {
-  return bolt_table(bolt_forces(run.tunnel), run.built.bars,
+  return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
                     input.bolts ? bolt_strength(*input.bolts) : unlimited);
 }
 
@@ -415,7 +414,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
            text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
   if (run.built.has_lost_lining())
     out += "lining   came off the wall: it carries nothing\n";
-  else if (run.tunnel.first_lining_node() >= 0)
+  if (has_standing_lining(run.tunnel))
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);

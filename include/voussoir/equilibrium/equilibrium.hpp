@@ -97,6 +97,9 @@ struct EquilibriumReport {
   /// in a sentence.
   std::vector<int> lost_nodes;
   std::string lost_lining;
+  /// A lining has come off its wall, in this search or, as a solver knows, before: what stands,
+  /// stands without it.
+  bool lacks_lining = false;
   int broken_bolts = 0;                 ///< bolt springs that ruptured
   ContactUpdateReport contact_updates;  ///< what they gave to the springs, and how forces jumped
   /// The state is where blocks came to rest in motion: some were caught on their way, and their
@@ -110,7 +113,8 @@ struct EquilibriumReport {
 
 /// The verdict of one search as people read it.
 [[nodiscard]] inline const char* to_string(const EquilibriumReport& report) {
-  return to_string(report.verdict, report.fallen_measure, !report.lost_nodes.empty());
+  return to_string(report.verdict, report.fallen_measure,
+                   report.lacks_lining || !report.lost_nodes.empty());
 }
 
 /// What the movement of a rock mass is measured by, and what it may be blamed on.

@@ -100,12 +100,21 @@ VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& pictu
     items.push_back({"slipped joint", dash(slipped_colour, 1.7)});
   if (has_joint(PictureJoint::State::opened))
     items.push_back({"opened joint", dash(opened_colour, 3.1)});
-  if (picture.lining)
-    items.push_back({"lining, " + trimmed_text(picture.lining->thickness * 100, 1) + " cm",
-                     box("#9aa3ab", "#222")});
-  if (picture.lining && !picture.lining->feet.empty()) {
-    double most = 0;
-    for (const PictureFoot& foot : picture.lining->feet) most = std::max(most, foot.bearing);
+  std::vector<std::string> thicknesses;
+  double most = -1;
+  for (const PictureLining& lining : picture.linings) {
+    const std::string text = trimmed_text(lining.thickness * 100, 1);
+    if (std::find(thicknesses.begin(), thicknesses.end(), text) == thicknesses.end())
+      thicknesses.push_back(text);
+    for (const PictureFoot& foot : lining.feet) most = std::max(most, foot.bearing);
+  }
+  if (!thicknesses.empty()) {
+    std::string text = "lining, " + thicknesses.front();
+    for (std::size_t k = 1; k < thicknesses.size(); ++k)
+      text += (k + 1 < thicknesses.size() ? ", " : " and ") + thicknesses[k];
+    items.push_back({text + " cm", box("#9aa3ab", "#222")});
+  }
+  if (most >= 0) {
     items.push_back({"foot on rock, up to " + readable_text(most / 1e3) + " kN/m",
                      [](SvgCanvas& canvas, const Vec2& c) {
                        draw_foot(canvas, c - Vec2(0, 3), {0, 1}, 10);
@@ -158,7 +167,9 @@ VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, 
   if (picture.ground_surface) draw_ground(canvas, *picture.ground_surface, map, 8);
   canvas.end_layer();
   canvas.begin_layer("lining");
-  if (picture.lining) draw_lining(canvas, *picture.lining, map);
+  for (const std::vector<Vec2>& fill : picture.fills)
+    canvas.polygon(on_page(clip_polygon(fill, map.world()), map), {.fill = "#c3c9ce"});
+  for (const PictureLining& lining : picture.linings) draw_lining(canvas, lining, map);
   canvas.end_layer();
   canvas.begin_layer("bolts");
   draw_bolts(canvas, picture, map, forces);

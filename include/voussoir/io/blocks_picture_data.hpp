@@ -56,16 +56,12 @@ struct PictureFoot {
   double bearing = 0;                                     ///< on the rock [N/m]
 };
 
+/// A lining, or several of one thickness that go on in one another.
 struct PictureLining {
   std::vector<PictureLiningNode> nodes;  ///< in order along the beam
   bool is_ring = true;                   ///< the last node is joined to the first
   double thickness = 0;                  ///< [m]
   std::vector<PictureFoot> feet{};
-  std::vector<std::vector<Vec2>> fills{};  ///< outlines of holes in the wall that it fills [m]
-  /// In-situ stress times radius [N/m]: thrust of less than 1/200 of it, and moments of such a
-  /// thrust at the edge of the core of the section, are drawn as small as they are; 0: the largest
-  /// value fills the diagram, whatever it is.
-  double reference_thrust = 0;
 };
 
 /// All that `draw_blocks_picture` shows.
@@ -75,9 +71,16 @@ struct BlocksPicture {
   std::vector<PictureJoint> joints;
   std::vector<Vec2> outline;  ///< of the opening, closed, first point not repeated [m]
   std::vector<std::vector<Vec2>> other_openings{};  ///< excavated before it, the same
+  /// Of the tunnel, about which directions are counted [m]; none: the middle of the outline.
+  std::optional<Vec2> centre{};
   std::optional<double> ground_surface;             ///< y [m]; none: too far up to matter
   std::vector<PictureBolt> bolts;
-  std::optional<PictureLining> lining;
+  std::vector<PictureLining> linings;
+  std::vector<std::vector<Vec2>> fills{};  ///< outlines of holes in the wall that they fill [m]
+  /// In-situ stress times radius [N/m]: thrust in linings of less than 1/200 of it, and moments of
+  /// such a thrust at the edge of the core of the section, are drawn as small as they are; 0: the
+  /// largest value fills the diagram, whatever it is.
+  double reference_thrust = 0;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
   std::optional<ViewRect> view;
   std::optional<PictureBanner> banner = {};  ///< over the rock; none: a tunnel that stands
@@ -90,6 +93,12 @@ struct BlocksPicture {
 [[nodiscard]] inline ViewRect view_of_everything(const BlocksPicture& picture) {
   const ViewRect rect = extent_of_everything(picture);
   return rect.grown(1e-3 + 0.01 * std::max(rect.width(), rect.height()));
+}
+
+/// From where directions are counted [m].
+[[nodiscard]] inline Vec2 centre_of(const BlocksPicture& picture) {
+  if (picture.centre) return *picture.centre;
+  return bounding_rect(picture.outline).value_or(view_of_everything(picture)).centre();
 }
 
 /// Three diameters (or what is asked) of rock, the openings in the middle.

@@ -27,7 +27,7 @@ namespace voussoir {
 /// What a picture cannot know from the tunnel.
 struct TunnelPictureText {
   std::string title = "Tunnel in jointed rock";
-  double lining_thickness = 0;            ///< [m]; 0: drawn as a line. Without meaning in 3-D
+  double lining_thickness = 0;  ///< [m]; 0: that of each section. Without meaning in 3-D
   std::vector<std::string> remarks = {};  ///< below the verdict, a line each
 };
 
@@ -87,12 +87,6 @@ VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double f
 
 namespace detail {
 
-/// The bolts of a construction alone, numbered from its first: bars of others are not known.
-inline void keep_bolts_from(int first, std::vector<CrossingForce>& bolts) {
-  std::erase_if(bolts, [first](const CrossingForce& c) { return c.bolt < first; });
-  for (CrossingForce& c : bolts) c.bolt -= first;
-}
-
 /// Crown, blocks and what the supports carry.
 template <class Solver>
 [[nodiscard]] std::vector<KeyNumber> key_numbers_of(
@@ -105,7 +99,7 @@ template <class Solver>
   if (solver.bolt_count() > 0)
     numbers.push_back(
         {"largest bolt force", fixed_text(1e-3 * demand.largest_bolt_force, 0) + " kN"});
-  if (solver.lining() != nullptr && !result.has_lost_lining()) {
+  if (has_standing_lining(solver)) {
     numbers.push_back(
         {"largest thrust", fixed_text(1e-3 * demand.largest_thrust, 0) + " kN" + per_metre});
     numbers.push_back(
@@ -114,7 +108,7 @@ template <class Solver>
   return numbers;
 }
 
-/// In-situ stress at the middle of the opening times half its width, see `PictureLining`.
+/// In-situ stress at the middle of the opening times half its width, see `BlocksPicture`.
 template <class Solver>
 [[nodiscard]] double reference_thrust_of(const Solver& solver, const ViewRect& opening) {
   const double depth = solver.mass().domain.surface() - opening.centre().y();
@@ -131,16 +125,15 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
     draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
                 const TunnelPictureText& text = {}) {
   const double fallen = result.fallen_measure();
-  auto state = state_of(solver);
-  detail::keep_bolts_from(result.first_bolt, state.bolts);
-  BlocksPicture picture = picture_of(state, solver.mass(), result.bars, text.lining_thickness);
+  BlocksPicture picture =
+      picture_of(state_of(solver), solver.mass(), bars_of(solver), text.lining_thickness);
   picture.header.title = text.title;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result);
   picture.banner = banner_of(result.verdict(), fallen, "m²", result.has_lost_lining());
-  if (const auto opening = bounding_rect(picture.outline); picture.lining && opening)
-    picture.lining->reference_thrust = detail::reference_thrust_of(solver, *opening);
+  if (const auto tunnel = detail::rect_of_tunnel(solver.mass()))
+    picture.reference_thrust = detail::reference_thrust_of(solver, *tunnel);
   return draw_blocks_picture(picture);
 }
 
@@ -150,9 +143,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
     draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
                 const TunnelPictureText& text = {}) {
   const double fallen = result.fallen_measure();
-  auto state = state_of(solver);
-  detail::keep_bolts_from(result.first_bolt, state.bolts);
-  TunnelView view = picture_of(state, result.bars);
+  TunnelView view = picture_of(state_of(solver), bars_of(solver));
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());

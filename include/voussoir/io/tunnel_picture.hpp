@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
@@ -11,6 +13,7 @@
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/tunnel/joined_openings.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
 
 namespace voussoir {
@@ -28,26 +31,104 @@ namespace detail {
   return report.has_yielded() ? PictureCrossing::State::yielded : PictureCrossing::State::elastic;
 }
 
-[[nodiscard]] inline PictureLining picture_lining(const TunnelState<Planar>& state) {
-  PictureLining drawn;
-  std::vector<LiningForce> at = state.lining;
-  drawn.is_ring = state.members.size() == at.size();
-  std::erase_if(at, [](const LiningForce& node) { return node.is_lost; });
-  const std::size_t n = at.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    // Across the line through the neighbours: right for corners as for circles.
-    const Vec2& before = at[drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)].position;
-    const Vec2& after = at[drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)].position;
-    drawn.nodes.push_back(
-        {at[k].position, -perpendicular(after - before).normalized(), at[k].thrust, at[k].moment});
+/// Of the last opening and those that it is joined to; nothing before one was carved.
+[[nodiscard]] inline std::optional<ViewRect> rect_of_tunnel(const RockMass<Planar>& mass) {
+  std::vector<Vec2> corners;
+  for (const SimplePolygon& opening : joined_openings(mass))
+    corners.insert(corners.end(), opening.vertices().begin(), opening.vertices().end());
+  return bounding_rect(corners);
+}
+
+/// Members that follow one another, as the nodes between them.
+struct LiningChain {
+  std::vector<std::size_t> nodes;
+  bool is_ring = false;  ///< the last member leads back to the first node
+};
+/// All members, each in one chain; a chain ends where none goes on, or one of another thickness.
+/// @param thickness  thickness(node)
+template <class Thickness>
+[[nodiscard]] std::vector<LiningChain> chains_of(const std::vector<LiningLink>& links,
+                                                 Thickness&& thickness) {
+  std::vector<char> is_used(links.size(), 0);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  // An unused member to or from a node that goes on with the one given.
+  const auto other = [&](const LiningLink& link, bool is_before) {
+    for (std::size_t k = 0; k < links.size(); ++k)
+      if (is_used[k] == 0 && &links[k] != &link &&
+          (is_before ? links[k].to == link.from : links[k].from == link.to) &&
+          thickness(links[k]) == thickness(link))
+        return k;
+    return none;
+  };
+  std::vector<LiningChain> chains;
+  const auto follow = [&](std::size_t k) {
+    LiningChain& chain = chains.emplace_back();
+    chain.nodes.push_back(static_cast<std::size_t>(links[k].from));
+    for (; k != none; k = other(links[k], false)) {
+      is_used[k] = 1;
+      chain.nodes.push_back(static_cast<std::size_t>(links[k].to));
+    }
+    chain.is_ring = chain.nodes.front() == chain.nodes.back();
+    if (chain.is_ring) chain.nodes.pop_back();
+  };
+  for (std::size_t k = 0; k < links.size(); ++k)
+    if (is_used[k] == 0 && other(links[k], true) == none) follow(k);
+  for (std::size_t k = 0; k < links.size(); ++k)  // what is left are rings
+    if (is_used[k] == 0) follow(k);
+  return chains;
+}
+
+/// @param lining_thickness  of all of them [m]; 0: what the state knows
+[[nodiscard]] inline std::vector<PictureLining> picture_linings(const TunnelState<Planar>& state,
+                                                                double lining_thickness) {
+  const auto thickness = [&](const LiningLink& link) {
+    if (lining_thickness > 0) return lining_thickness;
+    // What joins one lining to another is of the later one.
+    const auto k = static_cast<std::size_t>(
+        std::max(state.lining[static_cast<std::size_t>(link.from)].lining,
+                 state.lining[static_cast<std::size_t>(link.to)].lining));
+    return k < state.thicknesses.size() ? state.thicknesses[k] : 0.0;
+  };
+  std::vector<PictureLining> linings;
+  for (const LiningChain& chain : chains_of(state.links, thickness)) {
+    PictureLining& drawn = linings.emplace_back();
+    drawn.is_ring = chain.is_ring;
+    const std::size_t n = chain.nodes.size();
+    const auto at = [&](std::size_t k) -> const LiningForce& {
+      return state.lining[chain.nodes[k]];
+    };
+    const auto before = static_cast<int>(chain.nodes[0]), after = static_cast<int>(chain.nodes[1]);
+    for (const LiningLink& link : state.links)
+      if (link.from == before && link.to == after) drawn.thickness = thickness(link);
+    for (std::size_t k = 0; k < n; ++k) {
+      // Across the line through the neighbours: right for corners as for circles.
+      const Vec2& back = at(drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)).position;
+      const Vec2& front = at(drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)).position;
+      drawn.nodes.push_back({at(k).position, -perpendicular(front - back).normalized(),
+                             at(k).thrust, at(k).moment});
+    }
   }
-  return drawn;
+  // A foot is drawn with the end that it is under.
+  for (const FootForce<2>& foot : state.feet) {
+    PictureLining* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (PictureLining& lining : linings)
+      for (const PictureLiningNode* node : {&lining.nodes.front(), &lining.nodes.back()})
+        if (const double away = length_of(Vec2(node->point - foot.place)); away < least) {
+          least = away;
+          nearest = &lining;
+        }
+    if (nearest != nullptr)
+      nearest->feet.push_back({foot.place, foot.direction, foot.width, foot.bearing});
+  }
+  return linings;
 }
 
 }  // namespace detail
 
 /// @param bars  of the bolts, in the order in which they were installed
-/// @param lining_thickness  [m]; 0: drawn as a line
+/// @param lining_thickness  [m]; 0: that of their sections, or where the state does not know it a
+///                          line
 [[nodiscard]] inline BlocksPicture picture_of(const TunnelState<Planar>& state,
                                               const RockMass<Planar>& mass,
                                               const std::vector<Segment>& bars = {},
@@ -74,6 +155,7 @@ namespace detail {
   if (!mass.openings.empty()) picture.outline = mass.openings.back().vertices();
   for (std::size_t k = 0; k + 1 < mass.openings.size(); ++k)
     picture.other_openings.push_back(mass.openings[k].vertices());
+  if (const auto tunnel = detail::rect_of_tunnel(mass)) picture.centre = tunnel->centre();
   picture.ground_surface = mass.domain.surface();
   for (const Segment& bar : bars) picture.bolts.push_back({bar.start, bar.end, {}});
   for (const CrossingForce& at : state.bolts) {
@@ -84,13 +166,8 @@ namespace detail {
     bolt.crossings.push_back(
         {bar.at(at.position / bar.length()), at.report.axial, detail::picture_state(at.report)});
   }
-  if (PictureLining lining = detail::picture_lining(state); !lining.nodes.empty()) {
-    lining.thickness = lining_thickness;
-    for (const FootForce<2>& foot : state.feet)
-      lining.feet.push_back({foot.place, foot.direction, foot.width, foot.bearing});
-    for (const ConvexPolygon& fill : state.fills) lining.fills.push_back(fill.vertices());
-    picture.lining = std::move(lining);
-  }
+  picture.linings = detail::picture_linings(state, lining_thickness);
+  for (const ConvexPolygon& fill : state.fills) picture.fills.push_back(fill.vertices());
   return picture;
 }
 

@@ -99,26 +99,32 @@ template <class Bar>
   return table.text();
 }
 
-/// One row for every node of a lining in 2-D. It has no strength: that is not checked.
+/// One row for every node of all linings in 2-D, these numbered in the order of their installation
+/// and nodes within each. They have no strength: that is not checked.
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining) {
-  CsvTable table({"node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
+  CsvTable table({"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
                   "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength"},
                  8);
-  int node = 0;
-  for (const LiningForce& at : lining)
-    table.add_row(++node, detail::angle_in_degrees(at.position), at.position.x(), at.position.y(),
-                  1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence,
-                  at.is_lost, "-");
+  int node = 0, of = -1;
+  for (const LiningForce& at : lining) {
+    node = at.lining == of ? node + 1 : 1;
+    of = at.lining;
+    table.add_row(of + 1, node, detail::angle_in_degrees(at.position), at.position.x(),
+                  at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
+                  1e3 * at.convergence, at.is_lost, "-");
+  }
   return table.text();
 }
-/// One row for every member of a lining in 3-D, without strength, too.
+/// One row for every member of all linings in 3-D, without strength, too; what joins two linings is
+/// of the later one.
 [[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members) {
-  CsvTable table(
-      {"member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm", "of_its_strength"}, 8);
+  CsvTable table({"lining", "member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm",
+                  "of_its_strength"},
+                 8);
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment,
+    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment,
                   "-");
   }
   return table.text();

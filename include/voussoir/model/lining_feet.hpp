@@ -165,6 +165,16 @@ class LiningFeet : public SupportModel<LiningFeet<Dim>, Dim> {
     });
   }
 
+  /// An end that goes on in another lining has no foot any more.
+  /// @param node  among the bodies
+  /// @param other_end  direction in which the other lining ends there, as `LiningEnd::direction`:
+  ///                   two layers that end together keep their feet
+  void leave_out(int node, const Vec<Dim>& other_end) {
+    std::erase_if(springs_, [&](const Spring& s) {
+      return s.node == node && column(s.frame, 0).dot(other_end) < 0.5;
+    });
+  }
+
   void add_forces(const double* u, double* f, const BodyMarks* chosen) const override {
     for (const Spring& s : springs_)
       if (is_chosen(s, chosen)) s.add_force(law_, u, f);

@@ -121,6 +121,9 @@ struct InstalledLining {
   std::vector<LiningFill<Geometry>> fills;  ///< of holes in the wall
   std::vector<LiningGap> gaps;              ///< nodes are counted from the first
   std::vector<FreeEnd<Geometry::dim>> ends{};
+  /// Ends without the foot that they were to have: the rock there had fallen [m].
+  std::vector<Vec<Geometry::dim>> hanging_ends{};
+  bool came_off = false;  ///< off its wall, and was taken out
 };
 
 /// The members of a lining between its nodes.

@@ -40,6 +40,13 @@
 
 namespace voussoir {
 
+/// A bolt as it was installed.
+template <class Geometry>
+struct InstalledBolt {
+  typename Geometry::Line bar;  ///< head first [m]
+  int crossings;                ///< joints that it crossed then
+};
+
 /// Rock, excavation, supports and the search for equilibrium. `Solver` composes it from policies.
 ///
 /// The order of calls is that of the construction: the rock in its in-situ stress; then excavating,
@@ -161,6 +168,7 @@ class ComposedSolver {
     bring_to_rest(run, system_, fallen);
     walls_.reach(system_.wall_fraction);
     fallen_.insert(fallen_.end(), fallen.begin(), fallen.end());
+    for (const int b : fallen) fallen_measure_ += measures_[static_cast<std::size_t>(b)];
     started_ = true;
   }
 
@@ -217,11 +225,22 @@ class ComposedSolver {
   [[nodiscard]] const LiningType* lining() const {
     return system_.supports.template first<LiningType>();
   }
-  [[nodiscard]] int bolt_count() const { return bolt_count_; }
+  [[nodiscard]] int bolt_count() const { return static_cast<int>(installed_.size()); }
+  /// All of them, as they were installed, in that order.
+  [[nodiscard]] const std::vector<InstalledBolt<Geometry>>& installed_bolts() const {
+    return installed_;
+  }
   /// Of every round that was excavated, the part of its wall traction that still acts.
   [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
+  /// All that they measured [m^2], [m^3].
+  [[nodiscard]] double fallen_measure() const { return fallen_measure_; }
+  /// A lining has come off its wall; it may be another than those that stand.
+  [[nodiscard]] bool has_lost_lining() const {
+    return std::any_of(system_.linings.begin(), system_.linings.end(),
+                       [](const auto& lining) { return lining.came_off; });
+  }
   /// Number of the first lining's first node among the bodies of the system; -1 without lining.
   [[nodiscard]] int first_lining_node() const {
     return lining() != nullptr ? lining()->first_node() : -1;
@@ -271,9 +290,10 @@ class ComposedSolver {
   WallTractions walls_;
   std::vector<double> measures_;
   std::vector<int> fallen_;
+  double fallen_measure_ = 0;
+  std::vector<InstalledBolt<Geometry>> installed_;
   double update_limit_ = 0.02;  ///< of contact updates, of the last search [m]
   double carried_ = 0;          ///< see `SearchContext` [m]
-  int bolt_count_ = 0;
   bool started_ = false, is_loaded_ = false;
 };
 
@@ -374,9 +394,9 @@ int ComposedSolver<Models>::install_bolt(const typename Geometry::Line& bar, con
                                          double spacing, const Anchors& anchors) {
   auto& bolts = bolts_among<dim, BoltLaw>(system_.supports);
   const BodiesAtRest<SystemState<Geometry>> bodies{system_};
-  const int crossed = voussoir::install_bolt(bolts, *mass_, bar, bolts.add_law(law), bolt_count_,
+  const int crossed = voussoir::install_bolt(bolts, *mass_, bar, bolts.add_law(law), bolt_count(),
                                              spacing, anchors, bodies);
-  ++bolt_count_;
+  installed_.push_back({bar, crossed});
   started_ = true;
   return crossed;
 }
@@ -407,6 +427,12 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   if (report.contact_update_limit > 0) update_limit_ = report.contact_update_limit;
   walls_.reach(system_.wall_fraction);
   fallen_.insert(fallen_.end(), report.fallen.begin(), report.fallen.end());
+  fallen_measure_ += report.fallen_measure;
+  for (auto& lining : system_.linings)
+    for (const int node : report.lost_nodes) lining.came_off |= node == lining.first;
+  report.lacks_lining = has_lost_lining();
+  if (report.verdict == Verdict::stable && report.lacks_lining && report.lost_nodes.empty())
+    report.reason += "; a lining had come off its wall before";
   return report;
 }
 

@@ -130,28 +130,24 @@ struct StageResult {
 /// What came of a construction.
 template <class Geometry>
 struct ConstructionResult {
-  std::vector<StageResult> stages;            ///< those that were begun
-  std::vector<typename Geometry::Line> bars;  ///< of the bolts, in the order of installation
-  std::vector<int> crossings;                 ///< joints that each crossed when it was installed
-  /// Ends of linings without the foot that they were to have: the rock there had fallen [m].
-  std::vector<Vec<Geometry::dim>> hanging_ends;
-  int first_bolt = 0;  ///< number of the first of them in the solver, which may have had others
+  std::vector<StageResult> stages;  ///< those that were begun
+  double fallen_before = 0;         ///< rock that had detached before it began [m^2], [m^3]
 
   /// Of the last stage that was begun. @pre there is one
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
   /// That of the last stage; a stage that does not end stable ends the construction. In words:
   /// `to_string(verdict(), fallen_measure(), has_lost_lining())`.
   [[nodiscard]] Verdict verdict() const { return last().verdict; }
-  /// Over all stages [m^2], [m^3].
+  /// Over all stages, and what had detached before [m^2], [m^3].
   [[nodiscard]] double fallen_measure() const {
-    double sum = 0;
+    double sum = fallen_before;
     for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
     return sum;
   }
   /// How that varies, over all stages; none where no stage says (`EquilibriumReport::rockfall`).
   [[nodiscard]] std::optional<RockfallRange> rockfall_range() const {
     std::optional<RockfallRange> sum;
-    double exact = 0;
+    double exact = fallen_before;
     for (const StageResult& stage : stages) {
       const std::optional<RockfallRange>& range = stage.report.rockfall;
       if (!range)
@@ -164,11 +160,8 @@ struct ConstructionResult {
     if (sum) sum->add({exact, exact, false, 0});
     return sum;
   }
-  /// Whether a lining came off its wall, in any stage.
-  [[nodiscard]] bool has_lost_lining() const {
-    return std::any_of(stages.begin(), stages.end(),
-                       [](const StageResult& stage) { return !stage.report.lost_nodes.empty(); });
-  }
+  /// Whether a lining came off its wall, in any stage or before.
+  [[nodiscard]] bool has_lost_lining() const { return last().lacks_lining; }
 };
 
 /// What is being done and how far it is, 0 to 1, or a negative number where that is unknown.
@@ -198,27 +191,24 @@ template <class Solver>
 
 /// @throws InvalidInput  see the calls; Stopped
 template <class Solver>
-void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress,
-               ConstructionResult<typename Solver::Geometry>& result) {
+void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress) {
   for (const auto& round : stage.rounds)
     solver.excavate(round.opening, round.smallest_piece, progress);
   StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
   for (const auto& bolts : stage.bolts)
     for (const auto& bar : bolts.bars) {
       stop();
-      result.crossings.push_back(solver.install_bolt(bar, bolts.law, bolts.spacing, bolts.anchors));
-      result.bars.push_back(bar);
+      (void)solver.install_bolt(bar, bolts.law, bolts.spacing, bolts.anchors);
     }
   for (const auto& lining : stage.linings)
-    for (const auto& end : solver.install_lining(frame_of(solver.mass(), lining), lining.sections,
-                                                 lining.interface_law, lining.feet))
-      result.hanging_ends.push_back(end);
+    (void)solver.install_lining(frame_of(solver.mass(), lining), lining.sections,
+                                lining.interface_law, lining.feet);
 }
 
 }  // namespace detail
 
-/// Carries out a construction on rock in its in-situ state, or goes on where the solver is. A stage
-/// that does not end stable is the last.
+/// Carries out a construction on rock in its in-situ state, or goes on where the solver is: a plan
+/// that is cut in two says what the whole plan says. A stage that does not end stable is the last.
 ///
 /// @param progress  asked now and then whether to go on. A search that it stops is undecided, with
 ///                  `report.stopped`
@@ -235,12 +225,12 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
     throw InvalidInput("construction: has no stages; accepted: at least one");
   check_construction(construction, solver.mass());
   ConstructionResult<typename Solver::Geometry> result;
-  result.first_bolt = solver.bolt_count();
+  result.fallen_before = solver.fallen_measure();
   for (const ConstructionStage<Solver>& stage : construction.stages) {
     Progress asked;
     if (progress) asked = [&](double fraction) { return progress(stage.name, fraction); };
     naming("stage \"" + stage.name + "\"", [&] {
-      detail::carry_out(solver, stage, asked, result);
+      detail::carry_out(solver, stage, asked);
       StageResult& end = result.stages.emplace_back();
       end.name = stage.name;
       end.wall_traction_asked = stage.wall_traction;
@@ -250,10 +240,6 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
         end.wall_traction = std::max(end.wall_traction, left);
       end.convergence = convergence(solver);
     });
-    VOUSSOIR_ASSERT(result.bars.size() == result.crossings.size(), "every bolt has been installed");
-    VOUSSOIR_ASSERT(result.bars.size() + static_cast<std::size_t>(result.first_bolt) ==
-                        static_cast<std::size_t>(solver.bolt_count()),
-                    "bolts are those of the solver");
     if (result.verdict() != Verdict::stable) break;
   }
   return result;

@@ -28,7 +28,7 @@ struct DiagramPoint {
   /// Rock detached, the lining came off, or no equilibrium was found: not a design.
   [[nodiscard]] bool failed() const {
     return report.verdict != Verdict::stable || report.fallen_measure > 0 ||
-           !report.lost_nodes.empty();
+           report.lacks_lining;
   }
 };
 

@@ -56,6 +56,7 @@ template <class Solver>
   return convergence_of(wall, is_fixed ? zeros<Vec2>() : mean_displacement(wall));
 }
 }  // namespace detail
+/// Of the tunnel as it stands: of the last opening and those that it is joined to.
 template <class Solver>
 [[nodiscard]] Convergence convergence(const Solver& solver) {
   return detail::convergence_in(solver, wall_motion(solver));
@@ -73,7 +74,7 @@ requires(Solver::dim == 3) [[nodiscard]] Convergence
                 double half_length = 1) {
   return detail::convergence_in(solver, wall_motion(solver, opening, section, half_length));
 }
-/// The same of the last opening.
+/// The same of the last opening and those that it is joined to.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] Convergence
     convergence(const Solver& solver, double section, double half_length = 1) {

@@ -41,10 +41,8 @@ template <class Solver>
     }
   };
   if constexpr (Solver::dim == 2) {
-    std::vector<LiningForce> nodes;
-    for (const auto* lining : solver.linings())
-      for (const LiningForce& at : lining_forces(solver, *lining))
-        if (!at.is_lost) nodes.push_back(at);
+    std::vector<LiningForce> nodes = lining_forces(solver);
+    std::erase_if(nodes, [](const LiningForce& at) { return at.is_lost; });
     add(nodes, nodes.size());
   } else {
     const auto members = lining_members(solver);
@@ -54,15 +52,13 @@ template <class Solver>
 }
 
 /// A constructed tunnel as a point of an interaction diagram; `interaction_diagram` adds where in
-/// it. Rock and linings lost count over all stages.
+/// it. Rock and linings lost count over all stages, and before.
 template <class Solver>
 [[nodiscard]] DiagramPoint diagram_point_of(
     const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
   DiagramPoint point{};
   point.report = result.last();
   point.report.fallen_measure = result.fallen_measure();
-  for (const StageResult& stage : result.stages)
-    if (point.report.lost_nodes.empty()) point.report.lost_nodes = stage.report.lost_nodes;
   point.crown_convergence = result.stages.back().convergence.crown;
   const SupportDemand demand = support_demand(solver);
   point.largest_bolt_force = demand.largest_bolt_force;
@@ -72,6 +68,15 @@ template <class Solver>
   return point;
 }
 
+/// Whether a lining stands: has been installed and not lost.
+template <class Solver>
+[[nodiscard]] bool has_standing_lining(const Solver& solver) {
+  const auto& system = solver.system();
+  return std::any_of(
+      system.linings.begin(), system.linings.end(),
+      [&](const auto& lining) { return system.body(lining.first).movable; });
+}
+
 /// What has become of the supports: nothing of this shows in the forces of those that are left.
 struct SupportCondition {
   int bolts = 0;
@@ -79,8 +84,11 @@ struct SupportCondition {
   int lost = 0;                           ///< bolts that went with the rock they held
   int ruptured = 0;                       ///< joints at which a bolt has broken
   int yielded = 0;                        ///< joints at which one has yielded and holds
-  bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
-  bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
+  int linings = 0;                        ///< installed, as numbered from 1 in what follows
+  std::vector<int> lost_linings;          ///< with the rock that held it; not: came off its wall
+  /// 2-D: where a lining and those that it goes on in make an open arc, of which no end stands on
+  /// anything: the first of them.
+  std::vector<int> open_linings;
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
@@ -88,32 +96,80 @@ struct SupportCondition {
   std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
 
+namespace detail {
+
+/// Numbers, from 1, of linings in 2-D that are open and whose ends stand on nothing, nor are they
+/// bonded. Those that go on in one another are one, told by the first of them.
 template <class Solver>
-[[nodiscard]] SupportCondition support_condition(
-    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
+[[nodiscard]] std::vector<int> open_linings(const Solver& solver) {
+  struct Whole {
+    std::size_t number;           ///< of the whole that it is part of: its first lining
+    std::ptrdiff_t cuts = 0;      ///< nodes less members
+    std::size_t members = 0;
+    bool is_held = false;
+  };
+  const auto& system = solver.system();
+  const auto linings = solver.linings();
+  std::vector<Whole> wholes;
+  for (std::size_t k = 0; k < linings.size(); ++k) wholes.push_back({k});
+  const auto lining_of = [&](int body) {
+    std::size_t k = linings.size() - 1;
+    while (body < linings[k]->first_node()) --k;
+    return k;
+  };
+  const auto whole_of = [&](std::size_t k) -> Whole& { return wholes[wholes[k].number]; };
+  const auto joints = system.supports.template all<LiningJoints<typename Solver::Geometry>>();
+  for (const auto* joint : joints)
+    for (const auto& member : joint->members()) {
+      const auto [low, high] = std::minmax(wholes[lining_of(member.i)].number,
+                                           wholes[lining_of(member.j)].number);
+      for (Whole& whole : wholes)
+        if (whole.number == high) whole.number = low;
+      --wholes[low].cuts;
+    }
+  for (std::size_t k = 0; k < linings.size(); ++k) {
+    const std::size_t members = linings[k]->members().size();
+    whole_of(k).cuts += linings[k]->node_count() - static_cast<std::ptrdiff_t>(members);
+    whole_of(k).members += members;
+    const auto& law = system.interface.laws()[static_cast<std::size_t>(system.linings[k].law)];
+    whole_of(k).is_held |= holds_shear<Solver::dim>(law);
+  }
+  for (const auto* feet : system.supports.template all<LiningFeet<Solver::dim>>())
+    for (const auto& foot : feet->springs()) whole_of(lining_of(foot.node)).is_held = true;
+  std::vector<int> open;
+  for (std::size_t k = 0; k < wholes.size(); ++k)
+    if (wholes[k].number == k && wholes[k].cuts == 1 && wholes[k].members > 0 &&
+        !wholes[k].is_held)
+      open.push_back(static_cast<int>(k) + 1);
+  return open;
+}
+
+}  // namespace detail
+
+template <class Solver>
+[[nodiscard]] SupportCondition support_condition(const Solver& solver) {
   SupportCondition condition;
-  condition.bolts = static_cast<int>(result.bars.size());
-  for (const auto& end : result.hanging_ends)
-    condition.hanging_ends.push_back(text_of<Solver::dim>(end));
-  std::vector<int> held(result.bars.size(), 0);
+  condition.bolts = solver.bolt_count();
+  std::vector<int> held(solver.installed_bolts().size(), 0);
   for (const CrossingForce& c : bolt_forces(solver)) {
-    if (c.bolt < result.first_bolt) continue;
-    ++held.at(static_cast<std::size_t>(c.bolt - result.first_bolt));
+    ++held.at(static_cast<std::size_t>(c.bolt));
     condition.ruptured += c.report.is_broken;
     condition.yielded += c.report.has_yielded() && !c.report.is_broken;
   }
   for (std::size_t k = 0; k < held.size(); ++k) {
-    VOUSSOIR_ASSERT(held[k] <= result.crossings[k], "a bolt holds where it crossed a joint");
-    condition.idle += result.crossings[k] == 0;
-    condition.lost += result.crossings[k] > 0 && held[k] == 0;
+    const int crossings = solver.installed_bolts()[k].crossings;
+    VOUSSOIR_ASSERT(held[k] <= crossings, "a bolt holds where it crossed a joint");
+    condition.idle += crossings == 0;
+    condition.lost += crossings > 0 && held[k] == 0;
   }
-  bool is_bonded = false;
-  for (const auto& law : solver.system().interface.laws())
-    is_bonded = is_bonded || holds_shear<Solver::dim>(law);
-  const bool is_joined =
-      solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto& lining : solver.system().linings) {
-    if (!solver.system().body(lining.first).movable) continue;
+    ++condition.linings;
+    for (const auto& end : lining.hanging_ends)
+      condition.hanging_ends.push_back(text_of<Solver::dim>(end));
+    if (!solver.system().body(lining.first).movable) {
+      if (!lining.came_off) condition.lost_linings.push_back(condition.linings);
+      continue;
+    }
     for (const LiningGap& gap : lining.gaps) {
       ++condition.gaps;
       if (!(gap.share > condition.widest_gap)) continue;
@@ -122,14 +178,7 @@ template <class Solver>
           text_of<Solver::dim>(solver.system().body(lining.first + gap.node).centre);
     }
   }
-  for (const auto* lining : solver.linings()) {
-    const std::size_t members = lining->members().size();
-    condition.lining_lost |=
-        !solver.system().body(lining->first_node()).movable && !result.has_lost_lining();
-    condition.lining_open |= Solver::dim == 2 && !is_joined && !is_bonded &&
-                             foot_forces(solver).empty() && members > 0 &&
-                             members + 1 == static_cast<std::size_t>(lining->node_count());
-  }
+  if constexpr (Solver::dim == 2) condition.open_linings = detail::open_linings(solver);
   for (const auto& foot : foot_forces(solver))
     if (foot.has_yielded())
       condition.yielded_feet.push_back(text_of<Solver::dim>(foot.place) + " m (now at " +
@@ -140,13 +189,18 @@ template <class Solver>
 /// The same in sentences, one for each thing that a reader should know; none if all is well.
 [[nodiscard]] inline std::vector<std::string> remarks_on(const SupportCondition& condition) {
   std::vector<std::string> remarks;
-  if (condition.lining_lost)
-    remarks.emplace_back(
-        "the lining was lost with the rock that held it: nothing touches it any "
-        "more");
-  if (condition.lining_open)
-    remarks.emplace_back(
-        "the lining is open and its ends stand on nothing: it carries what friction on the rock "
+  const auto lining = [&](int number) {
+    return condition.linings > 1
+               ? message({"lining ", number, " of ", condition.linings})
+               : std::string("the lining");
+  };
+  for (const int number : condition.lost_linings)
+    remarks.push_back(lining(number) +
+                      " was lost with the rock that held it: nothing touches it any more");
+  for (const int number : condition.open_linings)
+    remarks.push_back(
+        lining(number) +
+        " is open and its ends stand on nothing: it carries what friction on the rock "
         "gives it, next to no thrust; give them feet, or bond it to the rock");
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +

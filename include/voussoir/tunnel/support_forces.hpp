@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/elementary.hpp>
@@ -27,6 +28,14 @@ struct CrossingForce {
   double extension;   ///< of the distance between the anchors since installation [m]
   BoltReport report;  ///< what its law says of it there
 };
+
+/// All bolts of a solver, as they were installed.
+template <class Solver>
+[[nodiscard]] std::vector<typename Solver::Geometry::Line> bars_of(const Solver& solver) {
+  std::vector<typename Solver::Geometry::Line> bars;
+  for (const auto& bolt : solver.installed_bolts()) bars.push_back(bolt.bar);
+  return bars;
+}
 
 /// In the order of bolts and, along each, from head to tip.
 template <class Solver>
@@ -117,6 +126,7 @@ struct MemberForces {
   double thrust;      ///< N, compression positive [N]
   double shear;       ///< the larger of its ends, magnitude [N]
   double moment;      ///< the larger of its ends, magnitude, torsion apart [N m]
+  int lining = 0;     ///< which it is of, in the order of installation; between two the later
 };
 
 namespace detail {
@@ -147,20 +157,28 @@ template <class Solver, int Dim = Solver::SystemType::dim>
 [[nodiscard]] std::vector<MemberForces<Dim>> lining_members(const Solver& solver) {
   std::vector<MemberForces<Dim>> members;
   const auto& system = solver.system();
+  const auto linings = solver.linings();
+  const auto number_of = [&](int body) {
+    int number = -1;
+    for (const auto* lining : linings) number += body >= lining->first_node();
+    return number;
+  };
   const auto add = [&](const auto& it) {
-    for (const auto& e : it.members())
+    for (const auto& e : it.members()) {
       members.push_back(detail::lining_member<Dim>(system.body(e.i).centre, system.body(e.j).centre,
                                                    e.end_forces(system.displacement.data())));
+      members.back().lining = number_of(std::max(e.i, e.j));
+    }
   };
-  for (const auto* lining : solver.linings()) add(*lining);
+  for (const auto* lining : linings) add(*lining);
   for (const auto* joints : system.supports.template all<LiningJoints<typename Solver::Geometry>>())
     add(*joints);
   return members;
 }
-/// The same of a lining that moves, where its nodes are now.
-template <class Run, class Geometry>
+/// Of a lining that moves, or of what joins it to another, where nodes are now.
+template <class Run, class Derived, class Geometry>
 [[nodiscard]] std::vector<MemberForces<Geometry::dim>> lining_members(
-    const Run& run, const LiningMembers<Geometry>& lining) {
+    const Run& run, const FrameMembers<Derived, Geometry>& lining) {
   std::vector<MemberForces<Geometry::dim>> members;
   for (const auto& e : lining.members())
     members.push_back(detail::lining_member<Geometry::dim>(
@@ -168,7 +186,7 @@ template <class Run, class Geometry>
   return members;
 }
 
-/// The lining at one node, per metre of tunnel.
+/// A lining at one node, per metre of tunnel.
 struct LiningForce {
   Vec2 position;         ///< [m]
   double thrust;         ///< N, compression positive [N/m]
@@ -176,56 +194,112 @@ struct LiningForce {
   double moment;         ///< M, positive when the outer fibre is in tension [N m/m]
   double convergence;    ///< towards the tunnel centre since installation [m]
   bool is_lost = false;  ///< it came off the wall and was taken out: no forces
+  int lining = 0;        ///< which it is of, in the order of installation
+};
+
+/// A member from one node of a list to another, anticlockwise.
+struct LiningLink {
+  int from, to;  ///< indices
 };
 
 namespace detail {
 
-/// The mean of the two members that meet at each of `count` nodes, where the first is body `first`;
-/// position and convergence are left at zero.
-/// @param end_forces  of an element, in its axes
-template <class Elements, class EndForces>
-[[nodiscard]] std::vector<LiningForce> mean_of_members(const Elements& elements, int first,
-                                                       int count, EndForces&& end_forces) {
-  std::vector<LiningForce> forces(static_cast<std::size_t>(count), {zeros<Vec2>(), 0, 0, 0, 0});
-  std::vector<int> ends(forces.size(), 0);
-  for (const auto& element : elements) {
-    // Members run anticlockwise: their second axis points into the opening, so what a beam calls
-    // sagging (tension below) is tension at the outer fibre here.
-    const auto f = end_forces(element);
-    const auto add = [&](int node, double thrust, double shear, double moment) {
-      VOUSSOIR_ASSERT(is_index(node - first, count), "a member joins nodes of its lining");
-      LiningForce& at = forces[static_cast<std::size_t>(node - first)];
-      at.thrust += thrust;
-      at.shear += shear;
-      at.moment += moment;
-      ++ends[static_cast<std::size_t>(node - first)];
-    };
-    add(element.i, f[0], f[1], -f[2]);
-    add(element.j, -f[3], -f[4], f[5]);
+/// Linings and what joins one to another, as one list of nodes.
+class LiningNodes {
+ public:
+  using Linings = std::vector<const LiningMembers<Planar>*>;
+  using Joints = std::vector<const LiningJoints<Planar>*>;
+
+  LiningNodes(Linings linings, Joints joints)
+      : linings_(std::move(linings)), joints_(std::move(joints)) {
+    for (std::size_t k = 0; k < linings_.size(); ++k)
+      for (int n = 0; n < linings_[k]->node_count(); ++n) {
+        const int body = linings_[k]->first_node() + n;
+        if (static_cast<std::size_t>(body) >= index_.size())
+          index_.resize(static_cast<std::size_t>(body) + 1, -1);
+        index_[static_cast<std::size_t>(body)] = static_cast<int>(bodies_.size());
+        bodies_.push_back(body);
+        numbers_.push_back(static_cast<int>(k));
+      }
   }
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    const double share = ends[k] > 0 ? 1.0 / ends[k] : 0.0;
-    forces[k].thrust *= share;
-    forces[k].shear *= share;
-    forces[k].moment *= share;
+  [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+  [[nodiscard]] int body(std::size_t k) const { return bodies_[k]; }
+
+  /// The members, those of every lining first.
+  [[nodiscard]] std::vector<LiningLink> links() const {
+    std::vector<LiningLink> links;
+    each_member([&](const auto& m) {
+      if (index_of(m.i) >= 0 && index_of(m.j) >= 0)
+        links.push_back({index_of(m.i), index_of(m.j)});
+    });
+    return links;
   }
-  return forces;
+
+  /// The mean of the two members that meet at each node; position and convergence are left at zero.
+  /// @param end_forces  of a member, in its axes
+  template <class EndForces>
+  [[nodiscard]] std::vector<LiningForce> forces(EndForces&& end_forces) const {
+    std::vector<LiningForce> forces(size(), {zeros<Vec2>(), 0, 0, 0, 0});
+    std::vector<int> ends(size(), 0);
+    for (std::size_t k = 0; k < size(); ++k) forces[k].lining = numbers_[k];
+    each_member([&](const auto& member) {
+      // Members run anticlockwise: their second axis points into the opening, so what a beam calls
+      // sagging (tension below) is tension at the outer fibre here.
+      const auto f = end_forces(member);
+      const auto add = [&](int body, double thrust, double shear, double moment) {
+        const int k = index_of(body);
+        if (k < 0) return;  // of a lining that is not asked for
+        LiningForce& at = forces[static_cast<std::size_t>(k)];
+        at.thrust += thrust;
+        at.shear += shear;
+        at.moment += moment;
+        ++ends[static_cast<std::size_t>(k)];
+      };
+      add(member.i, f[0], f[1], -f[2]);
+      add(member.j, -f[3], -f[4], f[5]);
+    });
+    for (std::size_t k = 0; k < size(); ++k) {
+      const double share = ends[k] > 0 ? 1.0 / ends[k] : 0.0;
+      forces[k].thrust *= share;
+      forces[k].shear *= share;
+      forces[k].moment *= share;
+    }
+    return forces;
+  }
+
+ private:
+  [[nodiscard]] int index_of(int body) const {
+    const auto b = static_cast<std::size_t>(body);
+    return b < index_.size() ? index_[b] : -1;
+  }
+  template <class Visit>
+  void each_member(Visit&& visit) const {
+    for (const auto* lining : linings_)
+      for (const auto& member : lining->members()) visit(member);
+    for (const auto* joints : joints_)
+      for (const auto& member : joints->members()) visit(member);
+  }
+
+  Linings linings_;
+  Joints joints_;
+  std::vector<int> bodies_, numbers_;
+  std::vector<int> index_;  ///< of every body; -1: it is no node
+};
+
+/// Those of a solver.
+template <class Solver>
+[[nodiscard]] LiningNodes lining_nodes(const Solver& solver) {
+  return {solver.linings(), solver.system().supports.template all<LiningJoints<Planar>>()};
 }
 
-}  // namespace detail
-
-/// Of one lining of a solver (see `linings()`); one entry per node: the mean of the two members
-/// that meet there.
 template <class Solver>
 [[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver,
-                                                     const typename Solver::LiningType& lining) {
+                                                     const LiningNodes& nodes) {
   const auto& system = solver.system();
-  const int first = lining.first_node();
-  auto forces = detail::mean_of_members(
-      lining.members(), first, lining.node_count(),
-      [&](const auto& element) { return element.end_forces(system.displacement.data()); });
+  auto forces = nodes.forces(
+      [&](const auto& member) { return member.end_forces(system.displacement.data()); });
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    const int body = first + static_cast<int>(k);
+    const int body = nodes.body(k);
     forces[k].position = system.body(body).centre;
     forces[k].is_lost = system.body(body).is_gone;
     forces[k].convergence =
@@ -234,32 +308,38 @@ template <class Solver>
   return forces;
 }
 
-/// Of the first lining; none without one.
-template <class Solver>
-[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
-  const auto* lining = solver.lining();
-  if (lining == nullptr) return {};
-  return lining_forces(solver, *lining);
-}
-
-/// The same of a lining that moves; position is where the node is now.
-template <class Run, class Geometry>
-requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
-    [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
-                                                         const LiningMembers<Geometry>& lining) {
-  const int first = lining.first_node();
-  auto forces = detail::mean_of_members(
-      lining.members(), first, lining.node_count(), [&](const auto& element) {
-        return element.end_forces(run.pose(element.i), run.pose(element.j));
-      });
+/// Of linings that move.
+template <class Run>
+[[nodiscard]] std::vector<LiningForce> lining_forces_in_motion(const Run& run,
+                                                               const LiningNodes& nodes) {
+  auto forces = nodes.forces(
+      [&](const auto& member) { return member.end_forces(run.pose(member.i), run.pose(member.j)); });
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    const int body = first + static_cast<int>(k);
+    const int body = nodes.body(k);
     const Vec2 home = run.home(body).position;
     forces[k].position = run.position(body);
     forces[k].is_lost = run.body(body).is_gone;
     forces[k].convergence = (home - forces[k].position).dot(normalized(home));
   }
   return forces;
+}
+
+}  // namespace detail
+
+/// All linings of a solver in the order of their installation, one entry per node: the mean of the
+/// two members that meet there, where one lining goes on in another the member between them among
+/// these. None without lining.
+template <class Solver>
+[[nodiscard]] std::vector<LiningForce> lining_forces(const Solver& solver) {
+  return detail::lining_forces(solver, detail::lining_nodes(solver));
+}
+
+/// Of a lining that moves; position is where the node is now.
+template <class Run, class Geometry>
+requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
+    [[nodiscard]] std::vector<LiningForce> lining_forces(const Run& run,
+                                                         const LiningMembers<Geometry>& lining) {
+  return detail::lining_forces_in_motion(run, {{&lining}, {}});
 }
 
 }  // namespace voussoir

@@ -47,7 +47,9 @@ struct TunnelState {
   std::vector<JointState<dim>> joints;     ///< contacts of rock with rock
   std::vector<CrossingForce> bolts;        ///< where they cross joints
   std::vector<MemberForces<dim>> members;  ///< of the lining
-  std::vector<LiningForce> lining;         ///< node by node, in 2-D
+  std::vector<LiningForce> lining;         ///< of all of them node by node, in 2-D
+  std::vector<LiningLink> links{};         ///< the members between these
+  std::vector<double> thicknesses{};       ///< of the linings, at rest [m]
   std::vector<FootForce<dim>> feet;        ///< of linings, at rest
   /// Holes in the wall that linings fill, at rest; of one that is lost none.
   std::vector<typename Geometry::Shape> fills{};
@@ -154,32 +156,72 @@ template <class Solver, class Geometry = typename Solver::SystemType::GeometryTy
   state.bolts = bolt_forces(solver);
   state.members = lining_members(solver);
   state.feet = foot_forces(solver);
-  if constexpr (Geometry::dim == 2) state.lining = lining_forces(solver);
-  for (const auto& lining : system.linings)
+  if constexpr (Geometry::dim == 2) {
+    const detail::LiningNodes nodes = detail::lining_nodes(solver);
+    state.lining = detail::lining_forces(solver, nodes);
+    state.links = nodes.links();
+  }
+  for (const auto& lining : system.linings) {
+    state.thicknesses.push_back(lining.thickness);
     for (const auto& fill : lining.fills)
       if (system.body(lining.first + fill.node).movable) state.fills.push_back(fill.shape);
+  }
   return state;
 }
 
 namespace detail {
 
-template <class Geometry, class Run, class Law>
-void add_support(TunnelState<Geometry>& state, const Run& run,
-                 const BoltSet<Geometry::dim, Law>& bolts) {
-  for (const CrossingForce& c : bolt_forces(run, bolts)) state.bolts.push_back(c);
-}
+/// The supports of a run, as they are given.
 template <class Geometry, class Run>
-void add_support(TunnelState<Geometry>& state, const Run& run,
-                 const LiningMembers<Geometry>& lining) {
-  state.members = lining_members(run, lining);
-  if constexpr (Geometry::dim == 2) state.lining = lining_forces(run, lining);
-}
+class SupportsInMotion {
+ public:
+  static constexpr int dim = Geometry::dim;
+
+  SupportsInMotion(const Run& run, TunnelState<Geometry>& state) : run_(run), state_(state) {}
+
+  template <class Law>
+  void add(const BoltSet<dim, Law>& bolts) {
+    for (const CrossingForce& c : bolt_forces(run_, bolts)) state_.bolts.push_back(c);
+  }
+  void add(const LiningMembers<Geometry>& lining) { linings_.push_back(&lining); }
+  void add(const LiningJoints<Geometry>& joints) { joints_.push_back(&joints); }
+  /// All have been given.
+  void finish() {
+    for (const auto* lining : linings_) add_members(*lining);
+    for (const auto* joints : joints_) add_members(*joints);
+    if constexpr (dim == 2) {
+      const LiningNodes nodes(linings_, joints_);
+      state_.lining = lining_forces_in_motion(run_, nodes);
+      state_.links = nodes.links();
+    }
+  }
+
+ private:
+  template <class Members>
+  void add_members(const Members& members) {
+    for (auto member : lining_members(run_, members)) state_.members.push_back(member);
+    const std::size_t first = state_.members.size() - members.members().size();
+    for (std::size_t k = 0; k < members.members().size(); ++k) {
+      const auto& e = members.members()[k];
+      int number = -1;
+      for (const auto* lining : linings_) number += std::max(e.i, e.j) >= lining->first_node();
+      state_.members[first + k].lining = number;
+    }
+  }
+
+  const Run& run_;
+  TunnelState<Geometry>& state_;
+  std::vector<const LiningMembers<Geometry>*> linings_;
+  std::vector<const LiningJoints<Geometry>*> joints_;
+};
 
 }  // namespace detail
 
 /// A tunnel whose blocks move.
 /// @param mass      from which the run was made: its body b is body b of the run
-/// @param supports  what `add_bolts` and `add_lining` gave, if anything
+/// @param supports  what `add_bolts` and `add_lining` gave, if anything; linings in the order of
+///                  their installation, and in a tunnel that was set in motion the `LiningJoints`
+///                  between them
 template <class Geometry, class... Parts, class... Supports>
 [[nodiscard]] TunnelState<Geometry> state_of(const Dynamics<Geometry::dim, Parts...>& run,
                                              const RockMass<Geometry>& mass,
@@ -191,7 +233,9 @@ template <class Geometry, class... Parts, class... Supports>
         {run.position(b) - run.home(b).position, run.body(b).is_gone, run.motion(b)});
   }
   state.joints = joint_states(run);
-  (detail::add_support(state, run, supports), ...);
+  detail::SupportsInMotion<Geometry, Dynamics<Geometry::dim, Parts...>> given(run, state);
+  (given.add(supports), ...);
+  given.finish();
   return state;
 }
 

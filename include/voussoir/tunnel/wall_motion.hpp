@@ -17,6 +17,7 @@
 #include <voussoir/geometry/prismatic_opening.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/joined_openings.hpp>
 #include <voussoir/tunnel/opening_centre.hpp>
 
 namespace voussoir {
@@ -25,6 +26,9 @@ namespace voussoir {
 /// 6 degrees about the centre of the opening, the right-hand springing among them. So wide blocks
 /// count where they are, not where their middle is. Where a piece of rock was dropped, the wall is
 /// the rock behind the hole, with the length of the outline in front of it.
+///
+/// A wall that runs through the centre, as the floor of a heading at the springing does, is seen
+/// where it faces: as the invert.
 struct WallMotion {
   double angle;  ///< of its middle about `centre_of` the opening, anticlockwise from the right-hand
                  ///< springing [rad], 0 to 2 pi
@@ -47,23 +51,60 @@ struct WallMotion {
 
 namespace detail {
 
-/// A stretch of the axis of an opening in 3-D [m].
-struct AxisStretch {
-  double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();
-};
-
-/// For every edge of a section where rays every 6 degrees about a point meet it, its two ends among
-/// them: distances from its beginning, increasing [m].
-[[nodiscard]] VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(
-    const SimplePolygon& section, const Vec2& centre);
-
 [[nodiscard]] inline const SimplePolygon& section_of(const SimplePolygon& opening) {
   return opening;
 }
 [[nodiscard]] inline const SimplePolygon& section_of(const PrismaticOpening& opening) {
   return opening.section();
 }
+
+/// A stretch of the axis of an opening in 3-D [m].
+struct AxisStretch {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
+
+/// Where a wall is seen from, and of which openings it is a wall.
+template <class Geometry>
+struct WallSeen {
+  Vec2 centre;                                      ///< about which angles are counted [m]
+  std::vector<typename Geometry::Opening> later{};  ///< of which its walls count, not its own
+  AxisStretch stretch{};                            ///< that is looked at, in 3-D
+};
+
+/// True if a place is on the wall of an opening that faces the same way.
+/// @param facing  out of the opening, a unit vector in the section
+template <class Geometry>
+[[nodiscard]] bool is_on_wall(const typename Geometry::Opening& opening,
+                              const Vec<Geometry::dim>& place, const Vec2& facing,
+                              double tolerance) {
+  const SimplePolygon& section = section_of(opening);
+  Vec2 p;
+  if constexpr (Geometry::dim == 2) {
+    p = place;
+  } else {
+    p = opening.across(place);
+    const double s = opening.along(place);
+    if (s < opening.from() - tolerance || s > opening.to() + tolerance) return false;
+  }
+  for (std::size_t e = 0; e < section.size(); ++e) {
+    const Segment edge = section.edge(e);
+    const Vec2 along = normalized(edge.end - edge.start), there = p - edge.start;
+    const double s = dot_product(along, there);
+    if (s >= 0 && s <= edge.length() && std::abs(cross(along, there)) <= tolerance &&
+        dot_product(Vec2(-perpendicular(along)), facing) > 0.999)
+      return true;
+  }
+  return false;
+}
+
+/// For every edge of a section where rays every 6 degrees about a point meet it, its two ends among
+/// them: distances from its beginning, increasing [m].
+[[nodiscard]] VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(
+    const SimplePolygon& section, const Vec2& centre);
+/// Adds where corners of another section lie on its edges.
+VOUSSOIR_INLINE void add_corners_of(const SimplePolygon& other, const SimplePolygon& section,
+                                    double tolerance, std::vector<std::vector<double>>& marks);
 
 /// What of a facet lies in a stretch of the axis.
 [[nodiscard]] inline std::optional<SpatialFacet> part_along(std::optional<SpatialFacet> facet,
@@ -83,24 +124,29 @@ struct AxisStretch {
 /// Of pieces that are there, moved by a displacement.
 /// @param is_there  is_there(body)
 /// @param displacement  displacement(body, place) [m]
-/// @param stretch  that is looked at, in 3-D
 template <class Geometry, class IsThere, class Displacement>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
                                                      const typename Geometry::Opening& opening,
+                                                     const WallSeen<Geometry>& seen,
                                                      IsThere&& is_there,
-                                                     Displacement&& displacement,
-                                                     const AxisStretch& stretch = {}) {
+                                                     Displacement&& displacement) {
   constexpr int dim = Geometry::dim;
   constexpr double endless = std::numeric_limits<double>::infinity();
-  const Vec2 centre = centre_of(opening);
+  const double tolerance = 1e3 * mass.domain.tolerance();
+  const SimplePolygon& section = section_of(opening);
+  const Vec2& centre = seen.centre;
   const WallOutline outline(opening);
-  const auto marks = ray_marks(section_of(opening), centre);
+  auto marks = ray_marks(section, centre);
+  for (const auto& later : seen.later) add_corners_of(section_of(later), section, tolerance, marks);
   std::vector<WallMotion> motion;
   for (const auto& piece : wall_pieces(mass, opening)) {
     if (!is_there(piece.body)) continue;
     const auto e = static_cast<std::size_t>(piece.edge);
     auto within = std::optional(piece.facet);
-    if constexpr (dim == 3) within = part_along(std::move(within), opening, stretch);
+    if constexpr (dim == 3) within = part_along(std::move(within), opening, seen.stretch);
+    const Segment edge = section.edge(e);
+    const Vec2 facing = -normalized(perpendicular(edge.end - edge.start));
+    const bool holds_centre = std::abs(dot_product(facing, Vec2(centre - edge.start))) <= tolerance;
     for (std::size_t k = 0; k + 1 < marks[e].size(); ++k) {
       // At the ends of an edge nothing is cut off: a hole may reach behind what lies beside it.
       const bool is_last = k + 2 == marks[e].size();
@@ -110,7 +156,11 @@ template <class Geometry, class IsThere, class Displacement>
       const double measure = piece.seen_measure(outline, *part);
       if (!(measure > 0)) continue;
       const auto place = part->centre();
-      const Vec2 p = outline.in_section(place) - centre;
+      if (std::any_of(seen.later.begin(), seen.later.end(), [&](const auto& later) {
+            return is_on_wall<Geometry>(later, place, facing, tolerance);
+          }))
+        continue;
+      const Vec2 p = holds_centre ? facing : Vec2(outline.in_section(place) - centre);
       const auto moved = displacement(piece.body, place);
       Vec2 u;
       if constexpr (dim == 2)
@@ -126,6 +176,41 @@ template <class Geometry, class IsThere, class Displacement>
   return motion;
 }
 
+template <class Geometry, class IsThere, class Displacement>
+[[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
+                                                     const typename Geometry::Opening& opening,
+                                                     IsThere&& is_there,
+                                                     Displacement&& displacement) {
+  return wall_motion_of<Geometry>(mass, opening, {centre_of(opening)}, is_there, displacement);
+}
+
+/// Of the last opening and those that it is joined to, as far as the last reaches along its axis.
+/// @param stretch  that is looked at, in 3-D along the last
+template <class Geometry, class IsThere, class Displacement>
+[[nodiscard]] std::vector<WallMotion> wall_motion_of_joined(const RockMass<Geometry>& mass,
+                                                            IsThere&& is_there,
+                                                            Displacement&& displacement,
+                                                            const AxisStretch& stretch = {}) {
+  std::vector<WallMotion> motion;
+  auto joined = joined_openings(mass);
+  if (joined.empty()) return motion;
+  WallSeen<Geometry> seen{centre_of(joined)};
+  for (auto opening = joined.begin(); opening != joined.end(); ++opening) {
+    seen.later.assign(opening + 1, joined.end());
+    seen.stretch = stretch;
+    if constexpr (Geometry::dim == 3) {
+      const auto& last = joined.back();
+      const double shift = opening->along(last.axis().origin());
+      seen.stretch = {shift + std::max(stretch.from, last.from()),
+                      shift + std::min(stretch.to, last.to())};
+    }
+    for (const WallMotion& part :
+         wall_motion_of(mass, *opening, seen, is_there, displacement))
+      motion.push_back(part);
+  }
+  return motion;
+}
+
 }  // namespace detail
 
 /// All of the wall of an opening that is not detached. The opening may be the outline of a
@@ -137,11 +222,13 @@ template <class Solver>
       solver.mass(), opening, [&](int b) { return solver.system().body(b).movable; },
       [&](int b, const auto& p) { return solver.displacement_of(b, p); });
 }
-/// Of the last opening; none before one was carved.
+/// Of the last opening and those that it is joined to (`joined_openings`): after the bench the
+/// section that it makes with its heading. None before one was carved.
 template <class Solver>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
-  if (solver.mass().openings.empty()) return {};
-  return wall_motion(solver, solver.mass().openings.back());
+  return detail::wall_motion_of_joined(
+      solver.mass(), [&](int b) { return solver.system().body(b).movable; },
+      [&](int b, const auto& p) { return solver.displacement_of(b, p); });
 }
 /// In 3-D within a stretch of the opening.
 /// @param section  the middle of the stretch along the axis [m]
@@ -152,27 +239,30 @@ requires(Solver::dim == 3)
                                                       const PrismaticOpening& opening,
                                                       double section, double half_length) {
   require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
-  return detail::wall_motion_of(
-      solver.mass(), opening, [&](int b) { return solver.system().body(b).movable; },
-      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); },
-      {section - half_length, section + half_length});
+  return detail::wall_motion_of<typename Solver::Geometry>(
+      solver.mass(), opening,
+      {centre_of(opening), {}, {section - half_length, section + half_length}},
+      [&](int b) { return solver.system().body(b).movable; },
+      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); });
 }
-/// The same of the last opening.
+/// The same of the last opening and those that it is joined to.
 template <class Solver>
 requires(Solver::dim == 3)
     [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver, double section,
                                                       double half_length) {
-  if (solver.mass().openings.empty()) return {};
-  return wall_motion(solver, solver.mass().openings.back(), section, half_length);
+  require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
+  return detail::wall_motion_of_joined(
+      solver.mass(), [&](int b) { return solver.system().body(b).movable; },
+      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); },
+      {section - half_length, section + half_length});
 }
 /// Of rock that moves.
 /// @param mass  from which the run was made
 template <class Geometry, class... Parts>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, Parts...>& run,
                                                   const RockMass<Geometry>& mass) {
-  if (mass.openings.empty()) return {};
-  return detail::wall_motion_of(
-      mass, mass.openings.back(), [&](int b) { return !run.body(b).is_gone; },
+  return detail::wall_motion_of_joined(
+      mass, [&](int b) { return !run.body(b).is_gone; },
       [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });
 }
 
@@ -199,6 +289,22 @@ VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(const SimplePolygon& 
     std::sort(marks[e].begin(), marks[e].end());
   }
   return marks;
+}
+
+VOUSSOIR_INLINE void add_corners_of(const SimplePolygon& other, const SimplePolygon& section,
+                                    double tolerance, std::vector<std::vector<double>>& marks) {
+  for (std::size_t e = 0; e < section.size(); ++e) {
+    const Segment edge = section.edge(e);
+    const Vec2 along = normalized(edge.end - edge.start);
+    for (const Vec2& corner : other.vertices()) {
+      const Vec2 there = corner - edge.start;
+      const double s = dot_product(along, there);
+      if (s > tolerance && s < edge.length() - tolerance &&
+          std::abs(cross(along, there)) <= tolerance)
+        marks[e].push_back(s);
+    }
+    std::sort(marks[e].begin(), marks[e].end());
+  }
 }
 
 }  // namespace detail

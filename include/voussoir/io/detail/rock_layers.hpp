@@ -156,8 +156,6 @@ VOUSSOIR_INLINE void draw_lining(SvgCanvas& canvas, const PictureLining& lining,
   }
   if (inner.size() < 2) return;
   const SvgStyle concrete{.fill = "#9aa3ab", .stroke = "#222"};
-  for (const std::vector<Vec2>& fill : lining.fills)
-    canvas.polygon(on_page(clip_polygon(fill, map.world()), map), {.fill = "#c3c9ce"});
   for (const PictureFoot& foot : lining.feet) {
     if (!foot.place.allFinite() || !foot.direction.allFinite()) continue;
     // From the node at that end, which is half a stretch before it.

@@ -66,7 +66,8 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     return frame;
   };
   canvas.begin_layer("diagrams");
-  if (picture.lining && picture.lining->nodes.size() >= 2) {
+  if (std::any_of(picture.linings.begin(), picture.linings.end(),
+                  [](const PictureLining& lining) { return lining.nodes.size() >= 2; })) {
     LiningDiagram thrust, moment;
     thrust.title = "Lining thrust N [kN/m]";
     thrust.unit = "kN/m";
@@ -77,15 +78,18 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     moment.positive = "outer fibre in tension (+), drawn outside";
     moment.negative = "inner fibre in tension (\u2212), drawn inside";
     // A thrust of no account, and the moment that it has at the edge of the core, t / 6.
-    thrust.negligible = 0.005 * picture.lining->reference_thrust / 1e3;
-    moment.negligible = thrust.negligible * picture.lining->thickness / 6;
-    for (const PictureLiningNode& node : picture.lining->nodes) {
-      thrust.values.push_back(node.thrust / 1e3);
-      moment.values.push_back(node.moment / 1e3);
+    thrust.negligible = 0.005 * picture.reference_thrust / 1e3;
+    for (const PictureLining& lining : picture.linings) {
+      moment.negligible =
+          std::max(moment.negligible, thrust.negligible * lining.thickness / 6);
+      for (const PictureLiningNode& node : lining.nodes) {
+        thrust.values.push_back(node.thrust / 1e3);
+        moment.values.push_back(node.moment / 1e3);
+      }
     }
-    thrust.centre = moment.centre = bounding_rect(picture.outline).value_or(everything).centre();
-    draw_lining_diagram(canvas, next_frame(diagram_height - 9), *picture.lining, thrust);
-    draw_lining_diagram(canvas, next_frame(diagram_height + 9), *picture.lining, moment);
+    thrust.centre = moment.centre = centre_of(picture);
+    draw_lining_diagram(canvas, next_frame(diagram_height - 9), picture.linings, thrust);
+    draw_lining_diagram(canvas, next_frame(diagram_height + 9), picture.linings, moment);
   } else if (!picture.bolts.empty()) {
     draw_bolt_chart(canvas, next_frame(1.25 * diagram_height), picture);
   }

@@ -26,18 +26,19 @@ inline double direction_degrees(const Vec2& from, const Vec2& to) {
   return angle < -0.5 ? angle + 360 : std::abs(angle);
 }
 
-/// One quantity along a lining, drawn across it: positive values outside, negative inside.
+/// One quantity along linings, drawn across them: positive values outside, negative inside.
 struct LiningDiagram {
   std::string title;               ///< with unit
   std::string positive, negative;  ///< what the two sides mean
   std::string unit;                ///< for the scale bar
-  std::vector<double> values;      ///< one a node, in that unit
+  std::vector<double> values;      ///< one a node, lining by lining, in that unit
   double negligible = 0;           ///< this value at least fills the diagram
   Vec2 centre = zeros<Vec2>();     ///< of the opening, from which directions are counted [m]
 };
 
 VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
-                                         const PictureLining& lining, const LiningDiagram& diagram);
+                                         const std::vector<PictureLining>& linings,
+                                         const LiningDiagram& diagram);
 
 /// Greatest force of each bolt over the direction of its head.
 VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
@@ -46,18 +47,24 @@ VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& frame,
-                                         const PictureLining& lining,
+                                         const std::vector<PictureLining>& linings,
                                          const LiningDiagram& diagram) {
   std::vector<Vec2> axis, normals;
   std::vector<double> values;
-  for (std::size_t i = 0; i < lining.nodes.size(); ++i) {
-    const PictureLiningNode& node = lining.nodes[i];
-    if (!node.point.allFinite() || !node.outward_normal.allFinite()) continue;
-    if (!std::isfinite(diagram.values[i])) continue;
-    axis.push_back(node.point);
-    normals.push_back(node.outward_normal);
-    values.push_back(diagram.values[i]);
+  std::vector<std::size_t> begins;  // of every lining in these
+  std::size_t given = 0;
+  for (const PictureLining& lining : linings) {
+    begins.push_back(axis.size());
+    for (const PictureLiningNode& node : lining.nodes) {
+      const double value = diagram.values[given++];
+      if (!node.point.allFinite() || !node.outward_normal.allFinite()) continue;
+      if (!std::isfinite(value)) continue;
+      axis.push_back(node.point);
+      normals.push_back(node.outward_normal);
+      values.push_back(value);
+    }
   }
+  begins.push_back(axis.size());
   canvas.text({frame.low.x(), frame.low.y() + 13}, diagram.title, {.size = 14.5, .bold = true});
   if (axis.size() < 2) {
     canvas.text(frame.centre(), "no values", {.anchor = TextAnchor::middle});
@@ -82,11 +89,9 @@ VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& fram
   };
 
   SvgPath fill[2], bars[2], edge[2];  // 0 positive, 1 negative
-  const std::size_t count = axis.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto draw_from = [&](std::size_t i, std::size_t next, bool is_joined) {
     bars[values[i] < 0 ? 1 : 0].add_line(map(axis[i]), end_of(i, values[i]));
-    const std::size_t next = (i + 1) % count;
-    if (next == 0 && !lining.is_ring) break;
+    if (!is_joined) return;
     const double v = values[i], w = values[next];
     for (const int side : {0, 1}) {  // the part of each sign, which ends where the value is zero
       const double sign = side == 0 ? 1 : -1;
@@ -100,6 +105,20 @@ VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& fram
       fill[side].add_polygon(part);
       edge[side].add_line(top_a, top_b);
     }
+  };
+  SvgPath ring;
+  for (std::size_t k = 0; k < linings.size(); ++k) {
+    const std::size_t begin = begins[k], end = begins[k + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool is_last = i + 1 == end;
+      draw_from(i, is_last ? begin : i + 1, !is_last || linings[k].is_ring);
+    }
+    const std::vector<Vec2> line = on_page(
+        {axis.begin() + static_cast<std::ptrdiff_t>(begin),
+         axis.begin() + static_cast<std::ptrdiff_t>(end)},
+        map);
+    if (line.size() >= 2)
+      linings[k].is_ring ? ring.add_polygon(line) : ring.add_polyline(line);
   }
   const char* colours[] = {positive_colour, negative_colour};
   for (const int side : {0, 1}) {
@@ -107,8 +126,6 @@ VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& fram
     canvas.path(bars[side], {.stroke = colours[side], .stroke_width = 0.8});
     canvas.path(edge[side], {.stroke = colours[side], .stroke_width = 1.8, .round_ends = true});
   }
-  SvgPath ring;
-  lining.is_ring ? ring.add_polygon(on_page(axis, map)) : ring.add_polyline(on_page(axis, map));
   canvas.path(ring, {.stroke = "#222", .stroke_width = 1.6});
 
   // The extremes: marked on the curve, their numbers below, where nothing can cover them.
@@ -158,9 +175,9 @@ VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& fram
 VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
                                      const BlocksPicture& picture) {
   std::vector<std::pair<double, const PictureBolt*>> bars;
-  const ViewRect opening = bounding_rect(picture.outline).value_or(view_of_everything(picture));
+  const Vec2 centre = centre_of(picture);
   for (const PictureBolt& bolt : picture.bolts) {
-    if (is_drawable(bolt)) bars.emplace_back(direction_degrees(opening.centre(), bolt.head), &bolt);
+    if (is_drawable(bolt)) bars.emplace_back(direction_degrees(centre, bolt.head), &bolt);
   }
   canvas.text({frame.low.x(), frame.low.y() + 13}, "Greatest force in each bolt [kN]",
               {.size = 14.5, .bold = true});
@@ -210,7 +227,7 @@ VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
               {.anchor = TextAnchor::middle});
   canvas.text(frame.low + Vec2(0, 32),
               "max " + readable_text(max_force(*highest) / 1e3) + " kN at " +
-                  fixed_text(direction_degrees(opening.centre(), highest->head), 0) +
+                  fixed_text(direction_degrees(centre, highest->head), 0) +
                   "°; tension positive");
 }
 

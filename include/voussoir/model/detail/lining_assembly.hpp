@@ -82,10 +82,13 @@ class LiningAssembly {
     std::vector<LiningFootSpring<dim>> springs;
     std::vector<Vec<dim>> hanging;
     if (feet) springs = feet_of(wanted, frame, *feet, first_node_, hanging);
-    add_nodes(frame, node_shares(frame, sections), standing);
+    const std::vector<LiningNodeShare> shares = node_shares(frame, sections);
+    leave_out_feet_before(wanted);
+    add_nodes(frame, shares, standing);
     add_members(frame, sections, standing);
     if (feet) add_feet(*feet, std::move(springs));
     add_surface(frame, sections, interface_law, std::move(free));
+    system_.linings.back().hanging_ends = hanging;
     return hanging;
   }
 
@@ -108,6 +111,20 @@ class LiningAssembly {
             dot_product(other.direction, end.direction) < 0.5)
           return lining.first + other.node;
     return -1;
+  }
+
+  /// Takes out the feet of the ends that go on in the new lining, which has to carry what they bore.
+  void leave_out_feet_before(const LiningFrame<Geometry>& wanted) {
+    for (const LiningEnd<Geometry>& end : wanted.ends) {
+      const Vec<dim>& place = wanted.neighbours[static_cast<std::size_t>(end.neighbour)];
+      for (const int node : {standing_node(wanted.nodes[static_cast<std::size_t>(end.node)]),
+                             standing_node(place), node_before({end.node, place, end.direction})}) {
+        if (node < 0) continue;
+        for (const auto& support : system_.supports)
+          if (auto* feet = dynamic_cast<LiningFeet<dim>*>(support.get()))
+            feet->leave_out(node, end.direction);
+      }
+    }
   }
 
   /// @param shares    of the new nodes, then of those that stand
