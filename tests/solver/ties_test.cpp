@@ -221,14 +221,13 @@ Tables tables_of(const Made& tunnel, const EquilibriumReport& report,
                             {"measure", tunnel.mass().carving.dropped_measure}});
   tables["fallen"] = rows({{"blocks", static_cast<double>(tunnel.fallen().size())},
                            {"measure", report.fallen_measure}});
-  tables["spacing"] = rows(
-      {{"joint spacing",
-        radial_spacing(tunnel.mass(), centre_of(tunnel.mass().openings.back()), 2, 4)}});
+  tables["spacing"] =
+      rows({{"joint spacing",
+             radial_spacing(tunnel.mass(), centre_of(tunnel.mass().openings.back()), 2, 4)}});
   tables["intensity"] = rows({{"P21", joint_intensity(tunnel.mass())}});
   const BlockSizeCurve curve(tunnel.mass());
-  tables["size curve"] = rows({{"V20", curve.size_at(0.2)},
-                               {"V50", curve.size_at(0.5)},
-                               {"V80", curve.size_at(0.8)}});
+  tables["size curve"] =
+      rows({{"V20", curve.size_at(0.2)}, {"V50", curve.size_at(0.5)}, {"V80", curve.size_at(0.8)}});
   tables["bolts"] = bolt_table(bolt_forces(tunnel), bars, 2e5);
   tables["lining"] = lining_table(lining_forces(tunnel));
   CsvTable feet({"x_m", "y_m", "bearing_kN", "shear_kN", "of_its_strength", "settlement_mm"}, 10);
@@ -245,15 +244,14 @@ Tables answer(const Drawn& d, const Image& image) {
   const bool is_mirrored = image.map.turn(0, 0) < 0;
   const SimplePolygon opening = moved(d.opening, image.map);
   const Domain<2> ground = image.map(d.ground);
-  const MappedJoints joints =
-      mapped_joints(traces_of(d, image), ground, {.snap = 0.05, .dead_ends = DeadEnds::cut_through});
+  const MappedJoints joints = mapped_joints(traces_of(d, image), ground,
+                                            {.snap = 0.05, .dead_ends = DeadEnds::cut_through});
   MappedRock rock = slice_mapped(ground, joints, {}, {0.1}, {opening});
   FarField<2> field;
   if (d.is_on_elastic_ground) field = FarField<2>::elastic(elastic_matrix<2>({2e9, 0.25}));
-  TunnelBy<Method> tunnel(std::move(rock.mass),
-                          LawsBySet<CoulombJoint>(CoulombJoint({5e9, 5e8, d.friction * degree})),
-                          {.density = 2700, .k0 = 0.8, .surcharge = 3e5}, opening, of_the_rock, {},
-                          field);
+  TunnelBy<Method> tunnel(
+      std::move(rock.mass), LawsBySet<CoulombJoint>(CoulombJoint({5e9, 5e8, d.friction * degree})),
+      {.density = 2700, .k0 = 0.8, .surcharge = 3e5}, opening, of_the_rock, {}, field);
   std::vector<Segment> bars;
   if (d.has_bolts) {
     bars = bolt_bars({.length = 2, .angular_spacing = 25 * degree}, opening);
@@ -272,9 +270,8 @@ Tables answer(const Drawn& d, const Image& image) {
     tunnel.install_lining(lining_frame(tunnel.mass(), ring), LiningSection::rectangular(0.1, 25e9),
                           interface_law, feet);
   }
-  const EquilibriumReport report =
-      tunnel.equilibrium(0, patient<Method>(),
-                         {.error_estimate = 1e-12, .unbalance_over_weight = 1e-8});
+  const EquilibriumReport report = tunnel.equilibrium(
+      0, patient<Method>(), {.error_estimate = 1e-12, .unbalance_over_weight = 1e-8});
   return tables_of(tunnel, report, bars, is_mirrored);
 }
 

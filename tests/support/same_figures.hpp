@@ -139,7 +139,8 @@ struct WorstFigure {
       if (is_mirrored && column == "shear_kN_per_m") v = -v;  // V changes its sign
       const double difference = std::abs(v - w);
       // A thousandth of a millimetre is next to nothing, too: what plastic slips of 1e-17 mm are.
-      const double least = column.ends_with("_mm") ? std::max(floor * largest, 1e-3) : floor * largest;
+      const double least =
+          column.ends_with("_mm") ? std::max(floor * largest, 1e-3) : floor * largest;
       if (difference > 0) worst.take(difference / std::max(std::abs(v), least), where);
     }
   }
