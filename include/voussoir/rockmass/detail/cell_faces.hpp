@@ -213,7 +213,9 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
     std::map<std::size_t, Share> beyond;
     for (const std::size_t k : blocks[b].sides) {
       const Portion& p = portions_[k];
-      if (body(p.below) == body(p.above) || p.stretch != least) continue;
+      // What was drawn on before and behind a joint counts alike.
+      if (body(p.below) == body(p.above) || p.stretch == none || counts_less(least, p.stretch))
+        continue;
       Share& share = beyond[body(p.below) == b ? body(p.above) : body(p.below)];
       const double length = p.to - p.from;
       share.length += length;
