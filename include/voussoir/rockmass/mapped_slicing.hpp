@@ -163,8 +163,7 @@ class MappedSlicer {
     for (std::size_t c = 0; c < cells.size(); ++c) body[c] = faces.body(c);
     std::vector<bool> is_seam;
     for (const Cut& cut : made_.cuts) is_seam.push_back(cut.kind == Cut::Kind::seam);
-    const std::vector<std::size_t> into =
-        join_cells(cells, body, is_seam, domain_.tolerance(), stop_);
+    const std::vector<std::size_t> into = join_cells(cells, body, is_seam, domain_, stop_);
     std::vector<std::size_t> number(cells.size());  // of the part that a cell has become
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (into[c] != c) continue;

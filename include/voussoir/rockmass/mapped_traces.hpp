@@ -13,6 +13,7 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/segment.hpp>
+#include <voussoir/rockmass/detail/place_order.hpp>
 #include <voussoir/rockmass/detail/segment_grid.hpp>
 #include <voussoir/rockmass/detail/trace_chains.hpp>
 #include <voussoir/rockmass/domain.hpp>
@@ -64,7 +65,9 @@ struct MappedJoints {
 /// 1. Points that repeat are dropped. Traces of one set that touch end to end, and go on in nearly
 ///    the same direction, are one.
 /// 2. Points that lie within a tenth of `rule.snap` of the line without them are left out.
-/// 3. Order: the longest first, then by the place of the lower left end, to a micrometre.
+/// 3. Order: the longest first, then by the place of its first end, to a micrometre: the lower,
+/// then
+///    the one nearer to the middle of the domain, then the left one.
 /// 4. A trace that runs within `rule.snap` of a longer one all along is left out.
 /// 5. Every end is drawn on by `rule.snap`, so that it meets what it ends close to, or is joined to
 ///    the joint beside it; what is too long by that parts nothing (see `slice`). With
@@ -238,10 +241,11 @@ VOUSSOIR_INLINE MappedJoints mapped_joints(std::vector<MappedTrace> traces, cons
                  points.end());
   }
   std::erase_if(traces, [](const MappedTrace& trace) { return trace.points.size() < 2; });
-  const auto key_of = [](const MappedTrace& trace) {
+  const detail::PlaceOrder order(domain);
+  const auto key_of = [&](const MappedTrace& trace) {
     return std::tuple(-detail::to_micrometre(detail::length_of_trace(trace.points)),
-                      detail::place_of(trace.points.front()), detail::place_of(trace.points.back()),
-                      trace.set, trace.points.size());
+                      order(trace.points.front()), order(trace.points.back()), trace.set,
+                      trace.points.size());
   };
   const auto in_order = [&](std::vector<MappedTrace>& all) {
     std::vector<std::pair<decltype(key_of(all.front())), std::size_t>> keys;
@@ -252,20 +256,20 @@ VOUSSOIR_INLINE MappedJoints mapped_joints(std::vector<MappedTrace> traces, cons
       return std::lexicographical_compare(
           all[a.second].points.begin(), all[a.second].points.end(), all[b.second].points.begin(),
           all[b.second].points.end(),
-          [](const Vec2& p, const Vec2& q) { return detail::place_of(p) < detail::place_of(q); });
+          [&](const Vec2& p, const Vec2& q) { return order(p) < order(q); });
     });
     std::vector<MappedTrace> sorted;
     sorted.reserve(all.size());
     for (const auto& [key, k] : keys) sorted.push_back(std::move(all[k]));
     all = std::move(sorted);
   };
-  for (MappedTrace& trace : traces) detail::direct(trace.points);
+  for (MappedTrace& trace : traces) detail::direct(trace.points, order);
   in_order(traces);  // so that of ends that are equally straight on the same are joined
   traces = detail::ChainOfTraces(traces, 0.2 * rule.straightness()).joined();
   // 2. and 3.
   for (MappedTrace& trace : traces) {
     stop();
-    detail::direct(trace.points);
+    detail::direct(trace.points, order);
     detail::simplify(trace.points, rule.straightness());
   }
   in_order(traces);

@@ -15,6 +15,7 @@
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/detail/connected_parts.hpp>
+#include <voussoir/rockmass/detail/segment_grid.hpp>
 #include <voussoir/rockmass/opening_box.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/rockmass/wall_outline.hpp>
@@ -42,6 +43,9 @@ struct WallPiece {
                                     const typename Geometry::Facet& part) const {
     if (hole < 0) return part.measure();
     const auto e = static_cast<std::size_t>(edge);
+    // In 2-D it is that of its parts together, however it is divided.
+    if constexpr (Geometry::dim == 2)
+      return std::max(0.0, outline.place(e, part.end) - outline.place(e, part.start));
     const double seen = dot_product(part.area_vector(),
                                     outline.in_space<Geometry::dim>(outline.within(e, 0)).normal);
     return std::max(0.0, seen) /
@@ -152,6 +156,7 @@ class WallFinder {
     for (const auto& group : connected_groups(dropped, all_connect, tolerance_))
       add_holes(group, number++);
     if (!faces_.empty()) add_faces_of_holes();
+    if constexpr (dim == 2) join_faces_of_holes();
     sort();
     return std::move(wall_);
   }
@@ -261,6 +266,44 @@ class WallFinder {
     const double depth = outline_.depth(e, outline_.in_section(facet->centre()));
     wall_.pieces.push_back({body, std::move(*facet), static_cast<int>(e), outline_.start(e) + from,
                             outline_.start(e) + to, std::max(0.0, depth), static_cast<int>(hole)});
+  }
+
+  /// Makes one of what lies in line: into which convex parts carving has divided blocks and what
+  /// was dropped, which differs in the mirror, is no matter of the wall.
+  void join_faces_of_holes() {
+    std::vector<WallPiece<Geometry>> joined;
+    const auto group = [&](const WallPiece<Geometry>& piece) {
+      return wall_.holes[static_cast<std::size_t>(piece.hole)].group;
+    };
+    const auto meet = [&](const Vec2& a, const Vec2& b) {
+      return length_of(a - b) <= 2 * tolerance_;
+    };
+    for (WallPiece<Geometry>& piece : wall_.pieces) {
+      for (std::size_t k = 0; piece.hole >= 0 && k < joined.size();) {
+        const WallPiece<Geometry>& other = joined[k];
+        const Segment &a = other.facet, &b = piece.facet;
+        const bool is_before = meet(a.end, b.start), is_after = meet(b.end, a.start);
+        const Segment both = is_before ? Segment{a.start, b.end} : Segment{b.start, a.end};
+        const bool is_one = other.hole >= 0 && other.body == piece.body &&
+                            other.edge == piece.edge && group(other) == group(piece) &&
+                            is_before != is_after &&
+                            length_of(nearest_on(both, is_before ? a.end : a.start) -
+                                      (is_before ? a.end : a.start)) <= 2 * tolerance_;
+        if (!is_one) {
+          ++k;
+          continue;
+        }
+        const auto e = static_cast<std::size_t>(piece.edge);
+        piece.facet = both;
+        piece.from = std::min(piece.from, other.from);
+        piece.to = std::max(piece.to, other.to);
+        piece.depth = std::max(0.0, outline_.depth(e, outline_.in_section(both.centre())));
+        joined.erase(joined.begin() + static_cast<std::ptrdiff_t>(k));
+        k = 0;
+      }
+      joined.push_back(std::move(piece));
+    }
+    wall_.pieces = std::move(joined);
   }
 
   /// Along the outline; in 3-D edge by edge, as they were found.

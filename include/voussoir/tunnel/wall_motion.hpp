@@ -284,7 +284,8 @@ VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(const SimplePolygon& 
          ++k) {
       const Vec2 ray(elementary::cosine(k * between), elementary::sine(k * between));
       const double t = -cross(ray, a) / cross(ray, along);
-      if (t > 0 && t < 1) marks[e].push_back(t * edge.length());
+      // A ray through a corner, as of many a circle, divides neither of its edges.
+      if (t > 1e-9 && t < 1 - 1e-9) marks[e].push_back(t * edge.length());
     }
     std::sort(marks[e].begin(), marks[e].end());
   }

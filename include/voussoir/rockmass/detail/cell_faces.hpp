@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <queue>
@@ -16,6 +18,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/detail/cell_tree.hpp>
 #include <voussoir/rockmass/detail/circle_between.hpp>
+#include <voussoir/rockmass/detail/place_order.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 
 namespace voussoir::detail {
@@ -66,7 +69,8 @@ class CellFaces {
   }
 
   /// Unites blocks in which no circle of this radius fits with the neighbour beyond the joint that
-  /// counts least: what was drawn on, then the shortest.
+  /// counts least: what was drawn on, then the shortest. Of several beyond one joint it is the one
+  /// that shares most of it.
   /// @return  number of blocks united
   std::size_t remove_smaller_than(double radius);
 
@@ -95,7 +99,6 @@ class CellFaces {
     if (first.is_real != second.is_real) return !first.is_real;
     return first.piece > second.piece;
   }
-
   void make_portions() {
     std::vector<double> ends;
     for (const CellTree::Touch& touch : tree_.touches()) {
@@ -146,6 +149,7 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
   const auto& cells = tree_.cells();
   struct Block {
     double area = 0;
+    Vec2 moment = zeros<Vec2>();            ///< area times centroid [m^3]
     bool is_large = false;                  ///< a circle fits in one of its cells
     std::vector<std::size_t> cells, sides;  ///< the latter: portions of joints
   };
@@ -153,7 +157,9 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     stop_();
     Block& block = blocks[body(c)];
-    block.area += mass_properties(cells[c]).measure;
+    const auto properties = mass_properties(cells[c]);
+    block.area += properties.measure;
+    block.moment += properties.measure * properties.centroid;
     block.is_large =
         block.is_large || fits(cells[c], {.min_inscribed_radius = radius}) == Fit::good;
     block.cells.push_back(c);
@@ -176,29 +182,53 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
         sides.push_back({portions_[k].from_end, portions_[k].to_end});
     return holds_circle(of_block, sides, radius);
   };
-  // The smallest first: it is most surely none. Of one size to ten digits, by number.
-  using Entry = std::tuple<double, std::size_t>;
+  // The smallest first: it is most surely none. Of one size, to a square millimetre, by place.
+  const PlaceOrder order(tree_.domain());
+  using Entry = std::tuple<double, PlaceOrder::Key, std::size_t, double>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> small;
   const auto consider = [&](std::size_t b) {
-    if (!is_good(blocks[b])) small.emplace(blocks[b].area, b);
+    const double area = blocks[b].area;
+    if (!is_good(blocks[b]))
+      small.emplace(std::round(1e6 * area), order(blocks[b].moment / area), b, area);
   };
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].cells.empty()) consider(b);
   std::size_t united = 0;
   while (!small.empty()) {
     stop_();
-    const auto [area, b] = small.top();
+    const auto [size, place, b, area] = small.top();
     small.pop();
     if (body(b) != b || area != blocks[b].area) continue;  // it has grown since
-    std::size_t least = none;
+    std::size_t least = none;                              // a joint
     for (const std::size_t k : blocks[b].sides) {
       const Portion& p = portions_[k];
       if (body(p.below) == body(p.above) || p.stretch == none) continue;
-      if (least == none || counts_less(p.stretch, portions_[least].stretch)) least = k;
+      if (least == none || counts_less(p.stretch, least)) least = p.stretch;
     }
     if (least == none) continue;  // the whole domain
-    const std::size_t other = body(portions_[least].below) == b ? body(portions_[least].above)
-                                                                : body(portions_[least].below);
+    struct Share {
+      double length = 0;
+      Vec2 moment = zeros<Vec2>();  ///< length times centre [m^2]
+    };
+    std::map<std::size_t, Share> beyond;
+    for (const std::size_t k : blocks[b].sides) {
+      const Portion& p = portions_[k];
+      // What was drawn on before and behind a joint counts alike.
+      if (body(p.below) == body(p.above) || p.stretch == none || counts_less(least, p.stretch))
+        continue;
+      Share& share = beyond[body(p.below) == b ? body(p.above) : body(p.below)];
+      const double length = p.to - p.from;
+      share.length += length;
+      share.moment += 0.5 * length * (p.from_end + p.to_end);
+    }
+    const auto key = [&](const std::pair<const std::size_t, Share>& neighbour) {
+      const auto& [length, moment] = neighbour.second;
+      return std::pair(-to_micrometre(length), order(moment / length));
+    };
+    const std::size_t other =
+        std::min_element(beyond.begin(), beyond.end(), [&](const auto& x, const auto& y) {
+          return key(x) < key(y);
+        })->first;
     for (const std::size_t k : blocks[b].sides) {
       Portion& p = portions_[k];
       if ((body(p.below) == b && body(p.above) == other) ||
@@ -210,6 +240,7 @@ VOUSSOIR_INLINE std::size_t CellFaces::remove_smaller_than(double radius) {
     const std::size_t into = body(b), from = into == b ? other : b;
     Block &kept = blocks[into], &gone = blocks[from];
     kept.area += gone.area;
+    kept.moment += gone.moment;
     kept.is_large = kept.is_large || gone.is_large;
     if (kept.cells.size() < gone.cells.size()) kept.cells.swap(gone.cells);
     if (kept.sides.size() < gone.sides.size()) kept.sides.swap(gone.sides);

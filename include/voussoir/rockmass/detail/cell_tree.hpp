@@ -151,6 +151,7 @@ class CellTree {
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
   [[nodiscard]] const std::vector<Cut>& cuts() const { return cuts_; }
   [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
+  [[nodiscard]] const Domain<2>& domain() const { return domain_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
   static constexpr int first_label = 4;  ///< below it: sides of the domain

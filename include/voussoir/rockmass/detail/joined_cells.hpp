@@ -12,20 +12,22 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/convex_polygon.hpp>
+#include <voussoir/rockmass/detail/place_order.hpp>
+#include <voussoir/rockmass/domain.hpp>
 
 namespace voussoir::detail {
 
 /// Joins convex cells of one block across seams where what comes of it is convex: the longest seams
-/// first. Corners in the middle of a straight face are left out.
+/// first, of equals by `PlaceOrder`. Corners in the middle of a straight face are left out.
 ///
 /// @param cells    with shared corners the same, bit for bit; those that went into others are empty
 /// @param body     of every cell
 /// @param is_seam  of every label
-/// @param tolerance  of what is straight [m]
+/// @param domain   its tolerance is that of what is straight
 /// @return  for every cell, the one that it went into
 [[nodiscard]] VOUSSOIR_INLINE std::vector<std::size_t> join_cells(
     std::vector<ConvexPolygon>& cells, const std::vector<std::size_t>& body,
-    const std::vector<bool>& is_seam, double tolerance, StopCheck& stop);
+    const std::vector<bool>& is_seam, const Domain<2>& domain, StopCheck& stop);
 
 #if VOUSSOIR_BODIES
 
@@ -43,7 +45,9 @@ VOUSSOIR_INLINE void straighten(std::vector<Vec2>& corners, std::vector<int>& la
 VOUSSOIR_INLINE std::vector<std::size_t> join_cells(std::vector<ConvexPolygon>& cells,
                                                     const std::vector<std::size_t>& body,
                                                     const std::vector<bool>& is_seam,
-                                                    double tolerance, StopCheck& stop) {
+                                                    const Domain<2>& domain, StopCheck& stop) {
+  const double tolerance = domain.tolerance();
+  const PlaceOrder order(domain);
   struct Part {
     std::vector<Vec2> corners;
     std::vector<int> labels;
@@ -102,16 +106,17 @@ VOUSSOIR_INLINE std::vector<std::size_t> join_cells(std::vector<ConvexPolygon>& 
       for (std::size_t k = 0; k < parts[c].corners.size(); ++k)
         if (is_seam[static_cast<std::size_t>(parts[c].labels[k])])
           edges.emplace(edge_of(c, k), std::pair(c, k));
-    std::vector<std::tuple<double, Edge, Edge>> seams;
+    std::vector<std::tuple<double, PlaceOrder::Key, Edge, Edge>> seams;
     for (const auto& [edge, place] : edges) {
       const auto& [b, ax, ay, bx, by] = edge;
       const Edge back(b, bx, by, ax, ay);
       if (edges.contains(back) && edge < back)
-        seams.emplace_back(-std::hypot(bx - ax, by - ay), edge, back);
+        seams.emplace_back(-to_micrometre(std::hypot(bx - ax, by - ay)),
+                           order(0.5 * Vec2(ax + bx, ay + by)), edge, back);
     }
     std::sort(seams.begin(), seams.end());
     std::vector<char> is_touched(parts.size(), 0);
-    for (const auto& [length, edge, back] : seams) {
+    for (const auto& [length, place, edge, back] : seams) {
       stop();
       const auto [a, i] = edges.at(edge);
       const auto [b, j] = edges.at(back);

@@ -10,6 +10,7 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/rockmass/detail/place_order.hpp>
 #include <voussoir/rockmass/detail/segment_grid.hpp>
 #include <voussoir/rockmass/mapped_trace.hpp>
 
@@ -17,34 +18,27 @@ namespace voussoir::detail {
 
 #if VOUSSOIR_BODIES
 
-/// A place to a micrometre, to be compared: what was computed on another site grid differs in
-/// digits beyond.
-using Place = std::pair<double, double>;
-[[nodiscard]] inline double to_micrometre(double x) { return std::round(1e6 * x); }
-[[nodiscard]] inline Place place_of(const Vec2& p) {
-  return {to_micrometre(p.x()), to_micrometre(p.y())};
-}
-
 [[nodiscard]] inline double length_of_trace(const std::vector<Vec2>& points) {
   double length = 0;
   for (std::size_t k = 1; k < points.size(); ++k) length += length_of(points[k] - points[k - 1]);
   return length;
 }
 
-/// Drawn from its lower left end; one that is closed, from its lowest left point.
-VOUSSOIR_INLINE void direct(std::vector<Vec2>& points) {
+/// Drawn from that of its ends which comes first in `order`; one that is closed, from that of its
+/// points, towards that of the two beside it.
+VOUSSOIR_INLINE void direct(std::vector<Vec2>& points, const PlaceOrder& order) {
   const auto reverse_if = [&](bool is_backwards) {
     if (is_backwards) std::reverse(points.begin(), points.end());
   };
   if (place_of(points.front()) != place_of(points.back()))
-    return reverse_if(place_of(points.back()) < place_of(points.front()));
+    return reverse_if(order(points.back()) < order(points.front()));
   points.pop_back();
   const auto first =
       std::min_element(points.begin(), points.end(),
-                       [](const Vec2& a, const Vec2& b) { return place_of(a) < place_of(b); });
+                       [&](const Vec2& a, const Vec2& b) { return order(a) < order(b); });
   std::rotate(points.begin(), first, points.end());
   points.push_back(points.front());
-  reverse_if(place_of(points[points.size() - 2]) < place_of(points[1]));
+  reverse_if(order(points[points.size() - 2]) < order(points[1]));
 }
 
 /// Leaves out points that lie within `tolerance` of the line without them.

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// Tunnels whose joints end on corners and lie on planes of symmetry, so that roundings would have a
+// word wherever something is chosen: moved by a nanometre, to another site grid, mirrored, their
+// traces in pieces. Every figure of every table must stay.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/core/random.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/io/tunnel_tables.hpp>
+#include <voussoir/rockmass/mapped_slicing.hpp>
+#include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/solver/solver.hpp>
+#include <voussoir/tunnel/bolt_pattern.hpp>
+#include <voussoir/tunnel/lining_ring.hpp>
+#include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/support_demand.hpp>
+
+#include "support/degree.hpp"
+#include "support/same_figures.hpp"
+#include "support/transformed.hpp"
+
+namespace ties_test {
+
+using namespace voussoir;
+using namespace voussoir_test;
+
+namespace {
+
+/// What is drawn by a seed, about the origin.
+struct Drawn {
+  SimplePolygon opening;
+  Domain<2> ground;
+  std::vector<MappedTrace> traces;
+  bool has_bolts = false;
+  int lining = 0;  ///< 1: all round, 2: an arch on feet
+  bool is_on_elastic_ground = false;
+  double friction = 0;  ///< [degrees]
+};
+
+SimplePolygon box(double width, double floor, double roof) {
+  const double x = 0.5 * width;
+  return SimplePolygon({{x, floor}, {x, roof}, {-x, roof}, {-x, floor}});
+}
+
+SimplePolygon outline(Random& random) {
+  switch (random.below(5)) {
+    case 0:
+      return circular_opening(4, 24);
+    case 1:
+      return circular_opening(4, 36);
+    case 2:
+      return horseshoe_opening(4, 1.5, 24);
+    case 3:
+      return box(4, -1.5, 1.5);
+    default:  // with a sloping roof
+      return SimplePolygon({{2, -1.5}, {2, 1}, {-2, 2}, {-2, -1.5}});
+  }
+}
+
+MappedTrace trace(const Vec2& from, const Vec2& to, int set) { return {{from, to}, set}; }
+
+/// Beds at even distances, one of them through the springing, the roof or between; courses of
+/// upright joints that end on them, a line in the middle.
+void add_beds(Random& random, std::vector<MappedTrace>& traces) {
+  const double distance = std::array{1.0, 1.5, 2.0}[random.below(3)],
+               width = std::array{1.0, 2.0}[random.below(2)];
+  const double shift = random.below(2) == 0 ? 0 : 0.5 * distance;
+  const bool is_staggered = random.below(2) == 0;
+  for (int k = -9; k <= 9; ++k) {
+    const double y = shift + distance * k;
+    traces.push_back(trace({-12, y}, {12, y}, 0));
+    const double from = is_staggered && k % 2 != 0 ? 0.5 * width : 0;
+    for (int i = -8; i <= 8; ++i)
+      traces.push_back(trace({from + width * i, y}, {from + width * i, y + distance}, 1));
+  }
+}
+/// Two sets of endless joints that are each other's image.
+void add_wedges(Random& random, std::vector<MappedTrace>& traces) {
+  const double dip = std::array{30.0, 45.0, 60.0}[random.below(3)] * degree, distance = 1.5;
+  const double shift = random.below(2) == 0 ? 0 : 0.5 * distance;
+  for (const double side : {-1.0, 1.0})
+    for (int k = -8; k <= 8; ++k) {
+      const Vec2 along(std::cos(dip), side * std::sin(dip)), across(-along.y(), along.x());
+      const Vec2 middle = side * (shift + distance * k) * across;
+      traces.push_back(trace(middle - 20 * along, middle + 20 * along, side < 0 ? 0 : 1));
+    }
+}
+/// Nothing of it is even; traces end anywhere.
+void add_scattered(Random& random, std::vector<MappedTrace>& traces) {
+  for (int k = 0; k < 90; ++k) {
+    const int set = static_cast<int>(random.below(3));
+    const double turn = (std::array{5.0, 65.0, 120.0}[static_cast<std::size_t>(set)] +
+                         6 * (random.uniform() - 0.5)) *
+                        degree;
+    const Vec2 along(std::cos(turn), std::sin(turn)),
+        middle(16 * (random.uniform() - 0.5), 14 * (random.uniform() - 0.5));
+    const double half = 1 + 3 * random.uniform();
+    traces.push_back(trace(middle - half * along, middle + half * along, set));
+  }
+}
+
+Drawn drawn(std::uint64_t seed) {
+  Random random(seed, 40);
+  Drawn d{outline(random), {}, {}};
+  d.ground = domain_around(d.opening, 16, 5, 4);
+  switch (random.below(3)) {
+    case 0:
+      add_beds(random, d.traces);
+      break;
+    case 1:
+      add_wedges(random, d.traces);
+      break;
+    default:
+      add_scattered(random, d.traces);
+  }
+  d.has_bolts = random.below(2) == 0;
+  d.lining = static_cast<int>(random.below(3));
+  d.is_on_elastic_ground = random.below(2) == 0;
+  d.friction = std::array{35.0, 45.0, 60.0}[random.below(3)];
+  return d;
+}
+
+/// How a problem is given anew: moved, its joints by a little more, its traces in pieces.
+struct Image {
+  const char* name;
+  Transform<2> map = {};
+  /// Of the first answer; angles count from the origin where it lies in the opening, else from the
+  /// centroid, so what is moved away is compared with what lies beside it.
+  Transform<2> from = {};
+  Vec2 joints = zeros<Vec2>();  ///< of joints alone [m]
+  bool in_pieces = false;
+};
+
+std::vector<MappedTrace> traces_of(const Drawn& d, const Image& image) {
+  std::vector<MappedTrace> traces;
+  for (const MappedTrace& whole : d.traces) {
+    const Vec2 from = image.map(whole.points.front()) + image.joints,
+               to = image.map(whole.points.back()) + image.joints;
+    if (!image.in_pieces) {
+      traces.push_back({{from, to}, whole.set});
+      continue;
+    }
+    // Some as polylines, some as traces of their own, turned; the last comes first.
+    const Vec2 third = from + (to - from) / 3, half = from + 0.5 * (to - from);
+    if (traces.size() % 2 == 0)
+      traces.push_back({{to, half, third, from}, whole.set});
+    else
+      for (const auto& [a, b] :
+           {std::pair(from, third), std::pair(half, third), std::pair(half, to)})
+        traces.push_back({{a, b}, whole.set});
+  }
+  if (image.in_pieces) std::reverse(traces.begin(), traces.end());
+  return traces;
+}
+
+const CoulombJoint interface_law({1e10, 1e10, 35 * degree});
+const AxialBolt bolt({.axial_stiffness = 2e8, .yield_force = 1.5e5});
+
+template <class Method>
+using TunnelBy = Solver<CoulombJoint, AxialBolt, Method>;
+
+/// What is asked of a procedure; the tightest that it reaches.
+template <class Method>
+Method patient() {
+  if constexpr (std::is_same_v<Method, TwoLevel>) {
+    TwoLevel::Params params;
+    params.max_bursts = 60;
+    return TwoLevel(params);
+  } else if constexpr (std::is_same_v<Method, Relaxation>) {
+    return Relaxation(Relaxation::Params{.max_steps = 600000});
+  } else {
+    return Explicit(Explicit::Params{.max_steps = 600000});
+  }
+}
+
+/// Every table, by its name.
+using Tables = std::map<std::string, std::string>;
+
+template <class Made>
+Tables tables_of(const Made& tunnel, const EquilibriumReport& report,
+                 const std::vector<Segment>& bars, bool is_mirrored) {
+  Tables tables;
+  const auto rows = [](const std::vector<std::pair<std::string, double>>& values) {
+    CsvTable table({"figure", "value"}, 10);
+    for (const auto& [name, value] : values) table.add_row(name, value);
+    return table.text();
+  };
+  tables["verdict"] = std::string("word\n") + to_string(report) + "\n";
+  const Convergence c = convergence(tunnel);
+  tables["convergence"] = rows({{"crown", c.crown},
+                                {"right", is_mirrored ? c.left_springing : c.right_springing},
+                                {"left", is_mirrored ? c.right_springing : c.left_springing},
+                                {"invert", c.invert},
+                                {"rise", c.rise}});
+  const SupportDemand demand = support_demand(tunnel);
+  tables["bolt demand"] =
+      rows({{"largest", demand.largest_bolt_force}, {"mean", demand.mean_bolt_force}});
+  tables["thrust"] = rows({{"largest", demand.largest_thrust}, {"mean", demand.mean_thrust}});
+  tables["moment"] = rows({{"largest", demand.largest_moment}});
+  const BlockSizes sizes = block_sizes(tunnel.mass());
+  tables["blocks"] = rows({{"count", static_cast<double>(sizes.count)},
+                           {"smallest", sizes.smallest},
+                           {"median", sizes.median},
+                           {"mean", sizes.mean},
+                           {"largest", sizes.largest},
+                           {"radius", sizes.smallest_inscribed_radius}});
+  tables["dropped"] = rows({{"pieces", static_cast<double>(tunnel.mass().carving.dropped_pieces)},
+                            {"measure", tunnel.mass().carving.dropped_measure}});
+  tables["fallen"] = rows({{"blocks", static_cast<double>(tunnel.fallen().size())},
+                           {"measure", report.fallen_measure}});
+  tables["spacing"] =
+      rows({{"joint spacing",
+             radial_spacing(tunnel.mass(), centre_of(tunnel.mass().openings.back()), 2, 4)}});
+  tables["intensity"] = rows({{"P21", joint_intensity(tunnel.mass())}});
+  const BlockSizeCurve curve(tunnel.mass());
+  tables["size curve"] =
+      rows({{"V20", curve.size_at(0.2)}, {"V50", curve.size_at(0.5)}, {"V80", curve.size_at(0.8)}});
+  tables["bolts"] = bolt_table(bolt_forces(tunnel), bars, 2e5);
+  tables["lining"] = lining_table(lining_forces(tunnel));
+  CsvTable feet({"x_m", "y_m", "bearing_kN", "shear_kN", "of_its_strength", "settlement_mm"}, 10);
+  for (const auto& foot : foot_forces(tunnel))
+    feet.add_row(foot.place.x(), foot.place.y(), 1e-3 * foot.bearing, 1e-3 * foot.shear,
+                 foot.utilisation, 1e3 * foot.settlement);
+  tables["feet"] = feet.text();
+  tables["joints"] = joint_table(joint_states(tunnel));
+  return tables;
+}
+
+template <class Method>
+Tables answer(const Drawn& d, const Image& image) {
+  const bool is_mirrored = image.map.turn(0, 0) < 0;
+  const SimplePolygon opening = moved(d.opening, image.map);
+  const Domain<2> ground = image.map(d.ground);
+  const MappedJoints joints = mapped_joints(traces_of(d, image), ground,
+                                            {.snap = 0.05, .dead_ends = DeadEnds::cut_through});
+  MappedRock rock = slice_mapped(ground, joints, {}, {0.1}, {opening});
+  FarField<2> field;
+  if (d.is_on_elastic_ground) field = FarField<2>::elastic(elastic_matrix<2>({2e9, 0.25}));
+  TunnelBy<Method> tunnel(
+      std::move(rock.mass), LawsBySet<CoulombJoint>(CoulombJoint({5e9, 5e8, d.friction * degree})),
+      {.density = 2700, .k0 = 0.8, .surcharge = 3e5}, opening, of_the_rock, {}, field);
+  std::vector<Segment> bars;
+  if (d.has_bolts) {
+    bars = bolt_bars({.length = 2, .angular_spacing = 25 * degree}, opening);
+    for (const Segment& bar : bars) tunnel.install_bolt(bar, bolt);
+  }
+  if (d.lining > 0) {
+    LiningRing ring{.nodes = 36};
+    if (d.lining == 2) {
+      // Lopsided, so that it has no image of its own.
+      const double from = -20 * degree, to = 170 * degree;
+      ring.from = is_mirrored ? std::numbers::pi - to : from;
+      ring.to = is_mirrored ? std::numbers::pi - from : to;
+    }
+    std::optional<FootBearing> feet;
+    if (d.lining == 2) feet.emplace(FootBearing::Params{0.3, 1e9, 5e6, 30 * degree});
+    tunnel.install_lining(lining_frame(tunnel.mass(), ring), LiningSection::rectangular(0.1, 25e9),
+                          interface_law, feet);
+  }
+  const EquilibriumReport report = tunnel.equilibrium(
+      0, patient<Method>(), {.error_estimate = 1e-12, .unbalance_over_weight = 1e-8});
+  return tables_of(tunnel, report, bars, is_mirrored);
+}
+
+WorstFigure worst_of(const Tables& one, const Tables& image, const Transform<2>& map,
+                     double floor) {
+  WorstFigure worst;
+  for (const auto& [name, text] : one)
+    worst.take(worst_figure(name, text, image.at(name), map, floor));
+  return worst;
+}
+
+Transform<2> far(double x, double y) { return {Eigen::Matrix2d::Identity(), {x, y}}; }
+
+std::vector<Image> images() {
+  return {{"moved by a nanometre", {}, {}, {0.6e-9, 0.8e-9}},
+          {"moved by a nanometre the other way", {}, {}, {-0.8e-9, -0.6e-9}},
+          {"on another grid", far(12345.678, -9876.543), far(32, -20)},
+          {"mirrored", mirrored_2d()},
+          {"in pieces", {}, {}, zeros<Vec2>(), true}};
+}
+
+/// From the first answer to the image.
+Transform<2> between(const Image& image) {
+  return {image.map.turn, image.map.shift - image.from.shift};
+}
+
+}  // namespace
+
+TEST_SUITE("solver/ties") {
+  constexpr double within = 1e-6, floor = 1e-2;
+
+  template <class Method>
+  void check(std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t seed = first; seed <= last; ++seed) {
+      const Drawn d = drawn(seed);
+      const Tables one = answer<Method>(d, {"as drawn"});
+      for (const Image& image : images()) {
+        const bool is_beside = image.from.shift.x() != 0;
+        const WorstFigure worst =
+            worst_of(is_beside ? answer<Method>(d, {"beside", image.from}) : one,
+                     answer<Method>(d, image), between(image), floor);
+        CAPTURE(seed);
+        CAPTURE(image.name);
+        CAPTURE(worst.where);
+        CHECK(worst.difference <= within);
+      }
+    }
+  }
+
+  TEST_CASE("50 tunnels: every figure of every table stays") { check<TwoLevel>(1, 50); }
+}
+
+}  // namespace ties_test
