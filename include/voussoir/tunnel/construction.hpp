@@ -15,6 +15,7 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/lining/lining_model.hpp>
+#include <voussoir/model/opened_lining.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/tunnel/chosen_nodes.hpp>
@@ -135,6 +136,8 @@ struct ConstructionResult {
   std::vector<int> crossings;                 ///< joints that each crossed when it was installed
   /// Ends of linings without the foot that they were to have: the rock there had fallen [m].
   std::vector<Vec<Geometry::dim>> hanging_ends;
+  /// Linings that a later round went through, in the order of the rounds.
+  std::vector<OpenedLining<Geometry::dim>> opened_linings;
   int first_bolt = 0;  ///< number of the first of them in the solver, which may have had others
 
   /// Of the last stage that was begun. @pre there is one
@@ -201,7 +204,8 @@ template <class Solver>
 void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress,
                ConstructionResult<typename Solver::Geometry>& result) {
   for (const auto& round : stage.rounds)
-    solver.excavate(round.opening, round.smallest_piece, progress);
+    for (auto& opened : solver.excavate(round.opening, round.smallest_piece, progress))
+      result.opened_linings.push_back(std::move(opened));
   StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
   for (const auto& bolts : stage.bolts)
     for (const auto& bar : bolts.bars) {
