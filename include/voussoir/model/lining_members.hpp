@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
@@ -56,6 +57,9 @@ class FrameMembers : public SupportModel<Derived, Geometry::dim> {
   void remove(const BodyMarks& gone) override {
     std::erase_if(members_,
                   [&](const Element& m) { return is_marked(gone, m.i) || is_marked(gone, m.j); });
+  }
+  void sever(const std::function<bool(int a, int b)>& is_parted) override {
+    std::erase_if(members_, [&](const Element& m) { return is_parted(m.i, m.j); });
   }
 
   void take_over(const Heirs<dim>& heirs) override {

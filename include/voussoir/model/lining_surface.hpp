@@ -89,6 +89,12 @@ class LiningSurface {
 
     return slabs;
   }
+  /// @param is_out  is_out(middle of the face that rock touches)
+  template <class IsOut>
+  void remove_tiles(IsOut&& is_out) {
+    for (auto& of_node : tiles_)
+      std::erase_if(of_node, [&](const Tile& tile) { return is_out(tile.facet.centre()); });
+  }
   /// How far a node has come with the wall.
   [[nodiscard]] const Vec<dim>& shift(std::size_t node) const { return shift_[node]; }
 

@@ -71,6 +71,8 @@ class Support {
   /// Takes the numbers and centres that bodies have after rock has been excavated.
   /// @throws InvalidInput  it holds excavated rock; the support is then of no use
   virtual void take_over(const Heirs<Dim>& heirs) = 0;
+  /// Forgets what joins two bodies where that has been cut through.
+  virtual void sever(const std::function<bool(int a, int b)>& /*is_parted*/) {}
   /// For every element that can break, whether it has.
   virtual void list_broken(std::vector<bool>& /*broken*/) const {}
 

@@ -42,7 +42,7 @@
       System<GEOMETRY>&, std::shared_ptr<const RockMass<GEOMETRY>>, const InSitu&,                 \
       const FarField<GEOMETRY::dim>&, std::vector<int>,                                            \
       std::shared_ptr<const GroundAround<GEOMETRY::dim>>, std::vector<double>&, const Progress&);  \
-  WORD detail::AfterRound detail::go_on_after_round<CutContacts>(                                  \
+  WORD detail::AfterRound<GEOMETRY::dim> detail::go_on_after_round<CutContacts>(                   \
       System<GEOMETRY>&, System<GEOMETRY>&, const std::shared_ptr<const RockMass<GEOMETRY>>&,      \
       std::vector<int>, const GEOMETRY::Opening&, const InSitu&, const FarField<GEOMETRY::dim>&,   \
       double, WallTractions&, const std::vector<int>&, const Progress&);

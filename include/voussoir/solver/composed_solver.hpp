@@ -26,6 +26,7 @@
 #include <voussoir/model/detail/lining_assembly.hpp>
 #include <voussoir/model/detail/next_round.hpp>
 #include <voussoir/model/lining_members.hpp>
+#include <voussoir/model/opened_lining.hpp>
 #include <voussoir/model/prescribed_displacement.hpp>
 #include <voussoir/model/support.hpp>
 #include <voussoir/model/system.hpp>
@@ -102,11 +103,14 @@ class ComposedSolver {
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]; by default
   ///                        see `smallest_piece_of`
   /// @param progress        asked now and then whether to go on
-  /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt or lining that stands
-  ///                        holds rock in it; the solver is as it was
+  /// @return  linings that stood where the round goes, and are opened there
+  /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt that stands holds
+  /// rock
+  ///                        in it; the solver is as it was
   /// @throws Stopped        the same, but before the first round: the solver is then of no more use
-  void excavate(const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
-                const Progress& progress = {});
+  std::vector<OpenedLining<dim>> excavate(const typename Geometry::Opening& opening,
+                                          double smallest_piece = of_the_rock,
+                                          const Progress& progress = {});
 
   /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
   /// present position of the rock, free of force but for its pretension.
@@ -267,8 +271,8 @@ class ComposedSolver {
   /// @param touched  the blocks that it touched; null: all, nothing has moved yet
   void hold_wall(const BodyMarks* touched = nullptr);
   /// Takes a round out of rock that has moved, or has been excavated before.
-  void excavate_further(const typename Geometry::Opening& opening, double smallest_piece,
-                        const Progress& progress);
+  std::vector<OpenedLining<dim>> excavate_further(const typename Geometry::Opening& opening,
+                                                  double smallest_piece, const Progress& progress);
   /// Goes on acting on all bodies until the next stage takes it away.
   void hold(Eigen::VectorXd load) {
     walls_.add(std::move(load));
@@ -334,8 +338,9 @@ ComposedSolver<Models>::ComposedSolver(RockMass<Geometry> mass, LawsBySet<JointL
 }
 
 template <class Models>
-void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
-                                      double smallest_piece, const Progress& progress) {
+auto ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
+                                      double smallest_piece, const Progress& progress)
+    -> std::vector<OpenedLining<dim>> {
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   if (is_loaded_)
     throw InvalidInput(
@@ -353,21 +358,24 @@ void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
   system_ = new_system();
   build(progress);
   hold_wall();
+  return {};
 }
 
 template <class Models>
-void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& opening,
-                                              double smallest_piece, const Progress& progress) {
+auto ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& opening,
+                                              double smallest_piece, const Progress& progress)
+    -> std::vector<OpenedLining<dim>> {
   const auto mass = std::make_shared<RockMass<Geometry>>(
       carve(RockMass<Geometry>(*mass_), opening, smallest_piece, progress));
   SystemType next = new_system();
-  detail::AfterRound after = detail::go_on_after_round<Detector>(
+  detail::AfterRound<dim> after = detail::go_on_after_round<Detector>(
       system_, next, mass, joint_laws_.of_cuts(*mass), opening, in_situ_, far_field_, update_limit_,
       walls_, fallen_, progress);
   mass_ = mass;
   measures_ = std::move(after.measures);
   fallen_ = std::move(after.fallen);
   hold_wall(&after.touched);
+  return std::move(after.opened);
 }
 
 template <class Models>

@@ -12,6 +12,8 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/contact_group.hpp>
+#include <voussoir/model/detail/open_linings.hpp>
+#include <voussoir/model/opened_lining.hpp>
 #include <voussoir/model/small_displacement.hpp>
 #include <voussoir/model/support.hpp>
 
@@ -54,7 +56,7 @@ class CarryOver {
     origins_ = origins;
   }
 
-  /// @throws InvalidInput  what is excavated carries a bolt or a lining; `next` is then of no use
+  /// @throws InvalidInput  what is excavated carries a bolt; `next` is then of no use
   void run() {
     add_nodes();
     carry_displacement();
@@ -67,7 +69,6 @@ class CarryOver {
     }
     next_.interface = typename System::Contacts(old_.interface.laws());
     move_contacts(old_.interface, next_.interface);
-    check_linings();
     next_.supports = old_.supports;
     const auto heir = [this](int b, const Vec<dim>& arm) { return this->heir(b, arm); };
     for (const auto& support : next_.supports) support->take_over(heir);
@@ -75,8 +76,12 @@ class CarryOver {
     for (int b = 0; b < ground_; ++b)
       if (old_.body(origin(b)).is_gone) gone.push_back(b);
     if (!gone.empty()) next_.remove(gone);
+    open_linings();
     next_.patterns = old_.patterns;
   }
+
+  /// Linings through which the round goes.
+  [[nodiscard]] const std::vector<OpenedLining<dim>>& opened() const { return opened_; }
 
   /// The pieces of a block of the old model: [first, last) among those of the next one.
   [[nodiscard]] std::pair<int, int> pieces(int old) const {
@@ -100,11 +105,13 @@ class CarryOver {
       }
       set_part<dof>(next, dof * heir, on_body);
     }
+    for (int b = old_ground_ + 1; b < old_.body_count() && dof * b < load.size(); ++b)
+      set_part<dof>(next, dof * number(b), part<dof>(load, dof * b));
     return next;
   }
 
-  /// Marks the blocks that the excavation has changed, and their neighbours: those on which it has
-  /// acted.
+  /// Marks the blocks that the excavation has changed, and their neighbours, and nodes of linings
+  /// that have lost rock or a member: all on which it has acted.
   [[nodiscard]] BodyMarks touched() const {
     BodyMarks marks(index(old_.body_count()), 0);
     for (int b = 0; b < old_ground_; ++b) marks[index(b)] = is_unchanged(b) ? 0 : 1;
@@ -113,8 +120,8 @@ class CarryOver {
       if (changed[index(c.a)] != 0) marks[index(c.b)] = 1;
       if (changed[index(c.b)] != 0) marks[index(c.a)] = 1;
     }
-    BodyMarks of_next(index(next_.body_count()), 0);
-    for (int b = 0; b < ground_; ++b) of_next[index(b)] = marks[index(origin(b))];
+    BodyMarks of_next = touched_;
+    for (int b = 0; b < ground_; ++b) of_next[index(b)] |= marks[index(origin(b))];
     return of_next;
   }
 
@@ -326,17 +333,18 @@ class CarryOver {
                                                    : zeros<Vec<dim>>();
   }
 
-  /// @throws InvalidInput  the rock behind a node is excavated
-  void check_linings() const {
-    std::vector<char> had_rock(index(old_.body_count()), 0), has_rock(had_rock.size(), 0);
-    for (const Contact& c : old_.interface.contacts()) had_rock[index(std::max(c.a, c.b))] = 1;
-    for (const Contact& c : next_.interface.contacts())
-      has_rock[index(std::max(c.a, c.b) - ground_ + old_ground_)] = 1;
-    for (int b = old_ground_ + 1; b < old_.body_count(); ++b)
-      if (had_rock[index(b)] != 0 && has_rock[index(b)] == 0)
-        throw InvalidInput(message(
-            {"excavate: the rock behind the lining at ", text_of<dim>(old_.body(b).centre),
-             " m is to be excavated: line only walls that stay, by an arc that ends there"}));
+  void open_linings() {
+    touched_.assign(index(next_.body_count()), 0);
+    if (old_.linings.empty()) return;
+    BodyMarks had_rock(index(next_.body_count()), 0);
+    for (const Contact& c : old_.interface.contacts()) {
+      const int node = number(std::max(c.a, c.b));
+      had_rock[index(node)] = 1;
+      if (!is_unchanged(std::min(c.a, c.b))) touched_[index(node)] = 1;
+    }
+    LiningOpener<System> opener(next_, had_rock, opening_, 1e3 * tolerance_);
+    opened_ = opener.run();
+    for (std::size_t b = 0; b < touched_.size(); ++b) touched_[b] |= opener.touched()[b];
   }
 
   const System& old_;
@@ -345,6 +353,8 @@ class CarryOver {
   const Opening& opening_;
   int ground_, old_ground_ = 0;
   std::vector<int> origins_, first_piece_;
+  BodyMarks touched_;  ///< rock and nodes where linings are opened
+  std::vector<OpenedLining<dim>> opened_;
 };
 
 }  // namespace voussoir::detail
