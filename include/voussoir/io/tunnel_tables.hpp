@@ -106,9 +106,9 @@ template <class Bar>
                  8);
   int node = 0;
   for (const LiningForce& at : lining)
-    table.add_row(++node, detail::angle_in_degrees(at.position), at.position.x(), at.position.y(),
-                  1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment, 1e3 * at.convergence,
-                  at.is_lost, "-");
+    table.add_row(++node, detail::angle_in_degrees(at.position - at.centre), at.position.x(),
+                  at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
+                  1e3 * at.convergence, at.is_lost, "-");
   return table.text();
 }
 /// One row for every member of a lining in 3-D, without strength, too.

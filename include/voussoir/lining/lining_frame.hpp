@@ -82,6 +82,8 @@ struct LiningFrame {
   std::vector<LiningEnd<Geometry>> ends{};
   /// Nodes of the full outline, of which it may be an arc; 0: it was made in another way.
   int count_on_outline = 0;
+  /// In 2-D: about which angles along it and its convergence are counted [m].
+  Vec<Geometry::dim> centre = zeros<Vec<Geometry::dim>>();
 
   /// Of a node, or of a neighbour behind them.
   [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {

@@ -170,12 +170,13 @@ template <class Run, class Geometry>
 
 /// The lining at one node, per metre of tunnel.
 struct LiningForce {
-  Vec2 position;         ///< [m]
-  double thrust;         ///< N, compression positive [N/m]
-  double shear;          ///< V [N/m]
-  double moment;         ///< M, positive when the outer fibre is in tension [N m/m]
-  double convergence;    ///< towards the tunnel centre since installation [m]
-  bool is_lost = false;  ///< it came off the wall and was taken out: no forces
+  Vec2 position;                ///< [m]
+  double thrust;                ///< N, compression positive [N/m]
+  double shear;                 ///< V [N/m]
+  double moment;                ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;           ///< towards the tunnel centre since installation [m]
+  bool is_lost = false;         ///< it came off the wall and was taken out: no forces
+  Vec2 centre = zeros<Vec2>();  ///< of the lining, see `LiningFrame::centre` [m]
 };
 
 namespace detail {
@@ -228,8 +229,9 @@ template <class Solver>
     const int body = first + static_cast<int>(k);
     forces[k].position = system.body(body).centre;
     forces[k].is_lost = system.body(body).is_gone;
-    forces[k].convergence =
-        -solver.displacement_of(body, forces[k].position).dot(forces[k].position.normalized());
+    forces[k].centre = lining.centre();
+    forces[k].convergence = -solver.displacement_of(body, forces[k].position)
+                                 .dot(normalized(Vec2(forces[k].position - lining.centre())));
   }
   return forces;
 }
@@ -257,7 +259,9 @@ requires(Geometry::dim == 2 && requires(const Run& run) { run.home(0); })
     const Vec2 home = run.home(body).position;
     forces[k].position = run.position(body);
     forces[k].is_lost = run.body(body).is_gone;
-    forces[k].convergence = (home - forces[k].position).dot(normalized(home));
+    forces[k].centre = lining.centre();
+    forces[k].convergence =
+        (home - forces[k].position).dot(normalized(Vec2(home - lining.centre())));
   }
   return forces;
 }
