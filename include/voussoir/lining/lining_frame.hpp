@@ -135,6 +135,7 @@ template <class Geometry, class Stands>
     if (is_standing[i] != is_standing[j]) leads_on[i] = leads_on[j] = 1;
   }
   LiningFrame<Geometry> rest;
+  rest.centre = frame.centre;
   std::vector<int> number(count + frame.neighbours.size(), -1);
   const auto is_shared = [&](int k) {
     const auto at = static_cast<std::size_t>(k);
