@@ -153,7 +153,7 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   std::iota(numbers.begin(), numbers.end(), first);
   auto lining = std::make_shared<LiningMembers<Geometry>>(
       lining_elements<Lining>(frame, sections, places, numbers), first,
-      static_cast<int>(nodes.size()));
+      static_cast<int>(nodes.size()), frame.centre);
   run.add_support(lining);
   if (!feet) return lining;
   std::vector<LiningFootSpring<dim>> springs;

@@ -109,7 +109,7 @@ template <class Bar>
   for (const LiningForce& at : lining) {
     node = at.lining == of ? node + 1 : 1;
     of = at.lining;
-    table.add_row(of + 1, node, detail::angle_in_degrees(at.position), at.position.x(),
+    table.add_row(of + 1, node, detail::angle_in_degrees(at.position - at.centre), at.position.x(),
                   at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
                   1e3 * at.convergence, at.is_lost, "-");
   }
@@ -124,8 +124,8 @@ template <class Bar>
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment,
-                  "-");
+    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
+                  1e-3 * m.moment, "-");
   }
   return table.text();
 }

@@ -90,6 +90,8 @@ struct LiningFrame {
   std::vector<LiningEnd<Geometry>> ends{};
   /// Nodes of the full outline, of which it may be an arc; 0: it was made in another way.
   int count_on_outline = 0;
+  /// In 2-D: about which angles along it and its convergence are counted [m].
+  Vec<Geometry::dim> centre = zeros<Vec<Geometry::dim>>();
 
   /// Of a node, or of a neighbour behind them.
   [[nodiscard]] const Vec<Geometry::dim>& place(int k) const {
@@ -141,6 +143,7 @@ template <class Geometry, class Stands>
     if (is_standing[i] != is_standing[j]) leads_on[i] = leads_on[j] = 1;
   }
   LiningFrame<Geometry> rest;
+  rest.centre = frame.centre;
   std::vector<int> number(count + frame.neighbours.size(), -1);
   const auto is_shared = [&](int k) {
     const auto at = static_cast<std::size_t>(k);

@@ -150,11 +150,14 @@ class LiningMembers : public FrameMembers<LiningMembers<Geometry>, Geometry> {
 
   /// @param members  between its nodes, free of force where these are now
   /// @param first    body that is the first node;  @param count  of nodes
-  LiningMembers(std::vector<Element> members, int first, int count)
-      : Base(std::move(members)), first_(first), count_(count) {}
+  /// @param centre   see `LiningFrame::centre`
+  LiningMembers(std::vector<Element> members, int first, int count,
+                const Vec<Geometry::dim>& centre = zeros<Vec<Geometry::dim>>())
+      : Base(std::move(members)), first_(first), count_(count), centre_(centre) {}
 
   [[nodiscard]] int first_node() const { return first_; }
   [[nodiscard]] int node_count() const { return count_; }
+  [[nodiscard]] const Vec<Geometry::dim>& centre() const { return centre_; }
 
   [[nodiscard]] std::vector<int> bodies() const override {
     std::vector<int> held(static_cast<std::size_t>(count_));
@@ -168,6 +171,7 @@ class LiningMembers : public FrameMembers<LiningMembers<Geometry>, Geometry> {
 
  private:
   int first_, count_;
+  Vec<Geometry::dim> centre_;
 };
 
 /// Members that join the end of a lining to one that stood before: what carries on an arch, a ring

@@ -115,6 +115,7 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
   const detail::RingNodes nodes = detail::ring_nodes(opening, ring);
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
+  frame.centre = ring.centre.value_or(centre_of(opening));
   frame.count_on_outline = ring.nodes.value_or(default_lining_nodes);
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
     if (nodes.joined[n])

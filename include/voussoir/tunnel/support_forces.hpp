@@ -188,13 +188,14 @@ template <class Run, class Derived, class Geometry>
 
 /// A lining at one node, per metre of tunnel.
 struct LiningForce {
-  Vec2 position;         ///< [m]
-  double thrust;         ///< N, compression positive [N/m]
-  double shear;          ///< V [N/m]
-  double moment;         ///< M, positive when the outer fibre is in tension [N m/m]
-  double convergence;    ///< towards the tunnel centre since installation [m]
-  bool is_lost = false;  ///< it came off the wall and was taken out: no forces
-  int lining = 0;        ///< which it is of, in the order of installation
+  Vec2 position;                ///< [m]
+  double thrust;                ///< N, compression positive [N/m]
+  double shear;                 ///< V [N/m]
+  double moment;                ///< M, positive when the outer fibre is in tension [N m/m]
+  double convergence;           ///< towards the tunnel centre since installation [m]
+  bool is_lost = false;         ///< it came off the wall and was taken out: no forces
+  int lining = 0;               ///< which it is of, in the order of installation
+  Vec2 centre = zeros<Vec2>();  ///< of the lining, see `LiningFrame::centre` [m]
 };
 
 /// A member from one node of a list to another, anticlockwise.
@@ -229,19 +230,22 @@ class LiningNodes {
   [[nodiscard]] std::vector<LiningLink> links() const {
     std::vector<LiningLink> links;
     each_member([&](const auto& m) {
-      if (index_of(m.i) >= 0 && index_of(m.j) >= 0)
-        links.push_back({index_of(m.i), index_of(m.j)});
+      if (index_of(m.i) >= 0 && index_of(m.j) >= 0) links.push_back({index_of(m.i), index_of(m.j)});
     });
     return links;
   }
 
-  /// The mean of the two members that meet at each node; position and convergence are left at zero.
+  /// The mean of the two members that meet at each node; position and
+  /// convergence are left at zero.
   /// @param end_forces  of a member, in its axes
   template <class EndForces>
   [[nodiscard]] std::vector<LiningForce> forces(EndForces&& end_forces) const {
     std::vector<LiningForce> forces(size(), {zeros<Vec2>(), 0, 0, 0, 0});
     std::vector<int> ends(size(), 0);
-    for (std::size_t k = 0; k < size(); ++k) forces[k].lining = numbers_[k];
+    for (std::size_t k = 0; k < size(); ++k) {
+      forces[k].lining = numbers_[k];
+      forces[k].centre = linings_[static_cast<std::size_t>(numbers_[k])]->centre();
+    }
     each_member([&](const auto& member) {
       // Members run anticlockwise: their second axis points into the opening, so what a beam calls
       // sagging (tension below) is tension at the outer fibre here.
@@ -302,8 +306,8 @@ template <class Solver>
     const int body = nodes.body(k);
     forces[k].position = system.body(body).centre;
     forces[k].is_lost = system.body(body).is_gone;
-    forces[k].convergence =
-        -solver.displacement_of(body, forces[k].position).dot(forces[k].position.normalized());
+    forces[k].convergence = -solver.displacement_of(body, forces[k].position)
+                                 .dot(normalized(Vec2(forces[k].position - forces[k].centre)));
   }
   return forces;
 }
@@ -312,14 +316,16 @@ template <class Solver>
 template <class Run>
 [[nodiscard]] std::vector<LiningForce> lining_forces_in_motion(const Run& run,
                                                                const LiningNodes& nodes) {
-  auto forces = nodes.forces(
-      [&](const auto& member) { return member.end_forces(run.pose(member.i), run.pose(member.j)); });
+  auto forces = nodes.forces([&](const auto& member) {
+    return member.end_forces(run.pose(member.i), run.pose(member.j));
+  });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = nodes.body(k);
     const Vec2 home = run.home(body).position;
     forces[k].position = run.position(body);
     forces[k].is_lost = run.body(body).is_gone;
-    forces[k].convergence = (home - forces[k].position).dot(normalized(home));
+    forces[k].convergence =
+        (home - forces[k].position).dot(normalized(Vec2(home - forces[k].centre)));
   }
   return forces;
 }

@@ -156,7 +156,7 @@ class LiningAssembly {
       (joins ? joints : own).push_back(e);
     }
     system_.supports.add(std::make_shared<LiningMembers<Geometry>>(
-        std::move(own), first_node_, static_cast<int>(frame.nodes.size())));
+        std::move(own), first_node_, static_cast<int>(frame.nodes.size()), frame.centre));
     if (!joints.empty())
       system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
   }
