@@ -81,6 +81,7 @@ struct SupportCondition {
   int yielded = 0;                        ///< joints at which one has yielded and holds
   bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
   bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
+  double open_thrust = 0;                 ///< largest of linings, where one is open [N/m]
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
@@ -130,6 +131,7 @@ template <class Solver>
                              foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
   }
+  if (condition.lining_open) condition.open_thrust = support_demand(solver).largest_thrust;
   for (const auto& foot : foot_forces(solver))
     if (foot.has_yielded())
       condition.yielded_feet.push_back(text_of<Solver::dim>(foot.place) + " m (now at " +
@@ -145,9 +147,11 @@ template <class Solver>
         "the lining was lost with the rock that held it: nothing touches it any "
         "more");
   if (condition.lining_open)
-    remarks.emplace_back(
-        "the lining is open and its ends stand on nothing: it carries what friction on the rock "
-        "gives it, next to no thrust; give them feet, or bond it to the rock");
+    remarks.push_back(
+        "the lining is open and its ends stand on nothing: friction on the rock is all that gives "
+        "it thrust, now at most " +
+        message_number(condition.open_thrust / 1e3, 3) +
+        " kN/m; give them feet, or bond it to the rock");
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +
                       " m: the rock there had fallen before it was installed; that end hangs free");
