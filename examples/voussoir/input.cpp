@@ -274,12 +274,10 @@ std::optional<BoltSpacing> read_spacing(const Value& value) {
   return std::nullopt;
 }
 
-std::optional<ArcInput> read_arc(Section& s) {
+std::optional<ArcInput> read_arc(const Value& value) {
   const std::string form =
       R"(two angles from -360 to 360 deg, the first below the second, at most 360 deg apart, such as ["0 deg", "180 deg"])";
-  const auto value = s.find("arc", Need::optional);
-  if (!value) return std::nullopt;
-  const auto ends = value->as_list(2, 2, form);
+  const auto ends = value.as_list(2, 2, form);
   if (!ends) return std::nullopt;
   const Range range = between(degrees(-360), degrees(360));
   const auto from = ends->at(0).as_quantity(dimension::angle, range);
@@ -287,17 +285,32 @@ std::optional<ArcInput> read_arc(Section& s) {
   if (!from || !to) return std::nullopt;
   // One rounding of slack: -180 to 180 deg is the whole ring.
   if (!(*from < *to) || *to - *from > degrees(360) * (1 + 1e-15)) {
-    value->refuse(*from < *to ? "spans more than 360 deg" : "does not rise", form);
+    value.refuse(*from < *to ? "spans more than 360 deg" : "does not rise", form);
     return std::nullopt;
   }
   return ArcInput{*from, *to};
+}
+
+/// Two angles, or what of the outline is lined in a word.
+void read_lined_arc(Section& s, LiningInput& lining) {
+  const auto value = s.find("arc", Need::optional);
+  if (!value) return;
+  if (value->node().kind != Node::Kind::text) {
+    lining.arc = read_arc(*value);
+    return;
+  }
+  constexpr LinedPart parts[] = {LinedPart::roof, LinedPart::roof_and_walls, LinedPart::all};
+  if (const auto word = value->as_word({"roof", "roof and walls", "all"}))
+    lining.part = parts[*word];
 }
 
 void read_bolts(Section& s, BoltsInput& bolts) {
   s.quantity("length", bolts.length, dimension::length, above(0), Need::required);
   if (const auto value = s.find("spacing", Need::required, spacing_form))
     bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
-  bolts.arc = read_arc(s).value_or(ArcInput{0, degrees(180)});
+  bolts.arc = {0, degrees(180)};
+  if (const auto value = s.find("arc", Need::optional))
+    bolts.arc = read_arc(*value).value_or(bolts.arc);
   s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
              Need::optional);
   s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
@@ -369,7 +382,7 @@ void read_lining(Section& s, LiningInput& lining) {
   s.integer("nodes", lining.nodes, 8, 2000);
   s.quantity("fill_depth", lining.fill_depth, dimension::length, {.low = 0, .high = 10},
              Need::optional);
-  lining.arc = read_arc(s);
+  read_lined_arc(s, lining);
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     feet.width = lining.thickness;
@@ -387,7 +400,7 @@ void read_lining(Section& s, LiningInput& lining) {
       under.quantity("spacing", beam.spacing, dimension::length, rib_spacing_range, Need::required);
     });
   });
-  if (lining.feet && !lining.arc)
+  if (lining.feet && !lining.arc && lining.part.value_or(LinedPart::all) == LinedPart::all)
     s.complain("feet", "stand under the ends of an arc, and a full ring has none",
                "a key arc, or no table feet");
 }
@@ -581,6 +594,36 @@ void check_snap(Checker& checker, const Input& input) {
 
 std::string counted(double count) {
   return count < 1e15 ? std::to_string(std::llround(count)) : std::string("1e15 or more");
+}
+
+/// The arc of a word, and whether feet can stand where it ends.
+void check_arc(Checker& checker, Input& input) {
+  if (!input.lining || checker.faulty("tunnel") || checker.faulty("support.lining")) return;
+  LiningInput& lining = *input.lining;
+  const std::string key = "support.lining.arc";
+  try {
+    const SimplePolygon opening = opening_of(input);
+    LiningRing ring{.nodes = lining.nodes.value_or(std::max(input.tunnel.facets, 8))};
+    if (lining.part && *lining.part != LinedPart::all) {
+      ring = lined_part(opening, *lining.part, ring);
+      lining.arc = ArcInput{ring.from, ring.to};
+    }
+    if (!lining.arc || !lining.feet) return;
+    ring.from = lining.arc->from;
+    ring.to = lining.arc->to;
+    for (const auto& end : detail::ring_nodes(opening, ring).ends) {
+      if (end.refusal.empty()) continue;
+      const std::string begin = "lining: ", mark = "; accepted: ";
+      const std::size_t at = end.refusal.find(mark);
+      checker.report(key,
+                     "is too long for feet: " + end.refusal.substr(begin.size(), at - begin.size()),
+                     end.refusal.substr(at + mark.size()) + R"(; "roof and walls" ends there)");
+      return;
+    }
+  } catch (const InvalidInput& fault) {
+    checker.report(key, std::string("does not fit the tunnel: ") + fault.what(),
+                   R"(two angles, "roof", "roof and walls" or "all")");
+  }
 }
 
 /// Nodes are close enough together for a bond, see `node_spacing.hpp`.
@@ -796,6 +839,7 @@ Input read_input_text(std::string_view text, const std::string& name,
   }
   check_opening(checker, input);
   check_snap(checker, input);
+  check_arc(checker, input);
   check_bond(checker, input);
   check_boundary(checker, input);
   check_size(checker, input);

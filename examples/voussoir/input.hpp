@@ -17,6 +17,7 @@
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/theory/foot_beam.hpp>
+#include <voussoir/tunnel/lined_part.hpp>
 #include <voussoir/tunnel/ring_nodes.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
@@ -226,7 +227,8 @@ struct LiningInput {
   std::optional<int> nodes;
   /// How far behind the outline it fills the holes of dropped pieces [m], 0 to 10.
   double fill_depth = default_fill_depth;
-  std::optional<ArcInput> arc;    ///< default: the full ring
+  std::optional<ArcInput> arc;    ///< none: the full ring
+  std::optional<LinedPart> part;  ///< arc as a word, of which `arc` then has the angles
   std::optional<FeetInput> feet;  ///< of an arc alone
 };
 

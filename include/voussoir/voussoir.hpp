@@ -66,6 +66,7 @@
 #include <voussoir/tunnel/boundary_bias.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
+#include <voussoir/tunnel/lined_part.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>

@@ -89,6 +89,13 @@ TEST_SUITE("program/bad_input") {
          "E = \"25 GPa\"\nfeet = { stiffness = \"2 GPa/m\", beam = { depth = \"40 cm\", E = \"25 GPa\", "
          "spacing = \"0 m\" } }\narc = [\"0 deg\", \"180 deg\"]",
          {"support.lining.feet.beam.spacing", "0 m", "10 mm"}},
+        {"E = \"25 GPa\"",
+         "E = \"25 GPa\"\narc = \"roof and wall\"",
+         {"support.lining.arc = \"roof and wall\"", "did you mean \"roof and walls\"?",
+          R"("roof", "roof and walls")", R"("all")"}},
+        {"E = \"25 GPa\"",
+         "E = \"25 GPa\"\narc = \"all\"\nfeet.stiffness = \"2 GPa/m\"",
+         {"support.lining.feet", "a full ring has none"}},
         {"shape = \"circle\"", "shape = \"oval\"", {"tunnel.shape", "oval", "circle"}},
         {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},
         {"\"0.2 m\"", "\"3 m\"", {"blocks.min_inscribed_radius", "3 m", "below 2 m"}},

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <regex>
 #include <string>
 #include <vector>
 #include <voussoir/equilibrium/equilibrium.hpp>
@@ -354,6 +355,37 @@ TEST_SUITE("program/input") {
     CHECK(on_beam.beam.value().modulus == 25e9);
     CHECK(on_beam.beam.value().spacing == 1.5);
     CHECK(on_beam.on_beam().settlement == voussoir::feet_on_beam(2e9, {0.4, 25e9, 1.5}).settlement);
+    // The arc in words, on a circle and on a horseshoe with floor corners at -atan(3/5).
+    const std::vector<std::string> horseshoe = {"tunnel.shape=horseshoe", "tunnel.width=5 m",
+                                                "tunnel.wall_height=1.5 m",
+                                                "support.lining.feet.stiffness=2 GPa/m"};
+    const auto arc_of = [&](const std::string& word, bool on_horseshoe) {
+      std::vector<std::string> keys{"support.lining.arc=" + word};
+      std::string text = good;
+      if (on_horseshoe) {
+        keys.insert(keys.end(), horseshoe.begin(), horseshoe.end());
+        text = std::regex_replace(text, std::regex("diameter = [^\n]*\n"), "");
+      }
+      return read(text, keys).lining.value().arc.value();
+    };
+    CHECK(arc_of("roof", false).from == voussoir_test::near(0).scale(1));
+    CHECK(arc_of("roof", true).to == voussoir_test::near(degrees(180)));
+    CHECK(arc_of("roof and walls", false).from == voussoir_test::near(degrees(-45)));
+    CHECK(arc_of("roof and walls", true).from == voussoir_test::near(-std::atan(0.6)));
+    CHECK(arc_of("roof and walls", true).to == voussoir_test::near(degrees(180) + std::atan(0.6)));
+    CHECK_FALSE(read(good, {"support.lining.arc=all"}).lining.value().arc.has_value());
+    for (const char* arc : {"[\"-33 deg\", \"210 deg\"]", "[\"-30 deg\", \"213 deg\"]"}) {
+      std::vector<std::string> keys = horseshoe;
+      keys.push_back(std::string("support.lining.arc=") + arc);
+      const auto errors =
+          errors_of(std::regex_replace(good, std::regex("diameter = [^\n]*\n"), ""), keys);
+      const std::string shown = all(errors);
+      CAPTURE(shown);
+      REQUIRE(errors.size() == 1);
+      CHECK(errors[0].key == "support.lining.arc");
+      CHECK(contains(errors[0].message, "on the flat floor between its corners at"));
+      CHECK(contains(errors[0].accepted, "within 0.5 deg"));
+    }
     CHECK(lining.poisson_ratio == 0.25);
     CHECK(lining.beam == LiningBeam::timoshenko);
     CHECK(lining.nodes == 90);
