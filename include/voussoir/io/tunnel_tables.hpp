@@ -124,8 +124,8 @@ template <class Bar>
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear, 1e-3 * m.moment,
-                  "-");
+    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
+                  1e-3 * m.moment, "-");
   }
   return table.text();
 }

@@ -72,20 +72,19 @@ template <class Solver>
 template <class Solver>
 [[nodiscard]] bool has_standing_lining(const Solver& solver) {
   const auto& system = solver.system();
-  return std::any_of(
-      system.linings.begin(), system.linings.end(),
-      [&](const auto& lining) { return system.body(lining.first).movable; });
+  return std::any_of(system.linings.begin(), system.linings.end(),
+                     [&](const auto& lining) { return system.body(lining.first).movable; });
 }
 
 /// What has become of the supports: nothing of this shows in the forces of those that are left.
 struct SupportCondition {
   int bolts = 0;
-  int idle = 0;                           ///< bolts that crossed no joint when they were installed
-  int lost = 0;                           ///< bolts that went with the rock they held
-  int ruptured = 0;                       ///< joints at which a bolt has broken
-  int yielded = 0;                        ///< joints at which one has yielded and holds
-  int linings = 0;                        ///< installed, as numbered from 1 in what follows
-  std::vector<int> lost_linings;          ///< with the rock that held it; not: came off its wall
+  int idle = 0;                   ///< bolts that crossed no joint when they were installed
+  int lost = 0;                   ///< bolts that went with the rock they held
+  int ruptured = 0;               ///< joints at which a bolt has broken
+  int yielded = 0;                ///< joints at which one has yielded and holds
+  int linings = 0;                ///< installed, as numbered from 1 in what follows
+  std::vector<int> lost_linings;  ///< with the rock that held it; not: came off its wall
   /// 2-D: where a lining and those that it goes on in make an open arc, of which no end stands on
   /// anything: the first of them.
   std::vector<int> open_linings;
@@ -103,8 +102,8 @@ namespace detail {
 template <class Solver>
 [[nodiscard]] std::vector<int> open_linings(const Solver& solver) {
   struct Whole {
-    std::size_t number;           ///< of the whole that it is part of: its first lining
-    std::ptrdiff_t cuts = 0;      ///< nodes less members
+    std::size_t number;       ///< of the whole that it is part of: its first lining
+    std::ptrdiff_t cuts = 0;  ///< nodes less members
     std::size_t members = 0;
     bool is_held = false;
   };
@@ -121,8 +120,8 @@ template <class Solver>
   const auto joints = system.supports.template all<LiningJoints<typename Solver::Geometry>>();
   for (const auto* joint : joints)
     for (const auto& member : joint->members()) {
-      const auto [low, high] = std::minmax(wholes[lining_of(member.i)].number,
-                                           wholes[lining_of(member.j)].number);
+      const auto [low, high] =
+          std::minmax(wholes[lining_of(member.i)].number, wholes[lining_of(member.j)].number);
       for (Whole& whole : wholes)
         if (whole.number == high) whole.number = low;
       --wholes[low].cuts;
@@ -138,8 +137,7 @@ template <class Solver>
     for (const auto& foot : feet->springs()) whole_of(lining_of(foot.node)).is_held = true;
   std::vector<int> open;
   for (std::size_t k = 0; k < wholes.size(); ++k)
-    if (wholes[k].number == k && wholes[k].cuts == 1 && wholes[k].members > 0 &&
-        !wholes[k].is_held)
+    if (wholes[k].number == k && wholes[k].cuts == 1 && wholes[k].members > 0 && !wholes[k].is_held)
       open.push_back(static_cast<int>(k) + 1);
   return open;
 }
@@ -190,9 +188,8 @@ template <class Solver>
 [[nodiscard]] inline std::vector<std::string> remarks_on(const SupportCondition& condition) {
   std::vector<std::string> remarks;
   const auto lining = [&](int number) {
-    return condition.linings > 1
-               ? message({"lining ", number, " of ", condition.linings})
-               : std::string("the lining");
+    return condition.linings > 1 ? message({"lining ", number, " of ", condition.linings})
+                                 : std::string("the lining");
   };
   for (const int number : condition.lost_linings)
     remarks.push_back(lining(number) +

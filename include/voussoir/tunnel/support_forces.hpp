@@ -229,8 +229,7 @@ class LiningNodes {
   [[nodiscard]] std::vector<LiningLink> links() const {
     std::vector<LiningLink> links;
     each_member([&](const auto& m) {
-      if (index_of(m.i) >= 0 && index_of(m.j) >= 0)
-        links.push_back({index_of(m.i), index_of(m.j)});
+      if (index_of(m.i) >= 0 && index_of(m.j) >= 0) links.push_back({index_of(m.i), index_of(m.j)});
     });
     return links;
   }
@@ -312,8 +311,9 @@ template <class Solver>
 template <class Run>
 [[nodiscard]] std::vector<LiningForce> lining_forces_in_motion(const Run& run,
                                                                const LiningNodes& nodes) {
-  auto forces = nodes.forces(
-      [&](const auto& member) { return member.end_forces(run.pose(member.i), run.pose(member.j)); });
+  auto forces = nodes.forces([&](const auto& member) {
+    return member.end_forces(run.pose(member.i), run.pose(member.j));
+  });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = nodes.body(k);
     const Vec2 home = run.home(body).position;

@@ -204,8 +204,7 @@ template <class Geometry, class IsThere, class Displacement>
       seen.stretch = {shift + std::max(stretch.from, last.from()),
                       shift + std::min(stretch.to, last.to())};
     }
-    for (const WallMotion& part :
-         wall_motion_of(mass, *opening, seen, is_there, displacement))
+    for (const WallMotion& part : wall_motion_of(mass, *opening, seen, is_there, displacement))
       motion.push_back(part);
   }
   return motion;
