@@ -43,6 +43,12 @@ double borne(const Tunnel& tunnel) {
   return sum;
 }
 
+void print(const ConstructionResult<Planar>& built) {
+  for (const auto& stage : built.stages)
+    std::printf("%-15s %s, crown %.2f mm\n", stage.name.c_str(), to_string(stage.report),
+                1e3 * stage.convergence.crown);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,11 +71,6 @@ int main(int argc, char** argv) {
       .install_lining(shotcrete(180 * deg + shoulder, 180 * deg + toe))
       .install_lining(shotcrete(-toe, -shoulder));
 
-  const auto print = [](const auto& built) {
-    for (const auto& stage : built.stages)
-      std::printf("%-15s %s, crown %.2f mm\n", stage.name.c_str(), to_string(stage.report),
-                  1e3 * stage.convergence.crown);
-  };
   print(construct(tunnel, upper));
   const double on_arch = borne(tunnel);
   const auto built = construct(tunnel, lower);
