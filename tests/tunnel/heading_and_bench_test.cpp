@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -372,6 +373,31 @@ TEST_SUITE("tunnel/heading_and_bench") {
         CHECK(std::string(to_string(in_one.stages[k].report)) == "stable without its lining");
       CHECK(says(draw_tunnel(two, ended), "STABLE WITHOUT ITS LINING"));
     }
+  }
+
+  TEST_CASE("linings that go on in one another are open or held together") {
+    using Tunnel = Solver<>;
+    const auto open_of = [](bool first_on_feet, bool last_on_feet) {
+      Tunnel tunnel = rock<Tunnel>(1);
+      tunnel.excavate(whole);
+      auto pieces = legs<Tunnel>();
+      pieces.push_back(arch<Tunnel>());                              // joins the two
+      pieces.push_back(lining<Tunnel>(250 * degree, 290 * degree));  // of its own
+      for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const bool on_feet = k == 0 ? first_on_feet : k == 3 && last_on_feet;
+        tunnel.install_lining(lining_frame(tunnel.mass(), whole, pieces[k].layout),
+                              pieces[k].sections, wall,
+                              on_feet ? std::optional(foot) : std::nullopt);
+      }
+      return support_condition(tunnel);
+    };
+    CHECK(open_of(false, false).open_linings == std::vector<int>{1, 4});
+    CHECK(open_of(true, false).open_linings == std::vector<int>{4});
+    CHECK(open_of(false, true).open_linings == std::vector<int>{1});
+    CHECK(open_of(true, true).open_linings.empty());
+    const auto said = remarks_on(open_of(true, false));
+    REQUIRE(!said.empty());
+    CHECK(said[0].starts_with("lining 4 of 4 is open and its ends stand on nothing"));
   }
 
   TEST_CASE("the tunnel as it stands is measured, whatever is excavated last") {
