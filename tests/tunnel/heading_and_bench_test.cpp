@@ -190,8 +190,11 @@ TEST_SUITE("tunnel/heading_and_bench") {
       // One answer: rounding, 1e-14 measured, times the condition of a stiff lining.
       CHECK(difference_of_ways(Linear(mass, strong, in_situ), strong) < 1e-11);
     }
-    // Where joints slip, a face that the floor of the heading has cut has two points where it had
-    // one, and contact updates come at other moments: measured 6e-6, 1.4e-3, 3e-14.
+  }
+
+  TEST_CASE("arch in the heading, legs in the bench, where joints slip [long]") {
+    // A face that the floor of the heading has cut has two points where it had one, and contact
+    // updates come at other moments: measured 6e-6, 1.4e-3, 3e-14.
     for (const std::uint64_t seed : {1, 2, 3}) {
       CAPTURE(seed);
       CHECK(difference_of_ways(rock<Solver<>>(seed), wall) < 5e-3);
@@ -459,7 +462,6 @@ TEST_SUITE("tunnel/heading_and_bench") {
     std::sort(figures.begin(), figures.end());
     const Convergence& walls = result.stages.back().convergence;
     figures.insert(figures.end(), {support_demand(tunnel).mean_thrust, walls.crown, walls.invert});
-    MESSAGE(figures[0], " ", figures[1], " ", figures[2], " ", figures[3], " ", figures[4]);
     return figures;
   }
   template <class Method>
@@ -484,17 +486,25 @@ TEST_SUITE("tunnel/heading_and_bench") {
     return figures_of(Tunnel(voussoir_test::jointed_rock(ground, 3), strong, in_situ), made);
   }
 
-  TEST_CASE("three solution procedures build the same tunnel") {
-    // Nothing slips: there is one answer, and each is as near to it as it is asked to be.
+  TEST_CASE("three solution procedures build the same tunnel, where nothing slips") {
+    // There is one answer, and each is as near to it as it is asked to be: 1e-6 measured, for feet
+    // that bear little beside the thrust 1e-5.
     const auto straight = linear_figures_by<TwoLevel>();
     for (const auto& figures : {linear_figures_by<Relaxation>(), linear_figures_by<Explicit>()})
       for (std::size_t k = 0; k < figures.size(); ++k)
         CHECK(figures[k] == voussoir_test::near(straight[k]).epsilon(1e-3));
-    // Friction remembers the path, and theirs differ.
-    const auto by_two_level = figures_by<TwoLevel>();
-    for (const auto& figures : {figures_by<Relaxation>(), figures_by<Explicit>()})
-      for (std::size_t k = 0; k < figures.size(); ++k)
-        CHECK(figures[k] == voussoir_test::near(by_two_level[k]).epsilon(k < 2 ? 0.1 : 0.05));
+  }
+
+  TEST_CASE("three solution procedures build the same tunnel, where joints slip [long]") {
+    // Friction remembers the path. By increments and by slow unloading it is one: within 0.3 %
+    // measured. Relaxation takes a stage in one: what its feet bear is 8 and 11 % less, thrust 4 %
+    // more, the walls within 4 %.
+    const auto by_two_level = figures_by<TwoLevel>(), by_explicit = figures_by<Explicit>(),
+               by_relaxation = figures_by<Relaxation>();
+    for (std::size_t k = 0; k < by_two_level.size(); ++k) {
+      CHECK(by_explicit[k] == voussoir_test::near(by_two_level[k]).epsilon(0.01));
+      CHECK(by_relaxation[k] == voussoir_test::near(by_two_level[k]).epsilon(k < 2 ? 0.15 : 0.06));
+    }
   }
 
   TEST_CASE("in the mirror all of it is mirrored") {
