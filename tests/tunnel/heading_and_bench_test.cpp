@@ -15,6 +15,8 @@
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/geometry/tunnel_axis.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -434,6 +436,21 @@ TEST_SUITE("tunnel/heading_and_bench") {
     CHECK(joined_openings(tunnel.mass()).size() == 1);
   }
 
+  TEST_CASE("3-D: what is open over one stretch of one axis is a section, rounds are none") {
+    RockMass<Spatial> mass;
+    mass.domain = {{-6, 0, -6}, {6, 8, 6}};
+    CHECK(joined_openings(mass).empty());
+    for (const double from : {0.0, 4.0}) mass.openings.emplace_back(heading(), from, from + 4);
+    CHECK(joined_openings(mass).size() == 1);                        // the second round
+    mass.openings.emplace_back(bench, TunnelAxis({0, 1, 0}), 0, 2);  // under the first, from y = 1
+    const auto section = joined_openings(mass);
+    REQUIRE(section.size() == 2);
+    CHECK(section[0].from() == 0);
+    CHECK(centre_of(section) == Vec2(0, 0));
+    mass.openings.emplace_back(bench, TunnelAxis({0, 4, 0}, 90 * degree), 0, 6);  // a cross-drift
+    CHECK(joined_openings(mass).size() == 1);
+  }
+
   TEST_CASE("the floor of a heading that runs through the centre is its invert") {
     std::vector<Vec2> corners;
     for (const Vec2& v : whole.vertices())
@@ -492,7 +509,7 @@ TEST_SUITE("tunnel/heading_and_bench") {
     const auto straight = linear_figures_by<TwoLevel>();
     for (const auto& figures : {linear_figures_by<Relaxation>(), linear_figures_by<Explicit>()})
       for (std::size_t k = 0; k < figures.size(); ++k)
-        CHECK(figures[k] == voussoir_test::near(straight[k]).epsilon(1e-3));
+        CHECK(figures[k] == voussoir_test::near(straight[k]).epsilon(1e-4));
   }
 
   TEST_CASE("three solution procedures build the same tunnel, where joints slip [long]") {
