@@ -412,8 +412,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
            text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
-  if (run.built.has_lost_lining())
-    out += "lining   came off the wall: it carries nothing\n";
+  if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +

@@ -85,7 +85,7 @@ TEST_SUITE("io/blocks_picture") {
       CAPTURE(text);
       CHECK(contains(bolted, text));
     }
-    picture.lining = ring(812e3, 4e3);
+    picture.linings = {ring(812e3, 4e3)};
     const std::string lined = draw_blocks_picture(picture);
     CHECK(xml_fault(lined) == "");
     for (const std::string text :
@@ -98,18 +98,18 @@ TEST_SUITE("io/blocks_picture") {
 
   TEST_CASE("diagrams have a scale bar, and forces of no account do not fill them") {
     BlocksPicture picture = small_picture();
-    picture.lining = ring(812e3, 4e3);
+    picture.linings = {ring(812e3, 4e3)};
     const std::string loaded = draw_blocks_picture(picture);
     CHECK(contains(loaded, ">500 kN/m<"));
     CHECK(contains(loaded, ">2 kN m/m<"));
     // The reference thrust is of no consequence for what is of the same order.
-    picture.lining->reference_thrust = 10e6;
+    picture.reference_thrust = 10e6;
     CHECK(draw_blocks_picture(picture) == loaded);
 
     // 0.6 kN/m where 10 MN/m are the scale: the diagram is that of 10 MN/m / 200 = 50 kN/m, the
     // moment's that of 50 kN/m at 0.1 m / 6, and the numbers say what there is.
-    picture.lining = ring(600, 3);
-    picture.lining->reference_thrust = 10e6;
+    picture.linings = {ring(600, 3)};
+    picture.reference_thrust = 10e6;
     const std::string idle = draw_blocks_picture(picture);
     CHECK(xml_fault(idle) == "");
     CHECK(contains(idle, ">50 kN/m<"));
@@ -118,7 +118,7 @@ TEST_SUITE("io/blocks_picture") {
     CHECK(contains(idle, "max 0.003 at"));
 
     // The bar across a bolt: 1 N is not drawn as 50 kN is.
-    picture.lining.reset();
+    picture.linings.clear();
     for (PictureCrossing& c : picture.bolts[0].crossings) c.force = 1;
     CHECK(contains(draw_blocks_picture(picture), "force in bolt, 1 kN"));
   }
@@ -130,8 +130,8 @@ TEST_SUITE("io/blocks_picture") {
     picture.bolts[0].crossings[0].force = std::numeric_limits<double>::infinity();
     picture.bolts.push_back({{not_a_number, 0}, {0, 1}, {}});
     picture.joints[0].p.y() = not_a_number;
-    picture.lining = ring(not_a_number, 1e3);
-    picture.lining->nodes[2].point.x() = not_a_number;
+    picture.linings = {ring(not_a_number, 1e3)};
+    picture.linings[0].nodes[2].point.x() = not_a_number;
     const std::string text = draw_blocks_picture(picture);
     CHECK(xml_fault(text) == "");
     CHECK(contains(text, "not finite numbers: 1"));
@@ -142,7 +142,7 @@ TEST_SUITE("io/blocks_picture") {
   TEST_CASE("nothing at all is a picture too") {
     CHECK(xml_fault(draw_blocks_picture({})) == "");
     BlocksPicture picture;
-    picture.lining = PictureLining{};
+    picture.linings.emplace_back();
     picture.bolts = {{}};
     CHECK(xml_fault(draw_blocks_picture(picture)) == "");
     picture.view = ViewRect{{0, 0}, {0, 1}};

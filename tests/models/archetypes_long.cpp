@@ -63,8 +63,7 @@ void construct_in_stages() {
   const SupportDemand demand = support_demand(tunnel);
   CHECK(demand.largest_bolt_force > 10);
   CHECK(demand.largest_thrust > 10);
-  for (const std::string& remark : remarks_on(support_condition(tunnel, built)))
-    CHECK(remark != "");
+  for (const std::string& remark : remarks_on(support_condition(tunnel))) CHECK(remark != "");
   CHECK(diagram_point_of(tunnel, built).largest_thrust == demand.largest_thrust);
   CHECK(xml_fault(draw_tunnel(tunnel, built)) == "");
   tunnel.add_body_force(-1e-4 * Vec<Geometry::dim>::UnitX());

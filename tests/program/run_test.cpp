@@ -111,7 +111,7 @@ TEST_SUITE("program/run") {
         "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state,of_its_strength,run_id");
     CHECK(
         header(r.files.at("lining.csv")) ==
-        "node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm,lost,of_its_strength,run_id");
+        "lining,node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm,lost,of_its_strength,run_id");
     CHECK(r.files.at("blocks.svg").starts_with("<"));
     CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
 

@@ -215,7 +215,15 @@ TEST_SUITE("solver/openings") {
     tunnel.install_lining(lining_frame(tunnel.mass(), whole, rest), shell, interface);
     CHECK(lining_members(tunnel).size() == 52);  // one ring, with nodes at its four corners
     settle(tunnel);
-    CHECK(wall_motion(tunnel, whole).size() > wall_motion(tunnel).size());
+    // The tunnel as it stands is heading and bench.
+    CHECK(wall_motion(tunnel, whole).size() > wall_motion(tunnel, bench).size());
+    const auto length = [](const std::vector<WallMotion>& wall) {
+      double sum = 0;
+      for (const WallMotion& part : wall) sum += part.length;
+      return sum;
+    };
+    CHECK(length(wall_motion(tunnel)) ==
+          voussoir_test::near(length(wall_motion(tunnel, whole))).epsilon(1e-9));
   }
 
   TEST_CASE("what is refused is named with its place, and the rock stays as it was") {

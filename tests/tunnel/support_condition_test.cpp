@@ -48,7 +48,7 @@ std::vector<std::string> remarks(const Law& law) {
                        law});
   const auto built = construct(tunnel, plan);
   CHECK(std::string(to_string(built.last())) == "stable");
-  return remarks_on(support_condition(tunnel, built));
+  return remarks_on(support_condition(tunnel));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ struct BlocksPicture {
   std::vector<std::vector<Vec2>> other_openings{};  ///< excavated before it, the same
   /// Of the tunnel, about which directions are counted [m]; none: the middle of the outline.
   std::optional<Vec2> centre{};
-  std::optional<double> ground_surface;             ///< y [m]; none: too far up to matter
+  std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
   std::vector<PictureBolt> bolts;
   std::vector<PictureLining> linings;
   std::vector<std::vector<Vec2>> fills{};  ///< outlines of holes in the wall that they fill [m]

@@ -27,7 +27,7 @@ namespace voussoir {
 /// What a picture cannot know from the tunnel.
 struct TunnelPictureText {
   std::string title = "Tunnel in jointed rock";
-  double lining_thickness = 0;  ///< [m]; 0: that of each section. Without meaning in 3-D
+  double lining_thickness = 0;            ///< [m]; 0: that of each section. Without meaning in 3-D
   std::vector<std::string> remarks = {};  ///< below the verdict, a line each
 };
 

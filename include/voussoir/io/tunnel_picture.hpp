@@ -84,9 +84,9 @@ template <class Thickness>
   const auto thickness = [&](const LiningLink& link) {
     if (lining_thickness > 0) return lining_thickness;
     // What joins one lining to another is of the later one.
-    const auto k = static_cast<std::size_t>(
-        std::max(state.lining[static_cast<std::size_t>(link.from)].lining,
-                 state.lining[static_cast<std::size_t>(link.to)].lining));
+    const auto k =
+        static_cast<std::size_t>(std::max(state.lining[static_cast<std::size_t>(link.from)].lining,
+                                          state.lining[static_cast<std::size_t>(link.to)].lining));
     return k < state.thicknesses.size() ? state.thicknesses[k] : 0.0;
   };
   std::vector<PictureLining> linings;
@@ -104,8 +104,8 @@ template <class Thickness>
       // Across the line through the neighbours: right for corners as for circles.
       const Vec2& back = at(drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)).position;
       const Vec2& front = at(drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)).position;
-      drawn.nodes.push_back({at(k).position, -perpendicular(front - back).normalized(),
-                             at(k).thrust, at(k).moment});
+      drawn.nodes.push_back(
+          {at(k).position, -perpendicular(front - back).normalized(), at(k).thrust, at(k).moment});
     }
   }
   // A foot is drawn with the end that it is under.

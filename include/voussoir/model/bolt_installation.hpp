@@ -14,6 +14,13 @@
 
 namespace voussoir {
 
+/// A bolt as it was installed.
+template <class Geometry>
+struct InstalledBolt {
+  typename Geometry::Line bar;  ///< head first [m]
+  int crossings;                ///< joints that it crossed then
+};
+
 /// Puts a bolt into a rock mass as it lies now, free of force but for its pretension: at every
 /// joint of the rock that is there and that the bar crosses. The one way for rock at rest and in
 /// motion.

@@ -41,13 +41,6 @@
 
 namespace voussoir {
 
-/// A bolt as it was installed.
-template <class Geometry>
-struct InstalledBolt {
-  typename Geometry::Line bar;  ///< head first [m]
-  int crossings;                ///< joints that it crossed then
-};
-
 /// Rock, excavation, supports and the search for equilibrium. `Solver` composes it from policies.
 ///
 /// The order of calls is that of the construction: the rock in its in-situ stress; then excavating,
@@ -230,16 +223,13 @@ class ComposedSolver {
     return system_.supports.template first<LiningType>();
   }
   [[nodiscard]] int bolt_count() const { return static_cast<int>(installed_.size()); }
-  /// All of them, as they were installed, in that order.
-  [[nodiscard]] const std::vector<InstalledBolt<Geometry>>& installed_bolts() const {
-    return installed_;
-  }
+  /// All of them as they were installed, in that order.
+  [[nodiscard]] const auto& installed_bolts() const { return installed_; }  ///< `InstalledBolt`
   /// Of every round that was excavated, the part of its wall traction that still acts.
   [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
   /// Bodies that detached, in the order in which they did.
   [[nodiscard]] const std::vector<int>& fallen() const { return fallen_; }
-  /// All that they measured [m^2], [m^3].
-  [[nodiscard]] double fallen_measure() const { return fallen_measure_; }
+  [[nodiscard]] double fallen_measure() const { return fallen_measure_; }  ///< [m^2], [m^3]
   /// A lining has come off its wall; it may be another than those that stand.
   [[nodiscard]] bool has_lost_lining() const {
     return std::any_of(system_.linings.begin(), system_.linings.end(),

@@ -27,8 +27,7 @@ struct DiagramPoint {
 
   /// Rock detached, the lining came off, or no equilibrium was found: not a design.
   [[nodiscard]] bool failed() const {
-    return report.verdict != Verdict::stable || report.fallen_measure > 0 ||
-           report.lacks_lining;
+    return report.verdict != Verdict::stable || report.fallen_measure > 0 || report.lacks_lining;
   }
 };
 

@@ -15,8 +15,8 @@
 
 namespace voussoir {
 
-// A section that is taken out in several openings: heading and bench, a pilot and its enlargement, a
-// niche. What is measured of the tunnel as it stands is measured on the walls of all of them.
+// A section that is taken out in several openings: heading and bench, a pilot and its enlargement,
+// a niche. What is measured of the tunnel as it stands is measured on the walls of all of them.
 
 /// True if there is no rock between two sections: they overlap, or share a stretch of their
 /// outlines.
@@ -103,8 +103,7 @@ VOUSSOIR_INLINE Vec2 centre_of(const std::vector<SimplePolygon>& joined) {
   for (const SimplePolygon& section : joined) {
     const Vec2 centre = centre_of(section);
     if (centre == zeros<Vec2>()) return centre;
-    const auto properties =
-        mass_properties({section.vertices().data(), section.vertices().size()});
+    const auto properties = mass_properties({section.vertices().data(), section.vertices().size()});
     sum += properties.measure * properties.centroid;
     area += properties.measure;
   }

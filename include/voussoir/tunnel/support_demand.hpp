@@ -121,12 +121,13 @@ template <class Solver>
   const auto joints = system.supports.template all<LiningJoints<typename Solver::Geometry>>();
   for (const auto* joint : joints)
     for (const auto& member : joint->members()) {
-      const auto [low, high] =
-          std::minmax(wholes[lining_of(member.i)].number, wholes[lining_of(member.j)].number);
+      const std::size_t a = wholes[lining_of(member.i)].number,
+                        b = wholes[lining_of(member.j)].number;
       for (Whole& whole : wholes)
-        if (whole.number == high) whole.number = low;
-      --wholes[low].cuts;
+        if (whole.number == std::max(a, b)) whole.number = std::min(a, b);
     }
+  for (const auto* joint : joints)
+    for (const auto& member : joint->members()) --whole_of(lining_of(member.i)).cuts;
   for (std::size_t k = 0; k < linings.size(); ++k) {
     const std::size_t members = linings[k]->members().size();
     whole_of(k).cuts += linings[k]->node_count() - static_cast<std::ptrdiff_t>(members);

@@ -176,12 +176,16 @@ template <class Geometry, class IsThere, class Displacement>
   return motion;
 }
 
+/// About the centre of the opening.
+/// @param stretch  that is looked at, in 3-D
 template <class Geometry, class IsThere, class Displacement>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
                                                      const typename Geometry::Opening& opening,
                                                      IsThere&& is_there,
-                                                     Displacement&& displacement) {
-  return wall_motion_of<Geometry>(mass, opening, {centre_of(opening)}, is_there, displacement);
+                                                     Displacement&& displacement,
+                                                     const AxisStretch& stretch = {}) {
+  return wall_motion_of<Geometry>(
+      mass, opening, WallSeen<Geometry>{centre_of(opening), {}, stretch}, is_there, displacement);
 }
 
 /// Of the last opening and those that it is joined to, as far as the last reaches along its axis.
@@ -204,8 +208,7 @@ template <class Geometry, class IsThere, class Displacement>
       seen.stretch = {shift + std::max(stretch.from, last.from()),
                       shift + std::min(stretch.to, last.to())};
     }
-    for (const WallMotion& part :
-         wall_motion_of(mass, *opening, seen, is_there, displacement))
+    for (const WallMotion& part : wall_motion_of(mass, *opening, seen, is_there, displacement))
       motion.push_back(part);
   }
   return motion;

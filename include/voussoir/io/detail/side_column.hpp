@@ -80,8 +80,7 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     // A thrust of no account, and the moment that it has at the edge of the core, t / 6.
     thrust.negligible = 0.005 * picture.reference_thrust / 1e3;
     for (const PictureLining& lining : picture.linings) {
-      moment.negligible =
-          std::max(moment.negligible, thrust.negligible * lining.thickness / 6);
+      moment.negligible = std::max(moment.negligible, thrust.negligible * lining.thickness / 6);
       for (const PictureLiningNode& node : lining.nodes) {
         thrust.values.push_back(node.thrust / 1e3);
         moment.values.push_back(node.moment / 1e3);

@@ -113,12 +113,10 @@ VOUSSOIR_INLINE void draw_lining_diagram(SvgCanvas& canvas, const ViewRect& fram
       const bool is_last = i + 1 == end;
       draw_from(i, is_last ? begin : i + 1, !is_last || linings[k].is_ring);
     }
-    const std::vector<Vec2> line = on_page(
-        {axis.begin() + static_cast<std::ptrdiff_t>(begin),
-         axis.begin() + static_cast<std::ptrdiff_t>(end)},
-        map);
-    if (line.size() >= 2)
-      linings[k].is_ring ? ring.add_polygon(line) : ring.add_polyline(line);
+    const std::vector<Vec2> line = on_page({axis.begin() + static_cast<std::ptrdiff_t>(begin),
+                                            axis.begin() + static_cast<std::ptrdiff_t>(end)},
+                                           map);
+    if (line.size() >= 2) linings[k].is_ring ? ring.add_polygon(line) : ring.add_polyline(line);
   }
   const char* colours[] = {positive_colour, negative_colour};
   for (const int side : {0, 1}) {
@@ -227,8 +225,7 @@ VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
               {.anchor = TextAnchor::middle});
   canvas.text(frame.low + Vec2(0, 32),
               "max " + readable_text(max_force(*highest) / 1e3) + " kN at " +
-                  fixed_text(direction_degrees(centre, highest->head), 0) +
-                  "°; tension positive");
+                  fixed_text(direction_degrees(centre, highest->head), 0) + "°; tension positive");
 }
 
 #endif

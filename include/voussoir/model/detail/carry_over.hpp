@@ -198,10 +198,23 @@ class CarryOver {
     if (is_unchanged(b)) return {piece, false, arm, place};
     return {piece, false, Vec<dim>(arm - old_.arm(b, next_.body(piece).centre)), place};
   }
-  /// The piece of a block in which a place of the in-situ state lies; -1: in none.
+  /// The piece of a block in which a place of the in-situ state lies, or, if it lay before the
+  /// block, as a lining does where it fills a hole, the piece that is as near as the block was;
+  /// -1: that is gone.
   [[nodiscard]] int piece_at(int b, const Vec<dim>& place) const {
     if (is_unchanged(b)) return pieces(b).first;
-    return piece_near(b, place, 100 * tolerance_);
+    double before = std::numeric_limits<double>::infinity();
+    for (const auto& part : (*old_.shapes)[index(b)])
+      before = std::min(before, outside_of(part, place));
+    return piece_near(b, place, std::max(0.0, before) + 100 * tolerance_);
+  }
+  /// How far a place is outside a convex part, at least [m].
+  template <class Part>
+  [[nodiscard]] static double outside_of(const Part& part, const Vec<dim>& place) {
+    double outside = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < part.size(); ++k)
+      outside = std::max(outside, part.half_space(k).distance(place));
+    return outside;
   }
   /// The piece of a block that a place is in, or nearest to.
   /// @param least  it is nearer than this [m]
@@ -209,15 +222,11 @@ class CarryOver {
     const auto [first, last] = pieces(b);
     int best = -1;
     for (int piece = first; piece < last; ++piece)
-      for (const auto& part : (*next_.shapes)[index(piece)]) {
-        double outside = -std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < part.size(); ++k)
-          outside = std::max(outside, part.half_space(k).distance(place));
-        if (outside < least) {
+      for (const auto& part : (*next_.shapes)[index(piece)])
+        if (const double outside = outside_of(part, place); outside < least) {
           least = outside;
           best = piece;
         }
-      }
     return best;
   }
 

@@ -113,7 +113,8 @@ class LiningAssembly {
     return -1;
   }
 
-  /// Takes out the feet of the ends that go on in the new lining, which has to carry what they bore.
+  /// Takes out the feet of the ends that go on in the new lining, which has to carry what they
+  /// bore.
   void leave_out_feet_before(const LiningFrame<Geometry>& wanted) {
     for (const LiningEnd<Geometry>& end : wanted.ends) {
       const Vec<dim>& place = wanted.neighbours[static_cast<std::size_t>(end.neighbour)];
