@@ -32,9 +32,14 @@ struct FigureTable {
       for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
       if (columns.empty())
         columns = cells;
-      else
+      else if (!is_negligible(cells))
         rows.push_back(cells);
     }
+  }
+  /// Of a contact no longer than a micrometre, which carries nothing and may be there or not.
+  [[nodiscard]] bool is_negligible(const std::vector<std::string>& cells) const {
+    const int length = column("length_m");
+    return length >= 0 && std::atof(cells[static_cast<std::size_t>(length)].c_str()) < 1e-6;
   }
   /// -1: there is none.
   [[nodiscard]] int column(std::string_view name) const {
