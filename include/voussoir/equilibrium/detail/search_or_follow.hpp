@@ -88,8 +88,8 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
     if (search(AtAFall::goes_on, moved, report) == SearchEnd::open)
       report.reason =
           "rock came to rest in motion, but no equilibrium within the limits was found there" +
-          (report.reason.empty() ? "" : ": " + report.reason) +
-          "; raise error_estimate or the step limit of the method";
+          (report.reason.empty() ? "" : ": " + report.reason) + "; an error_estimate above " +
+          message_number(context.acceptance.error_estimate, 3) + " may accept it";
   };
   try {
     if (stage.go(report)) settle();
