@@ -82,11 +82,27 @@ struct SupportCondition {
   bool lining_lost = false;               ///< with the rock that held it; not: came off its wall
   bool lining_open = false;               ///< 2-D: an arc, of which the feet stand on nothing
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
+  std::vector<std::string> opened;        ///< linings that a later round went through: what is left
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
   std::string widest_place;               ///< of that node
   std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
+
+/// "lining 1 is opened ...: 8 nodes and 22 members are out; it ends at (2.46, 5.5, 0.32) m, ..."
+template <int Dim>
+[[nodiscard]] std::string text_of_opened(const OpenedLining<Dim>& opened) {
+  std::string text = message({"lining ", opened.lining + 1,
+                              opened.is_gone ? " is taken out by a later round: "
+                                             : " is opened where a later round meets it: ",
+                              opened.nodes, " nodes and ", opened.members, " members are out"});
+  if (opened.ends.empty()) return text;
+  constexpr std::size_t most = 4;
+  text += message({"; ", opened.ends.size(), " nodes at the cut hang free there, at "});
+  for (std::size_t k = 0; k < std::min(most, opened.ends.size()); ++k)
+    text += (k > 0 ? ", " : "") + text_of<Dim>(opened.ends[k]);
+  return text + (opened.ends.size() > most ? " m and further on" : " m");
+}
 
 template <class Solver>
 [[nodiscard]] SupportCondition support_condition(
@@ -95,6 +111,8 @@ template <class Solver>
   condition.bolts = static_cast<int>(result.bars.size());
   for (const auto& end : result.hanging_ends)
     condition.hanging_ends.push_back(text_of<Solver::dim>(end));
+  for (const auto& opened : result.opened_linings)
+    condition.opened.push_back(text_of_opened(opened));
   std::vector<int> held(result.bars.size(), 0);
   for (const CrossingForce& c : bolt_forces(solver)) {
     if (c.bolt < result.first_bolt) continue;
@@ -113,8 +131,8 @@ template <class Solver>
   const bool is_joined =
       solver.system().supports.template first<LiningJoints<typename Solver::Geometry>>() != nullptr;
   for (const auto& lining : solver.system().linings) {
-    if (!solver.system().body(lining.first).movable) continue;
     for (const LiningGap& gap : lining.gaps) {
+      if (!solver.system().body(lining.first + gap.node).movable) continue;
       ++condition.gaps;
       if (!(gap.share > condition.widest_gap)) continue;
       condition.widest_gap = gap.share;
@@ -124,8 +142,15 @@ template <class Solver>
   }
   for (const auto* lining : solver.linings()) {
     const std::size_t members = lining->members().size();
-    condition.lining_lost |=
-        !solver.system().body(lining->first_node()).movable && !result.has_lost_lining();
+    bool stands = false;
+    for (int n = 0; n < lining->node_count(); ++n)
+      stands = stands || solver.system().body(lining->first_node() + n).movable;
+    const bool is_taken_out = std::any_of(
+        result.opened_linings.begin(), result.opened_linings.end(), [&](const auto& opened) {
+          return opened.is_gone &&
+                 solver.linings()[static_cast<std::size_t>(opened.lining)] == lining;
+        });
+    condition.lining_lost |= !stands && !is_taken_out && !result.has_lost_lining();
     condition.lining_open |= Solver::dim == 2 && !is_joined && !is_bonded &&
                              foot_forces(solver).empty() && members > 0 &&
                              members + 1 == static_cast<std::size_t>(lining->node_count());
@@ -148,6 +173,7 @@ template <class Solver>
     remarks.emplace_back(
         "the lining is open and its ends stand on nothing: it carries what friction on the rock "
         "gives it, next to no thrust; give them feet, or bond it to the rock");
+  for (const std::string& opened : condition.opened) remarks.push_back(opened);
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +
                       " m: the rock there had fallen before it was installed; that end hangs free");

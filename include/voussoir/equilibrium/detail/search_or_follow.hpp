@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/message.hpp>
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
@@ -38,6 +39,10 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
                       Search&& search, EquilibriumReport& report) {
   const auto say_why = [&] {
     if (report.verdict != Verdict::stable) return;
+    if (!report.held_at_edge.empty())
+      report.reason += message({"; ", report.held_at_edge.size(),
+                                report.held_at_edge.size() == 1 ? " block" : " blocks",
+                                " that only the edge of the domain touches held there"});
     if (!report.fallen.empty()) report.reason = "within all limits after blocks had detached";
     if (!report.lost_nodes.empty()) report.reason = "within all limits, but " + report.lost_lining;
   };
