@@ -112,7 +112,12 @@ TEST_SUITE("dynamics/run_diagnostics") {
     CAPTURE(text);
     CHECK(says(text, "block 3 at ("));
     CHECK(says(text, "50 m/s"));
-    CHECK(says(text, "raise speed_limit"));
+    CHECK(!says(text, "raise speed_limit"));  // there is none to raise
+    CHECK(says(text, "drop pieces of its size"));
+    Run limited = tower({.speed_limit = 40, .check_every = 10});
+    limited.advance_steps(10);
+    limited.set_velocity(3, {50, 0});
+    CHECK(says(fault_of(limited, 10), "raise speed_limit"));
   }
 
   TEST_CASE("too much overlap is named with both blocks, and whose fault it may be") {

@@ -178,7 +178,7 @@ TEST_SUITE("solver/openings") {
         "it is outside the domain"));
   }
 
-  TEST_CASE("a splinter that only a smooth edge of the domain touches falls") {
+  TEST_CASE("a splinter that only the edge of the domain touches is held by the rock outside") {
     Rock rock(slice<Spatial>(cube, {}, {}), elastic, {.density = 2700});
     // A slot around a strip of 0.2 m x 1 m along the western edge.
     const SimplePolygon slot(
@@ -187,8 +187,16 @@ TEST_SUITE("solver/openings") {
     const EquilibriumReport report = rock.equilibrium();
     INFO(report.reason);
     CHECK(report.verdict == Verdict::stable);
-    CHECK(report.fallen.size() == 1);
-    CHECK(report.fallen_measure == voussoir_test::near(0.2 * 1 * 12));
+    CHECK(report.fallen.empty());
+    REQUIRE(report.held_at_edge.size() == 1);
+    const int splinter = report.held_at_edge[0];
+    const auto body = rock.mass().bodies[static_cast<std::size_t>(splinter)].properties;
+    CHECK(body.measure == voussoir_test::near(0.2 * 1 * 12));
+    CHECK(rock.displacement_of(splinter, body.centroid).norm() == 0);
+    // After another round, too.
+    rock.excavate(PrismaticOpening(box(3, -2, 5, 0)), 0);
+    CHECK(rock.equilibrium().verdict == Verdict::stable);
+    CHECK(rock.fallen().empty());
   }
 
   TEST_CASE("2-D: a bench is lined as the section that it makes with its heading") {
@@ -334,6 +342,40 @@ TEST_SUITE("solver/openings") {
       CHECK(members[k].thrust > 0.01 * whole);
       CHECK(members[k].thrust < 0.3 * whole);
     }
+  }
+
+  TEST_CASE("3-D: a cross-drift opens the ribs of its tunnel, at once or in two rounds") {
+    const auto mass = jointed_mass({{-6, 0, -6}, {6, 6, 6}}, 7, 2.5, limits);
+    const CoulombJoint interface({1e10, 1e10, 60 * degree});
+    const PrismaticOpening tunnel(circular_opening(3, 12));
+    const auto drift = [&](double from, double to) {
+      return PrismaticOpening(box(-0.9, -0.9, 0.9, 0.9), TunnelAxis({0, 3, 0}, 90 * degree), from,
+                              to);
+    };
+    Rock at_once(mass, elastic, deep);
+    at_once.excavate(tunnel, 0);
+    settle(at_once, 0.5);
+    at_once.install_lining(lining_frame(at_once.mass(), {.ring = {.nodes = 12}, .spacing = 1}),
+                           ribs_sections, interface);
+    settle(at_once);
+    const std::size_t before = lining_members(at_once).size();
+    Rock in_rounds = at_once;
+    const auto opened = at_once.excavate(drift(0, 4.5), 0);
+    REQUIRE(opened.size() == 1);
+    CHECK(opened[0].nodes > 0);
+    CHECK(!opened[0].is_gone);
+    CHECK(opened[0].ends.size() >= 4);
+    for (const Vec3& end : opened[0].ends) CHECK(end.x() > 0);  // the drift goes East
+    CHECK(lining_members(at_once).size() == before - static_cast<std::size_t>(opened[0].members));
+    // What the members carried is held with the wall: nothing jumps.
+    CHECK(at_once.out_of_balance_ratio() < 1e-5);
+    settle(at_once);
+    CHECK(in_rounds.excavate(drift(0, 2.5), 0).size() == 1);
+    settle(in_rounds, 0.3);
+    CHECK(in_rounds.excavate(drift(2.5, 4.5), 0).empty());
+    settle(in_rounds);
+    CHECK(lining_members(in_rounds).size() == lining_members(at_once).size());
+    CHECK(difference(at_once, in_rounds) < 1e-6);
   }
 
   TEST_CASE("3-D: ribs next to ribs are the ribs at once") {

@@ -68,6 +68,34 @@ TEST_SUITE("tunnel/support_condition") {
     CHECK(said[0].find("interface.") == std::string::npos);
   }
 
+  TEST_CASE("a ring that a bench opens is said, with its cut ends") {
+    const auto outline = [](double low, double high) {
+      return SimplePolygon({{-3, low}, {3, low}, {3, high}, {-3, high}});
+    };
+    using Tunnel = Solver<>;
+    Tunnel tunnel(
+        voussoir_test::jointed_rock(domain_around(outline(-3, 3), 20, 7, 7), 1, {0.25, 5}),
+        CoulombJoint({5e9, 5e8, 45 * degree}), {.density = 2700, .surcharge = 1e6});
+    Construction<Tunnel> plan;
+    plan.add_stage("heading", 0.5).excavate(outline(0, 3));
+    plan.add_stage("ring", 0.3)
+        .install_lining({LiningRing{.nodes = 36},
+                         {LiningSection::rectangular(0.1, 25e9)},
+                         CoulombJoint({1e9, 1e9, 45 * degree})});
+    plan.add_stage("bench", 0.2).excavate(outline(-3, 0));
+    const auto built = construct(tunnel, plan);
+    CHECK(std::string(to_string(built.last())) == "stable");
+    REQUIRE(tunnel.opened_linings().size() == 1);
+    const auto said = remarks_on(support_condition(tunnel));
+    bool is_said = false;
+    for (const std::string& text : said) {
+      CAPTURE(text);
+      CHECK(text.find("was lost") == std::string::npos);
+      is_said = is_said || text.find("lining 1 is opened where a later round meets it: ") == 0;
+    }
+    CHECK(is_said);
+  }
+
   TEST_CASE("a bond is told by what it holds") {
     CHECK(holds_shear<2>(MohrCoulombJoint(bond)));
     CHECK(holds_shear<3>(MohrCoulombJoint(bond)));

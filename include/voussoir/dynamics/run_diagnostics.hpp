@@ -22,11 +22,12 @@ class RunDiagnostics {
   using Bodies = std::vector<MovingBody<Dim>>;
 
   RunDiagnostics(const Bodies& bodies, const std::vector<BodyRole>& roles, const Vec<Dim>& origin,
-                 double speed_limit, double overlap_limit)
+                 double speed_limit, bool speed_is_given, double overlap_limit)
       : bodies_(bodies),
         roles_(roles),
         origin_(origin),
         speed_limit_(speed_limit),
+        speed_is_given_(speed_is_given),
         overlap_limit_(overlap_limit) {}
 
   /// @param energy  so far;  @param given  to the bodies as velocity [J]
@@ -58,10 +59,12 @@ class RunDiagnostics {
              "lower the safety factor";
     if (highest > speed_limit_)
       return name_of(fastest) + " moves at " + message_number(highest, 3) +
-             " m/s, faster than anything here falls or was thrown at first (limit " +
-             message_number(speed_limit_, 3) +
-             " m/s), and the energy balances; it was given this velocity, or hit by what is much "
-             "heavier: raise speed_limit if it is meant to";
+             " m/s, faster than anything here falls or was thrown at first (" +
+             (speed_is_given_ ? "speed_limit " : "at most ") + message_number(speed_limit_, 3) +
+             " m/s), and the energy balances; it was given this velocity, hit by what is much "
+             "heavier, or is a splinter that a load drives: " +
+             (speed_is_given_ ? "raise speed_limit if it is meant to"
+                              : "drop pieces of its size (smallest_piece), or hold it");
     return overlap(network);
   }
 
@@ -106,7 +109,9 @@ class RunDiagnostics {
   const Bodies& bodies_;
   const std::vector<BodyRole>& roles_;
   Vec<Dim> origin_;
-  double speed_limit_, overlap_limit_;
+  double speed_limit_;
+  bool speed_is_given_;  ///< else it was computed: nobody could raise it
+  double overlap_limit_;
 };
 
 }  // namespace voussoir::detail

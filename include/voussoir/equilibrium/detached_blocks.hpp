@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
@@ -34,17 +35,23 @@ template <class System>
   return fallen;
 }
 
-/// Removes these bodies, and those that then hang on nothing.
-/// @return  the latter
+/// Removes these bodies, and those that then hang on nothing. Where the edge of the domain has cut
+/// one of the latter, it is held: fixed where it is.
+/// @return  those that hung on nothing and are removed; those that are held
 template <class System>
-std::vector<int> remove_with_loose(System& system, const std::vector<int>& bodies) {
+std::pair<std::vector<int>, std::vector<int>> remove_with_loose(System& system,
+                                                                const std::vector<int>& bodies) {
   if (!bodies.empty()) system.remove(bodies);
-  std::vector<int> loose = system.unsupported();
+  std::vector<int> loose = system.unsupported(), held = system.cut_by_edge(loose);
+  for (const int b : held) {
+    system.fix(b);
+    std::erase(loose, b);
+  }
   if (!loose.empty()) system.remove(loose);
-  return loose;
+  return {std::move(loose), std::move(held)};
 }
 
-/// The same, entered in the report as fallen.
+/// The same, entered in the report as fallen, or held.
 template <class System>
 void drop(System& system, const std::vector<int>& bodies, const SearchContext& context,
           EquilibriumReport& report) {
@@ -57,11 +64,14 @@ void drop(System& system, const std::vector<int>& bodies, const SearchContext& c
       report.fallen_measure += (*context.measures)[static_cast<std::size_t>(b)];
   };
   for (const int b : bodies) enter(b);
-  for (const int b : remove_with_loose(system, bodies)) enter(b);
+  const auto [loose, held] = remove_with_loose(system, bodies);
+  for (const int b : loose) enter(b);
+  report.held_at_edge.insert(report.held_at_edge.end(), held.begin(), held.end());
 }
 
 /// Prepares a solver of the elastic stiffness. A body that can move without resistance though all
-/// contacts are closed is held by nothing: it is dropped, and the solver prepared again.
+/// contacts are closed is held by nothing: it is dropped, or held where the edge of the domain has
+/// cut it, and the solver prepared again.
 ///
 /// Not where contacts have one point each: that lets blocks turn that real contacts hold.
 /// @throws FreeBody  in such a model, or after more than `most` bodies: it is the model that is
@@ -78,7 +88,12 @@ void prepare_without_free_bodies(System& system, const SearchContext& context,
           std::all_of(contacts.begin(), contacts.end(),
                       [](const auto& c) { return c.last() - c.first == 1; }))
         throw;
-      drop(system, {free.body()}, context, report);
+      if (system.cut_by_edge({free.body()}).empty()) {
+        drop(system, {free.body()}, context, report);
+      } else {
+        system.fix(free.body());
+        report.held_at_edge.push_back(free.body());
+      }
     }
   }
 }

@@ -93,6 +93,9 @@ struct EquilibriumReport {
   LinearReport linear;        ///< how the elastic solves were done
   std::vector<int> fallen;    ///< blocks removed because they detached, in this search
   double fallen_measure = 0;  ///< [m^2] or [m^3]
+  /// Blocks that nothing but a smooth edge of the domain touched: parts of blocks that go on
+  /// outside, and are held where they are from this search on.
+  std::vector<int> held_at_edge;
   /// Nodes of linings that came off their wall and were taken out, in this search; what happened,
   /// in a sentence.
   std::vector<int> lost_nodes;

@@ -123,6 +123,10 @@ class System : public SystemState<Geometry> {
   /// are smooth.
   [[nodiscard]] std::vector<int> unsupported() const;
 
+  /// Of bodies that nothing holds, those that the edge of the domain has cut, and what they touch
+  /// among the others: the rest of them lies outside, whole, and does not let go.
+  [[nodiscard]] std::vector<int> cut_by_edge(const std::vector<int>& loose) const;
+
  private:
   /// sink(a, b, aa, ab, bb) of every contact and support, all closed and sticking.
   template <class Sink>
@@ -226,6 +230,30 @@ std::vector<int> System<Geometry, DetectorModel>::unsupported() const {
   for (int b = 0; b < this->body_count(); ++b)
     if (root(static_cast<std::size_t>(b)) != root(fixed)) loose.push_back(b);
   return loose;
+}
+
+template <class Geometry, class DetectorModel>
+std::vector<int> System<Geometry, DetectorModel>::cut_by_edge(const std::vector<int>& loose) const {
+  if (loose.empty()) return {};
+  BodyMarks is_loose(bodies_.size(), 0), is_cut(bodies_.size(), 0);
+  for (const int b : loose) is_loose[static_cast<std::size_t>(b)] = 1;
+  for (const auto& c : boundary.contacts())
+    for (const int b : {c.a, c.b})
+      if (is_marked(is_loose, b)) is_cut[static_cast<std::size_t>(b)] = 1;
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (const auto& c : joints.contacts()) {
+      if (!is_marked(is_loose, c.a) || !is_marked(is_loose, c.b) ||
+          is_marked(is_cut, c.a) == is_marked(is_cut, c.b))
+        continue;
+      is_cut[static_cast<std::size_t>(c.a)] = is_cut[static_cast<std::size_t>(c.b)] = 1;
+      goes_on = true;
+    }
+  }
+  std::vector<int> held;
+  for (const int b : loose)
+    if (is_marked(is_cut, b)) held.push_back(b);
+  return held;
 }
 
 }  // namespace voussoir

@@ -50,7 +50,7 @@ VOUSSOIR_INLINE void check_opening(const PrismaticOpening& opening, const RockMa
 /// @throws InvalidInput  openings that meet the sides of the domain have left rock in parts that
 /// both
 ///                       reach a side other than the top, and are more than a hundredth of the
-///                       domain. Less is a splinter: it stands on the bottom, or falls
+///                       domain. Less is a splinter: it stands, or the rock outside holds it
 /// @cost  contacts from the cuts, where an opening could have done so; else nothing
 template <class Geometry>
 void check_in_one_piece(const RockMass<Geometry>& mass);

@@ -225,6 +225,8 @@ class ComposedSolver {
   [[nodiscard]] int bolt_count() const { return static_cast<int>(installed_.size()); }
   /// All of them as they were installed, in that order.
   [[nodiscard]] const auto& installed_bolts() const { return installed_; }  ///< `InstalledBolt`
+  /// Linings that later rounds went through, in the order of the rounds.
+  [[nodiscard]] const std::vector<OpenedLining<dim>>& opened_linings() const { return opened_; }
   /// Of every round that was excavated, the part of its wall traction that still acts.
   [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
   /// Bodies that detached, in the order in which they did.
@@ -286,6 +288,7 @@ class ComposedSolver {
   std::vector<int> fallen_;
   double fallen_measure_ = 0;
   std::vector<InstalledBolt<Geometry>> installed_;
+  std::vector<OpenedLining<dim>> opened_;
   double update_limit_ = 0.02;  ///< of contact updates, of the last search [m]
   double carried_ = 0;          ///< see `SearchContext` [m]
   bool started_ = false, is_loaded_ = false;
@@ -365,6 +368,7 @@ auto ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
   measures_ = std::move(after.measures);
   fallen_ = std::move(after.fallen);
   hold_wall(&after.touched);
+  opened_.insert(opened_.end(), after.opened.begin(), after.opened.end());
   return std::move(after.opened);
 }
 

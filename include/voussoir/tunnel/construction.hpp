@@ -15,7 +15,6 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/lining/lining_model.hpp>
-#include <voussoir/model/opened_lining.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/tunnel/chosen_nodes.hpp>
@@ -133,8 +132,6 @@ template <class Geometry>
 struct ConstructionResult {
   std::vector<StageResult> stages;  ///< those that were begun
   double fallen_before = 0;         ///< rock that had detached before it began [m^2], [m^3]
-  /// Linings that a later round went through, in the order of the rounds.
-  std::vector<OpenedLining<Geometry::dim>> opened_linings;
 
   /// Of the last stage that was begun. @pre there is one
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
@@ -194,11 +191,9 @@ template <class Solver>
 
 /// @throws InvalidInput  see the calls; Stopped
 template <class Solver>
-void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress,
-               ConstructionResult<typename Solver::Geometry>& result) {
+void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress) {
   for (const auto& round : stage.rounds)
-    for (auto& opened : solver.excavate(round.opening, round.smallest_piece, progress))
-      result.opened_linings.push_back(std::move(opened));
+    (void)solver.excavate(round.opening, round.smallest_piece, progress);
   StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
   for (const auto& bolts : stage.bolts)
     for (const auto& bar : bolts.bars) {
@@ -235,7 +230,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
     Progress asked;
     if (progress) asked = [&](double fraction) { return progress(stage.name, fraction); };
     naming("stage \"" + stage.name + "\"", [&] {
-      detail::carry_out(solver, stage, asked, result);
+      detail::carry_out(solver, stage, asked);
       StageResult& end = result.stages.emplace_back();
       end.name = stage.name;
       end.wall_traction_asked = stage.wall_traction;

@@ -90,11 +90,27 @@ struct SupportCondition {
   std::vector<int> open_linings;
   double open_thrust = 0;                 ///< largest of all linings, where one is open [N/m]
   std::vector<std::string> hanging_ends;  ///< where a foot was left out: the rock had fallen
+  std::vector<std::string> opened;        ///< linings that a later round went through: what is left
   int gaps = 0;           ///< nodes of linings that stand with a gap behind them, too deep to fill
   double widest_gap = 0;  ///< share of the widest of what stands for its node, 0 to 1
   std::string widest_place;               ///< of that node
   std::vector<std::string> yielded_feet;  ///< where one has reached its bearing strength
 };
+
+/// "lining 1 is opened ...: 8 nodes and 22 members are out; it ends at (2.46, 5.5, 0.32) m, ..."
+template <int Dim>
+[[nodiscard]] std::string text_of_opened(const OpenedLining<Dim>& opened) {
+  std::string text = message({"lining ", opened.lining + 1,
+                              opened.is_gone ? " is taken out by a later round: "
+                                             : " is opened where a later round meets it: ",
+                              opened.nodes, " nodes and ", opened.members, " members are out"});
+  if (opened.ends.empty()) return text;
+  constexpr std::size_t most = 4;
+  text += message({"; ", opened.ends.size(), " nodes at the cut hang free there, at "});
+  for (std::size_t k = 0; k < std::min(most, opened.ends.size()); ++k)
+    text += (k > 0 ? ", " : "") + text_of<Dim>(opened.ends[k]);
+  return text + (opened.ends.size() > most ? " m and further on" : " m");
+}
 
 namespace detail {
 
@@ -104,7 +120,7 @@ template <class Solver>
 [[nodiscard]] std::vector<int> open_linings(const Solver& solver) {
   struct Whole {
     std::size_t number;       ///< of the whole that it is part of: its first lining
-    std::ptrdiff_t cuts = 0;  ///< nodes less members
+    std::ptrdiff_t cuts = 0;  ///< nodes that stand less members
     std::size_t members = 0;
     bool is_held = false;
   };
@@ -130,7 +146,9 @@ template <class Solver>
     for (const auto& member : joint->members()) --whole_of(lining_of(member.i)).cuts;
   for (std::size_t k = 0; k < linings.size(); ++k) {
     const std::size_t members = linings[k]->members().size();
-    whole_of(k).cuts += linings[k]->node_count() - static_cast<std::ptrdiff_t>(members);
+    for (int n = 0; n < linings[k]->node_count(); ++n)
+      whole_of(k).cuts += system.body(linings[k]->first_node() + n).movable ? 1 : 0;
+    whole_of(k).cuts -= static_cast<std::ptrdiff_t>(members);
     whole_of(k).members += members;
     const auto& law = system.interface.laws()[static_cast<std::size_t>(system.linings[k].law)];
     whole_of(k).is_held |= holds_shear<Solver::dim>(law);
@@ -139,7 +157,7 @@ template <class Solver>
     for (const auto& foot : feet->springs()) whole_of(lining_of(foot.node)).is_held = true;
   std::vector<int> open;
   for (std::size_t k = 0; k < wholes.size(); ++k)
-    if (wholes[k].number == k && wholes[k].cuts == 1 && wholes[k].members > 0 && !wholes[k].is_held)
+    if (wholes[k].number == k && wholes[k].cuts >= 1 && wholes[k].members > 0 && !wholes[k].is_held)
       open.push_back(static_cast<int>(k) + 1);
   return open;
 }
@@ -150,6 +168,8 @@ template <class Solver>
 [[nodiscard]] SupportCondition support_condition(const Solver& solver) {
   SupportCondition condition;
   condition.bolts = solver.bolt_count();
+  for (const auto& opened : solver.opened_linings())
+    condition.opened.push_back(text_of_opened(opened));
   std::vector<int> held(solver.installed_bolts().size(), 0);
   for (const CrossingForce& c : bolt_forces(solver)) {
     ++held.at(static_cast<std::size_t>(c.bolt));
@@ -166,11 +186,19 @@ template <class Solver>
     ++condition.linings;
     for (const auto& end : lining.hanging_ends)
       condition.hanging_ends.push_back(text_of<Solver::dim>(end));
-    if (!solver.system().body(lining.first).movable) {
-      if (!lining.came_off) condition.lost_linings.push_back(condition.linings);
+    bool stands = false;
+    for (std::size_t n = 0; n < lining.surface.node_count(); ++n)
+      stands = stands || solver.system().body(lining.first + static_cast<int>(n)).movable;
+    if (!stands) {
+      const bool is_taken_out = std::any_of(
+          solver.opened_linings().begin(), solver.opened_linings().end(), [&](const auto& opened) {
+            return opened.is_gone && opened.lining + 1 == condition.linings;
+          });
+      if (!lining.came_off && !is_taken_out) condition.lost_linings.push_back(condition.linings);
       continue;
     }
     for (const LiningGap& gap : lining.gaps) {
+      if (!solver.system().body(lining.first + gap.node).movable) continue;
       ++condition.gaps;
       if (!(gap.share > condition.widest_gap)) continue;
       condition.widest_gap = gap.share;
@@ -207,6 +235,7 @@ template <class Solver>
         "now at most " +
         message_number(condition.open_thrust / 1e3, 3) +
         " kN/m; give them feet, or bond it to the rock");
+  for (const std::string& opened : condition.opened) remarks.push_back(opened);
   for (const std::string& place : condition.hanging_ends)
     remarks.push_back("the lining has no foot at " + place +
                       " m: the rock there had fallen before it was installed; that end hangs free");

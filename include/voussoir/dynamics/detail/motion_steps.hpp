@@ -165,7 +165,7 @@ template <int Dim, class Detector>
 void Motion<Dim, Detector>::check() {
   const std::string fault =
       detail::RunDiagnostics<Dim>(bodies_, roles_, origin_, sizes_.speed_limit,
-                                  settings_.overlap_limit)
+                                  settings_.speed_limit > 0, settings_.overlap_limit)
           .fault(std::as_const(network_), energy(), kinetic_given_, sizes_.unnoticed, step_);
   checked_ = steps_;
   audit_.highest_kinetic =

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 #include <vector>
+#include <voussoir/core/message.hpp>
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/equilibrium/detached_blocks.hpp>
@@ -38,6 +39,10 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
                       Search&& search, EquilibriumReport& report) {
   const auto say_why = [&] {
     if (report.verdict != Verdict::stable) return;
+    if (!report.held_at_edge.empty())
+      report.reason += message({"; ", report.held_at_edge.size(),
+                                report.held_at_edge.size() == 1 ? " block" : " blocks",
+                                " that only the edge of the domain touches held there"});
     if (!report.fallen.empty()) report.reason = "within all limits after blocks had detached";
     if (!report.lost_nodes.empty()) report.reason = "within all limits, but " + report.lost_lining;
   };
@@ -88,8 +93,8 @@ void search_or_follow(System& system, const SearchContext& context, const Motion
     if (search(AtAFall::goes_on, moved, report) == SearchEnd::open)
       report.reason =
           "rock came to rest in motion, but no equilibrium within the limits was found there" +
-          (report.reason.empty() ? "" : ": " + report.reason) +
-          "; raise error_estimate or the step limit of the method";
+          (report.reason.empty() ? "" : ": " + report.reason) + "; an error_estimate above " +
+          message_number(context.acceptance.error_estimate, 3) + " may accept it";
   };
   try {
     if (stage.go(report)) settle();
