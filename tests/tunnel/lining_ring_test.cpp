@@ -9,6 +9,7 @@
 #include <vector>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
+#include <voussoir/tunnel/lined_part.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
@@ -271,6 +272,109 @@ TEST_SUITE("tunnel/lining_ring") {
     const LiningFrame<Planar> frame = lining_frame(mass, {.nodes = 24});
     CHECK((frame.nodes[0] - larger.edge(0).centre()).norm() <= 1e-12);
     CHECK(std::abs(contact_length(frame) - larger.perimeter()) <= 1e-9);
+  }
+
+  TEST_CASE("corners have a node, curves and rough walls have none but at their corners") {
+    const auto bare = [](const SimplePolygon& opening, int nodes) {
+      const auto made = detail::ring_nodes(opening, {.nodes = nodes});
+      std::vector<Vec2> places;
+      for (std::size_t k = 0; k < made.places.size(); ++k)
+        if (made.is_bare[k]) places.push_back(made.places[k]);
+      return places;
+    };
+    for (const int facets : {12, 13, 72, 720})
+      for (const int nodes : {8, 31, 72, 300}) {
+        CAPTURE(facets);
+        CAPTURE(nodes);
+        CHECK(bare(circular_opening(5, facets), nodes).empty());
+        CHECK(detail::ring_nodes(circular_opening(5, facets), {.nodes = nodes}).places.size() ==
+              static_cast<std::size_t>(nodes));
+        CHECK(bare(horseshoe_opening(5, 2, facets), nodes).size() == 2);
+      }
+    for (const Vec2& p : bare(horseshoe_opening(5, 2, 36), 72))
+      CHECK((Vec2(std::abs(p.x()), p.y()) - Vec2(2.5, -2)).norm() < 1e-12);
+    // A box scanned every 5 cm, rough by 4 mm to either side: turns of up to 18 degrees from edge
+    // to edge; its four corners alone.
+    std::vector<Vec2> scanned;
+    const Vec2 corners[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+    for (int side = 0; side < 4; ++side)
+      for (int k = 0; k < 80; ++k) {
+        const Vec2 a = corners[side], b = corners[(side + 1) % 4];
+        const double rough = k == 0 ? 0 : 4e-3 * (k % 3 - 1);
+        scanned.push_back(a + k / 80.0 * (b - a) + rough * Vec2(perpendicular(b - a)).normalized());
+      }
+    CHECK(bare(SimplePolygon(scanned), 72).size() == 4);
+  }
+
+  TEST_CASE("a lining ends where its arc says, and follows it") {
+    for (const SimplePolygon& opening : {circular_opening(5, 36), horseshoe_opening(5, 1.7, 36)})
+      for (double to = 20; to < 200; to += 0.37) {
+        CAPTURE(to);
+        const auto ring = detail::ring_nodes(opening, {.nodes = 50, .from = 0, .to = to * degree});
+        REQUIRE(ring.ends.size() == 2);
+        CHECK(std::abs(angle_of(ring.ends[0].place)) < 1e-12);
+        CHECK(std::abs(std::remainder(angle_of(ring.ends[1].place) - to * degree, 2 * pi)) < 1e-12);
+        // Stretches cover what lies between, none longer than even ones and none a sliver.
+        double sum = 0;
+        for (const auto& at : ring.stretches) {
+          CHECK(at.end - at.begin <= ring.stretch * (1 + 1e-9));
+          CHECK(at.end - at.begin >= 0.5 * ring.stretch);
+          sum += at.end - at.begin;
+        }
+        double length = 0;
+        Vec2 before = ring.ends[0].place;
+        for (const Vec2& v : opening.vertices()) {
+          const double at = angle_of(v) < -1e-9 ? angle_of(v) + 2 * pi : angle_of(v);
+          if (at <= 1e-9 || at >= to * degree) continue;
+          length += (v - before).norm();
+          before = v;
+        }
+        length += (ring.ends[1].place - before).norm();
+        CHECK(sum == voussoir_test::near(length).epsilon(1e-9));
+      }
+  }
+
+  TEST_CASE("a floor through the centre is not in the arc over it") {
+    const SimplePolygon heading({{-3, 0}, {3, 0}, {3, 3}, {-3, 3}});
+    const auto ring = detail::ring_nodes(heading, {.from = 0, .to = pi});
+    CHECK_FALSE(ring.closed);
+    REQUIRE(ring.ends.size() == 2);
+    CHECK((ring.ends[0].place - Vec2(3, 0)).norm() < 1e-9);
+    CHECK((ring.ends[1].place - Vec2(-3, 0)).norm() < 1e-9);
+    for (const Vec2& p : ring.places) CHECK(p.y() > -1e-12);
+    for (const auto& end : ring.ends) CHECK(end.refusal.empty());
+  }
+
+  TEST_CASE("roof, walls and floor are found by the shape, wherever it stands") {
+    struct Case {
+      SimplePolygon opening;
+      double roof, walls;  ///< where the roof and where roof and walls begin [degrees]
+    };
+    const SimplePolygon trapezoid({{-3, -2}, {3, -2}, {2, 2}, {-2, 2}});
+    for (const Case& c : {Case{circular_opening(5, 72), 0, -45},
+                          Case{horseshoe_opening(5, 1.5), 0, -std::atan(0.6) / degree},
+                          Case{SimplePolygon({{-2.5, -1.5}, {2.5, -1.5}, {2.5, 2}, {-2.5, 2}}),
+                               std::atan(0.8) / degree, -std::atan(0.6) / degree},
+                          Case{trapezoid, 45, -std::atan(2.0 / 3) / degree}})
+      for (const Vec2& shift : {Vec2(0, 0), Vec2(40, -300)}) {
+        std::vector<Vec2> vertices = c.opening.vertices();
+        for (Vec2& v : vertices) v += shift;
+        const SimplePolygon moved(vertices);
+        const auto from = [&](LinedPart part) {
+          const LiningRing ring = lined_part(moved, part, {.nodes = 40, .centre = shift});
+          CHECK(ring.nodes == 40);
+          CHECK(ring.to == voussoir_test::near(pi - ring.from).epsilon(1e-9));
+          return ring.from / degree;
+        };
+        CHECK(std::abs(from(LinedPart::roof) - c.roof) < 1e-9);
+        CHECK(std::abs(from(LinedPart::roof_and_walls) - c.walls) < 1e-9);
+        CHECK(lined_part(moved, LinedPart::all).to == 2 * pi);
+      }
+    const SimplePolygon on_its_tip({{0, -2}, {1, 0}, {0, 2}, {-1, 0}});
+    CHECK_THROWS_WITH_AS((void)lined_part(on_its_tip, LinedPart::roof_and_walls),
+                         "lining: the outline has no floor: nothing at its bottom is flatter than "
+                         "45 degrees; accepted: two angles",
+                         InvalidInput);
   }
 
   TEST_CASE("rings out of range are refused") {
