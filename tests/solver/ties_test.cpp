@@ -399,7 +399,7 @@ TEST_SUITE("solver/ties") {
                                       one.bodies[b].parts.size();
       off += !is_same;
     }
-    CHECK(off <= 4);  // small blocks on the middle of the domain, see is_known; 24 were, before
+    CHECK(off <= 4);  // small blocks on the middle of the domain, see is_known; 25 were, before
   }
 
   TEST_CASE("a bed at the springing, or a little above it: the walls move as much") {
