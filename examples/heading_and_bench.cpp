@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
 
   const auto bars = bolt_bars(
       {.length = 3, .angular_spacing = 30 * deg, .from = 30 * deg, .to = 150 * deg}, section);
-  const double shoulder = 10 * deg, toe = 34 * deg;
+  // The legs stand on the corners of the floor.
+  const double shoulder = 10 * deg, toe = std::atan2(3.0, 4.0);
   Construction<Tunnel> upper, lower;
   upper.add_stage("heading", 0.5).excavate(heading());
   upper.add_stage("bolts and arch", 0.2)

@@ -615,8 +615,11 @@ void check_arc(Checker& checker, Input& input) {
       if (end.refusal.empty()) continue;
       const std::string begin = "lining: ", mark = "; accepted: ";
       const std::size_t at = end.refusal.find(mark);
-      checker.report(key,
-                     "is too long for feet: " + end.refusal.substr(begin.size(), at - begin.size()),
+      std::string why = end.refusal.substr(begin.size(), at - begin.size());
+      if (input.tunnel.shape == TunnelShape::horseshoe)
+        why += " (tunnel.wall_height = " +
+               format_quantity(input.tunnel.wall_height, dimension::length) + ")";
+      checker.report(key, "is too long for feet: " + why,
                      end.refusal.substr(at + mark.size()) + R"(; "roof and walls" ends there)");
       return;
     }

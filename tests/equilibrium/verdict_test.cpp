@@ -412,7 +412,10 @@ TEST_SUITE("equilibrium/verdict") {
         InvalidInput);
     CHECK_THROWS_AS(tunnel.install_lining({}, section, interface_law), InvalidInput);
     tunnel.install_lining(frame, section, interface_law);
-    CHECK_THROWS_AS(tunnel.excavate(circular_opening(4)), InvalidInput);
+    // All of the rock behind it goes, and the lining with it.
+    tunnel.excavate(circular_opening(4));
+    REQUIRE(tunnel.opened_linings().size() == 1);
+    CHECK(tunnel.opened_linings().front().is_gone);
   }
 
   TEST_CASE("wall traction that was taken away is not put back") {

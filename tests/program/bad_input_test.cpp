@@ -94,7 +94,7 @@ TEST_SUITE("program/bad_input") {
          {"support.lining.arc = \"roof and wall\"", "did you mean \"roof and walls\"?",
           R"("roof", "roof and walls")", R"("all")"}},
         {"E = \"25 GPa\"",
-         "E = \"25 GPa\"\narc = \"all\"\nfeet.stiffness = \"2 GPa/m\"",
+         "E = \"25 GPa\"\nfeet.stiffness = \"2 GPa/m\"\narc = \"all\"",
          {"support.lining.feet", "a full ring has none"}},
         {"shape = \"circle\"", "shape = \"oval\"", {"tunnel.shape", "oval", "circle"}},
         {"max_elongation = 5", "max_elongation = 1", {"blocks.max_elongation = 1", "2"}},

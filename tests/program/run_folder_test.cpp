@@ -54,7 +54,7 @@ std::string run_id_in(const std::string& text) {
     const std::size_t at = text.find(before);
     if (at != std::string::npos) return text.substr(at + before.size(), 16);
   }
-  if (!text.starts_with("bolt") && !text.starts_with("node")) return "";
+  if (!text.starts_with("bolt") && !text.starts_with("lining")) return "";
   const std::size_t end = text.find_last_not_of("\r\n");
   return text.substr(end - 15, 16);  // the last cell of the last row
 }

@@ -112,11 +112,12 @@ Outcome in_motion(int seed, double friction, double limit) {
 
 TEST_SUITE("solver/gapped_lining") {
   // Seeds whose verdict is the same however the compiler rounds; of 16 tried, six lose an arc or
-  // not, or another block, by that.
+  // not, or another block, by that. Seed 3 at 20 degrees is another close call: its arc rests, by
+  // the damping, at 0.88 to 0.97 of the limit, or comes off.
   TEST_CASE("arcs that nothing holds are lost, by every procedure and in motion alike") {
     using Case = std::tuple<int, double, std::string>;
     for (const auto& [seed, friction, verdict] :
-         {Case{3, 20 * degree, "stable without its lining"},
+         {Case{7, 20 * degree, "stable without its lining"},
           Case{4, 20 * degree, "stable without its lining"}, Case{6, 20 * degree, "collapse"},
           Case{6, 30 * degree, "stable"}}) {
       CAPTURE(seed);

@@ -122,7 +122,7 @@ TEST_SUITE("solver/lining_feet") {
       for (const auto& foot : feet) {
         CHECK(std::abs(foot.place.y()) < 1e-3);  // at the springing
         CHECK(foot.direction.y() < -0.99);       // down
-        CHECK(std::isnan(foot.utilisation));    // no strength was given: not checked
+        CHECK(std::isnan(foot.utilisation));     // no strength was given: not checked
         CHECK(foot.plastic_settlement == 0);
         CHECK_FALSE(foot.has_yielded());
         // All of it is elastic: the bearing over stiffness and width.

@@ -230,8 +230,24 @@ TEST_SUITE("solver/openings") {
       for (const WallMotion& part : wall) sum += part.length;
       return sum;
     };
+    // Every stretch of the outline counts once, in front of a hole that lies at both walls, too.
+    // What overhangs in a hole comes on top, for it is not taken off what it hides; and how much
+    // overhangs is seen along other lines from the heading, which has a corner at the springing.
+    const auto overhanging = [&](const SimplePolygon& section) {
+      const WallOutline outline(section);
+      double sum = 0;
+      for (const auto& piece : wall_pieces(tunnel.mass(), section)) {
+        const auto e = static_cast<std::size_t>(piece.edge);
+        sum +=
+            std::max(0.0, outline.place(e, piece.facet.start) - outline.place(e, piece.facet.end));
+      }
+      return sum;
+    };
+    const double around = 4 * 6;
     CHECK(length(wall_motion(tunnel)) ==
-          voussoir_test::near(length(wall_motion(tunnel, whole))).epsilon(1e-9));
+          voussoir_test::near(around + overhanging(heading) + overhanging(bench)).epsilon(1e-9));
+    CHECK(length(wall_motion(tunnel, whole)) ==
+          voussoir_test::near(around + overhanging(whole)).epsilon(1e-9));
   }
 
   TEST_CASE("what is refused is named with its place, and the rock stays as it was") {
@@ -357,9 +373,11 @@ TEST_SUITE("solver/openings") {
     settle(at_once, 0.5);
     at_once.install_lining(lining_frame(at_once.mass(), {.ring = {.nodes = 12}, .spacing = 1}),
                            ribs_sections, interface);
-    settle(at_once);
+    // Tighter: what is out of balance on the way is more of what is lighter after (1e-7 of 1e-8).
+    REQUIRE(at_once.equilibrium(0, {}, {.error_estimate = 1e-10, .unbalance_over_weight = 1e-8})
+                .verdict == Verdict::stable);
     const std::size_t before = lining_members(at_once).size();
-    Rock in_rounds = at_once;
+    Rock in_rounds = at_once, in_steps = at_once;
     const auto opened = at_once.excavate(drift(0, 4.5), 0);
     REQUIRE(opened.size() == 1);
     CHECK(opened[0].nodes > 0);
@@ -375,7 +393,14 @@ TEST_SUITE("solver/openings") {
     CHECK(in_rounds.excavate(drift(2.5, 4.5), 0).empty());
     settle(in_rounds);
     CHECK(lining_members(in_rounds).size() == lining_members(at_once).size());
-    CHECK(difference(at_once, in_rounds) < 1e-6);
+    // The lining slips on its wall, so the way counts, however tight the searches: by 9e-6 if the
+    // drift at once is unloaded in two steps. Two rounds are another such way.
+    (void)in_steps.excavate(drift(0, 4.5), 0);
+    settle(in_steps, 0.3);
+    settle(in_steps);
+    const double by_the_way = difference(at_once, in_steps);
+    CHECK(by_the_way < 1e-5);
+    CHECK(difference(at_once, in_rounds) < 3 * by_the_way);
   }
 
   TEST_CASE("3-D: ribs next to ribs are the ribs at once") {

@@ -386,8 +386,10 @@ TEST_SUITE("tunnel/heading_and_bench") {
       Tunnel tunnel = rock<Tunnel>(1);
       tunnel.excavate(whole);
       auto pieces = legs<Tunnel>();
-      pieces.push_back(arch<Tunnel>());                              // joins the two
-      pieces.push_back(lining<Tunnel>(250 * degree, 290 * degree));  // of its own
+      pieces.push_back(arch<Tunnel>());  // joins the two
+      // Of its own, from corner to corner of the floor.
+      const double corner = std::atan2(2.5, 3);
+      pieces.push_back(lining<Tunnel>(180 * degree + corner, 360 * degree - corner));
       for (std::size_t k = 0; k < pieces.size(); ++k) {
         const bool on_feet = k == 0 ? first_on_feet : k == 3 && last_on_feet;
         tunnel.install_lining(lining_frame(tunnel.mass(), whole, pieces[k].layout),

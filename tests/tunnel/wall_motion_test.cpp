@@ -48,8 +48,11 @@ double outline_in(const SimplePolygon& section, double from, double to) {
   for (std::size_t e = 0; e < section.size(); ++e) {
     const Segment edge = section.edge(e);
     const auto count = static_cast<int>(std::ceil(edge.length() / 1e-4));
+    // A floor through the centre is seen where it faces.
+    const Vec2 along = (edge.end - edge.start) / edge.length(), out(along.y(), -along.x());
+    const bool is_through = std::abs(out.dot(edge.start - centre)) < 1e-9;
     for (int k = 0; k < count; ++k) {
-      const Vec2 p = edge.at((k + 0.5) / count) - centre;
+      const Vec2 p = is_through ? out : Vec2(edge.at((k + 0.5) / count) - centre);
       const double angle = std::remainder(std::atan2(p.y(), p.x()) - from, circle);
       if (angle >= 0 && angle < to - from) length += edge.length() / count;
     }

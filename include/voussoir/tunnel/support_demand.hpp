@@ -68,12 +68,24 @@ template <class Solver>
   return point;
 }
 
+namespace detail {
+
+/// Whether anything is left of a lining.
+template <class System, class Lining>
+[[nodiscard]] bool stands(const System& system, const Lining& lining) {
+  for (std::size_t n = 0; n < lining.surface.node_count(); ++n)
+    if (system.body(lining.first + static_cast<int>(n)).movable) return true;
+  return false;
+}
+
+}  // namespace detail
+
 /// Whether a lining stands: has been installed and not lost.
 template <class Solver>
 [[nodiscard]] bool has_standing_lining(const Solver& solver) {
   const auto& system = solver.system();
   return std::any_of(system.linings.begin(), system.linings.end(),
-                     [&](const auto& lining) { return system.body(lining.first).movable; });
+                     [&](const auto& lining) { return detail::stands(system, lining); });
 }
 
 /// What has become of the supports: nothing of this shows in the forces of those that are left.
@@ -186,10 +198,7 @@ template <class Solver>
     ++condition.linings;
     for (const auto& end : lining.hanging_ends)
       condition.hanging_ends.push_back(text_of<Solver::dim>(end));
-    bool stands = false;
-    for (std::size_t n = 0; n < lining.surface.node_count(); ++n)
-      stands = stands || solver.system().body(lining.first + static_cast<int>(n)).movable;
-    if (!stands) {
+    if (!detail::stands(solver.system(), lining)) {
       const bool is_taken_out = std::any_of(
           solver.opened_linings().begin(), solver.opened_linings().end(), [&](const auto& opened) {
             return opened.is_gone && opened.lining + 1 == condition.linings;
