@@ -67,10 +67,11 @@ struct Strip {
         {{-0.5 * span, -side}, {0.5 * span, -side}, {0.5 * span, 0}, {-0.5 * span, 0}});
   }
   /// How far nodes of the roof are apart where there are so many on the outline: stretches from one
-  /// of its corners to the other are even, and no longer than the perimeter over the number [m].
+  /// end of its arc to the other are even, and no longer than the perimeter over the number [m].
   [[nodiscard]] static double spacing_of(double nodes) {
     const double most = 2 * (span + side) / nodes;
-    return span / std::ceil(span / most * (1 - 1e-9));
+    const double roof = side / std::tan(34 * degree);
+    return roof / std::ceil(roof / most * (1 - 1e-9));
   }
   /// In the roof alone; without a number the nodes are to be chosen.
   [[nodiscard]] static LiningRing roof(std::optional<int> nodes) {
