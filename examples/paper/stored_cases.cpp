@@ -84,7 +84,7 @@ std::string case_text(const program::PatternCase& the_case, std::uint64_t seed,
   std::string text = "collapse " + std::to_string(the_case.number);
   for (const double value : {options.cover, options.duration, options.unloading,
                              options.local_damping, options.viscous_damping})
-    text += " " + shortest_text(value);
+    text.append(" ").append(shortest_text(value));  // g++ 12 warns of a sum here under -O3
   return text + " seed=" + std::to_string(seed);
 }
 

@@ -94,6 +94,9 @@ TEST_SUITE("io/blocks_picture") {
       CHECK(contains(lined, text));
     }
     CHECK_FALSE(contains(lined, "Greatest force in each bolt"));
+    CHECK_FALSE(contains(lined, "hole filled with lining"));
+    picture.fills = {{{2, 0}, {2.3, 0}, {2, 0.5}}};
+    CHECK(contains(draw_blocks_picture(picture), "hole filled with lining"));
   }
 
   TEST_CASE("diagrams have a scale bar, and forces of no account do not fill them") {

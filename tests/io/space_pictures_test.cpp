@@ -85,6 +85,10 @@ TEST_SUITE("io/space_pictures") {
     CHECK(xml_fault(half) == "");
     CHECK(half.find(">2.50<") != std::string::npos);  // the scale ends at the largest
     CHECK(half.find("bolt, 90") != std::string::npos);
+    CHECK(half.find("hole filled with lining") == std::string::npos);
+    scene.fills = {brick({-2, -1, 0}, {0.5, 1, 1})};
+    CHECK(draw_tunnel_view(mass, scene).find("hole filled with lining") != std::string::npos);
+    scene.fills.clear();
     const auto count = [](const std::string& text, const std::string& what) {
       std::size_t found = 0;
       for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))

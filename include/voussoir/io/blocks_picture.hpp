@@ -114,6 +114,8 @@ VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& pictu
       text += (k + 1 < thicknesses.size() ? ", " : " and ") + thicknesses[k];
     items.push_back({text + " cm", box("#9aa3ab", "#222")});
   }
+  if (!picture.fills.empty())
+    items.push_back({"hole filled with lining", box(filled_colour, filled_colour)});
   if (most >= 0) {
     items.push_back({"foot on rock, up to " + readable_text(most / 1e3) + " kN/m",
                      [](SvgCanvas& canvas, const Vec2& c) {
@@ -168,7 +170,7 @@ VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, 
   canvas.end_layer();
   canvas.begin_layer("lining");
   for (const std::vector<Vec2>& fill : picture.fills)
-    canvas.polygon(on_page(clip_polygon(fill, map.world()), map), {.fill = "#c3c9ce"});
+    canvas.polygon(on_page(clip_polygon(fill, map.world()), map), {.fill = filled_colour});
   for (const PictureLining& lining : picture.linings) draw_lining(canvas, lining, map);
   canvas.end_layer();
   canvas.begin_layer("bolts");

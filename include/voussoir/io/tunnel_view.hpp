@@ -144,7 +144,8 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
     const Colour colour = colours(largest > 0 ? scene.displacement[b] / largest : 0);
     for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour);
   }
-  for (const ConvexPolyhedron& fill : scene.fills) add_faces(fill, {0x9a, 0xa3, 0xab});
+  const Colour filled{0x9a, 0xa3, 0xab};
+  for (const ConvexPolyhedron& fill : scene.fills) add_faces(fill, filled);
   if (faces.empty()) throw InvalidInput("draw_tunnel_view: no rock lies behind the section");
   std::stable_sort(faces.begin(), faces.end(),
                    [](const auto& p, const auto& q) { return p.first < q.first; });
@@ -209,6 +210,11 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   };
   if (!scene.bolts.empty()) key("#b2182b", "bolt, " + readable_text(pull / 1e3) + " kN");
   if (!scene.lining.empty()) key("#222", "lining, " + readable_text(thrust / 1e3) + " kN");
+  if (!scene.fills.empty()) {
+    const double second = bar + 270;  // below the others: the row is full
+    canvas.rectangle({{second, foot + 50}, {second + 26, foot + 62}}, {.fill = filled.hex()});
+    canvas.text({second + 34, foot + 61}, "hole filled with lining");
+  }
   canvas.end_layer();
   return canvas.document();
 }

@@ -21,6 +21,7 @@ inline constexpr const char* slipped_colour = "#d7261e";
 inline constexpr const char* opened_colour = "#6a1b9a";
 inline constexpr const char* fallen_colour = "#8c2d04";
 inline constexpr const char* foot_colour = "#0b5d3b";
+inline constexpr const char* filled_colour = "#c3c9ce";
 
 /// Colours of displacement in steps, each of which is one path in the file.
 class DisplacementScale {
