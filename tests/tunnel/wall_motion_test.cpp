@@ -75,7 +75,8 @@ TEST_SUITE("tunnel/wall_motion") {
     for (const SimplePolygon& section : sections()) {
       const auto mass = carve(jointed_rock(ground_around(section), 3), section, 0);
       const auto parts = detail::wall_motion_of(
-          mass, section, [](int) { return true; }, [](int, const Vec2&) { return zeros<Vec2>(); });
+          mass, section,
+          {[](int) { return true; }, [](int, const Vec2&) { return zeros<Vec2>(); }});
       CAPTURE(centre_of(section).x());
       for (int k = 0; k < 60; ++k) {
         CAPTURE(k);
@@ -95,7 +96,7 @@ TEST_SUITE("tunnel/wall_motion") {
                                            {.min_inscribed_radius = 0.2}),
                             opening, 0);
     const auto parts = detail::wall_motion_of(
-        mass, opening, [](int) { return true; }, [](int, const Vec3&) { return zeros<Vec3>(); },
+        mass, opening, {[](int) { return true; }, [](int, const Vec3&) { return zeros<Vec3>(); }},
         {-0.6, 0.9});
     for (int k = 0; k < 60; ++k) {
       CAPTURE(k);
@@ -112,8 +113,9 @@ TEST_SUITE("tunnel/wall_motion") {
     const double turn = 2e-3;
     const Vec2 sinks(0, -10e-3);
     const auto wall = detail::wall_motion_of(
-        mass, section, [](int) { return true; },
-        [&](int, const Vec2& p) { return Vec2(sinks + turn * Vec2(-p.y(), p.x())); });
+        mass, section,
+        {[](int) { return true; },
+         [&](int, const Vec2& p) { return Vec2(sinks + turn * Vec2(-p.y(), p.x())); }});
     // Its parts within 12 degrees lie symmetrically about x = 0, where it sinks by 10 mm; a part is
     // up to 6 degrees of the roof, 0.32 m, and half of that is between the median and its middle.
     // Towards the axis up to a cosine of 12 degrees less.
@@ -132,8 +134,8 @@ TEST_SUITE("tunnel/wall_motion") {
       if (piece.body == gone) lost += piece.facet.length();
     }
     for (const WallMotion& part : detail::wall_motion_of(
-             mass, section, [gone](int b) { return b != gone; },
-             [](int, const Vec2&) { return zeros<Vec2>(); }))
+             mass, section,
+             {[gone](int b) { return b != gone; }, [](int, const Vec2&) { return zeros<Vec2>(); }}))
       left += part.length;
     CHECK(lost > 0);
     CHECK(std::abs(left - (all - lost)) <= 1e-12 * all);
