@@ -230,24 +230,10 @@ TEST_SUITE("solver/openings") {
       for (const WallMotion& part : wall) sum += part.length;
       return sum;
     };
-    // Every stretch of the outline counts once, in front of a hole that lies at both walls, too.
-    // What overhangs in a hole comes on top, for it is not taken off what it hides; and how much
-    // overhangs is seen along other lines from the heading, which has a corner at the springing.
-    const auto overhanging = [&](const SimplePolygon& section) {
-      const WallOutline outline(section);
-      double sum = 0;
-      for (const auto& piece : wall_pieces(tunnel.mass(), section)) {
-        const auto e = static_cast<std::size_t>(piece.edge);
-        sum +=
-            std::max(0.0, outline.place(e, piece.facet.start) - outline.place(e, piece.facet.end));
-      }
-      return sum;
-    };
-    const double around = 4 * 6;
-    CHECK(length(wall_motion(tunnel)) ==
-          voussoir_test::near(around + overhanging(heading) + overhanging(bench)).epsilon(1e-9));
-    CHECK(length(wall_motion(tunnel, whole)) ==
-          voussoir_test::near(around + overhanging(whole)).epsilon(1e-9));
+    // Every stretch of the outline counts once, in front of a hole that lies at both walls, too,
+    // and where rock overhangs in it.
+    for (const auto& wall : {wall_motion(tunnel), wall_motion(tunnel, whole)})
+      CHECK(length(wall) == voussoir_test::near(4 * 6).epsilon(1e-9));
   }
 
   TEST_CASE("what is refused is named with its place, and the rock stays as it was") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 #include <voussoir/rockmass/isotropic_sets.hpp>
@@ -13,6 +14,7 @@
 #include <voussoir/tunnel/opening.hpp>
 
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace wall_motion_test {
 
@@ -122,6 +124,35 @@ TEST_SUITE("tunnel/wall_motion") {
     const double crown = convergence_of(wall).crown;
     CHECK(crown >= (10e-3 - 0.16 * turn) * std::cos(12 * degree));
     CHECK(crown <= 10e-3 + 0.16 * turn);
+  }
+
+  // Blocks below 0.1 m2 are dropped, so that rock overhangs in holes, at the springing, too.
+  TEST_CASE("heading and bench have the wall of the whole, whichever comes first") {
+    const SimplePolygon upper(
+        {{-3, 0}, {3, 0}, {3, 0.5}, {1.8, 2.4}, {0, 3}, {-1.8, 2.4}, {-3, 0.5}}),
+        lower({{-3, -2.5}, {3, -2.5}, {3, 0}, {-3, 0}}),
+        whole({{-3, -2.5}, {3, -2.5}, {3, 0.5}, {1.8, 2.4}, {0, 3}, {-1.8, 2.4}, {-3, 0.5}});
+    const auto length = [](const std::vector<WallMotion>& wall) {
+      double sum = 0;
+      for (const WallMotion& part : wall) sum += part.length;
+      return sum;
+    };
+    const detail::BodiesSeen<Planar> all{[](int) { return true; },
+                                         [](int, const Vec2&) { return zeros<Vec2>(); }};
+    std::size_t dropped = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+      for (const bool heading_first : {true, false}) {
+        CAPTURE(seed);
+        CAPTURE(heading_first);
+        const auto first =
+            carve(jointed_rock(ground_around(whole), seed), heading_first ? upper : lower, 0.1);
+        const auto mass = carve(first, heading_first ? lower : upper, 0.1);
+        dropped += mass.dropped.size();
+        const auto once = voussoir_test::near(whole.perimeter()).epsilon(1e-9);  // as parts of sums
+        CHECK(length(detail::wall_motion_of(mass, whole, all)) == once);
+        CHECK(length(detail::wall_motion_of_joined(mass, all)) == once);
+      }
+    CHECK(dropped > 50);
   }
 
   TEST_CASE("what is detached does not count, nor do others stand for it") {
