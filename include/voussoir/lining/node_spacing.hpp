@@ -79,7 +79,8 @@ void require_nodes_for_bond(const LiningFrame<Geometry>& frame,
   for (std::size_t m = 0; m < spacings.size(); ++m) {
     const double spacing = spacings[m], length = lengths[m],
                  most = coarsest_bonded_spacing * length;
-    if (length < 0 || spacing <= most * (1 + 1e-9)) continue;
+    if (length < 0) continue;
+    if (spacing <= most * (1 + 1e-9)) continue;
     const bool along = is_along(frame.members[m]);
     const std::string named =
         along || frame.perimeter == 0 ? std::string() : message({", nodes >= ", enough});
