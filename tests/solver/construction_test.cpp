@@ -329,7 +329,8 @@ TEST_SUITE("solver/construction") {
                           CoulombJoint({1e9, 1e9, 60 * degree}));
     settle(tunnel, 0.2);
     const std::size_t members = lining_members(tunnel).size();
-    const auto opened = tunnel.excavate(bench, 0);
+    tunnel.excavate(bench, 0);
+    const auto& opened = tunnel.opened_linings();
     REQUIRE(opened.size() == 1);
     CHECK(opened[0].lining == 0);
     CHECK(!opened[0].is_gone);
@@ -346,6 +347,19 @@ TEST_SUITE("solver/construction") {
     CHECK(unbalance(tunnel) < 1e-5);
     settle(tunnel);
     CHECK(lining_members(tunnel).size() == members - static_cast<std::size_t>(opened[0].members));
+
+    // A round beside it opens it again: what the first took out stays said.
+    const OpenedLining<2> first = opened[0];
+    tunnel.excavate(box(3, 1, 4, 2), 0);
+    REQUIRE(opened.size() == 2);
+    CHECK(opened[0].nodes == first.nodes);
+    CHECK(opened[1].lining == 0);
+    CHECK(opened[1].nodes >= 1);
+    CHECK(opened[1].nodes <= 3);  // half a metre apart on a metre of wall
+    CHECK(opened[1].ends.size() == 2);
+    settle(tunnel);
+    CHECK(lining_members(tunnel).size() ==
+          members - static_cast<std::size_t>(opened[0].members + opened[1].members));
   }
 }
 

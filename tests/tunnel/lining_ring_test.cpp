@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
+#include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/tunnel/lined_part.hpp>
+#include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
@@ -375,6 +378,48 @@ TEST_SUITE("tunnel/lining_ring") {
                          "lining: the outline has no floor: nothing at its bottom is flatter than "
                          "45 degrees; accepted: two angles",
                          InvalidInput);
+  }
+
+  TEST_CASE("the number of nodes that a bond is said to need is accepted") {
+    const std::vector<LiningSection> shell{LiningSection::rectangular(0.1, 25e9)};
+    const auto needed = [&](const auto& frame, double stiffness) {
+      try {
+        require_nodes_for_bond(frame, shell, stiffness);
+      } catch (const InvalidInput& fault) {
+        const std::string text = fault.what(), before = "nodes >= ";
+        const auto at = text.find(before);
+        REQUIRE(at != std::string::npos);
+        return std::stoi(text.substr(at + before.size()));
+      }
+      return 0;
+    };
+    int refused = 0;
+    for (const SimplePolygon& section :
+         {circular_opening(5, 36), horseshoe_opening(5, 1.5, 20),
+          SimplePolygon({{-3, -2}, {3, -2}, {3, 1.7}, {-3, 1.7}}),
+          SimplePolygon({{-2, -2}, {2.3, -2}, {1.1, 1.9}, {-2.4, 0.4}})}) {
+      const Domain<2> ground{{-9, -9}, {9, 9}};
+      const auto mass = carve(jointed_rock(ground, 3), section, 0);
+      const Domain<3> wide{{-6, 0, -6}, {6, 4, 6}};
+      const auto drift =
+          carve(slice<Spatial>(wide, std::vector<JointOf<3>>{}, {}), PrismaticOpening(section), 0);
+      for (const double stiffness : {2e8, 1e9, 2.9e9, 8e9})
+        for (const int nodes : {8, 11, 24, 37, 50}) {
+          CAPTURE(section.size());
+          CAPTURE(stiffness);
+          CAPTURE(nodes);
+          if (const int n = needed(lining_frame(mass, {.nodes = nodes}), stiffness)) {
+            ++refused;
+            CHECK(n > nodes);
+            CHECK(needed(lining_frame(mass, {.nodes = n}), stiffness) == 0);
+          }
+          const auto ribs = [&](int count) {
+            return lining_frame(drift, LiningRibs{.ring = {.nodes = count}, .spacing = 2});
+          };
+          if (const int n = needed(ribs(nodes), stiffness)) CHECK(needed(ribs(n), stiffness) == 0);
+        }
+    }
+    CHECK(refused > 20);
   }
 
   TEST_CASE("rings out of range are refused") {

@@ -88,8 +88,8 @@ struct LiningFrame {
   std::vector<LiningMember<Geometry>> joints{};
   /// Its ends; one that goes on in a lining that stands is none.
   std::vector<LiningEnd<Geometry>> ends{};
-  /// Nodes of the full outline, of which it may be an arc; 0: it was made in another way.
-  int count_on_outline = 0;
+  /// Of the full outline, of which it may be an arc [m]; 0: it was made in another way.
+  double perimeter = 0;
   /// In 2-D: about which angles along it and its convergence are counted [m].
   Vec<Geometry::dim> centre = zeros<Vec<Geometry::dim>>();
 

@@ -50,34 +50,45 @@ inline constexpr double chosen_bonded_spacing = 0.4;
 /// neighbouring ribs that are tied too.
 /// @param sections          those that its members name; a member of another is not looked at
 /// @param normal_stiffness  k_n of the interface, per area [Pa/m]
-/// @throws InvalidInput     with the spacing, the largest accepted, and how many nodes that takes
+/// @throws InvalidInput     with the spacing, the largest accepted, and a number of nodes that is
+///                          enough; with corners on the outline fewer may be
 template <class Geometry>
 void require_nodes_for_bond(const LiningFrame<Geometry>& frame,
                             const std::vector<LiningSection>& sections, double normal_stiffness) {
   constexpr int dim = Geometry::dim;
+  const auto is_along = [](const auto& member) { return dim == 3 && member.section > 0; };
   std::vector<double> wall(frame.nodes.size(), 0.0);  // that bears on a node [m], [m^2]
   for (const auto& panel : frame.panels)
     wall[static_cast<std::size_t>(panel.node)] += panel.facet.measure();
+  std::vector<double> spacings, lengths;  // of every member; a length of -1: not looked at
+  double enough = 0;                      // nodes on the outline, for all members along it
   for (const auto& member : frame.members) {
     const auto i = static_cast<std::size_t>(member.first),
                j = static_cast<std::size_t>(member.second),
                of = static_cast<std::size_t>(member.section);
     const double spacing = (frame.nodes[j] - frame.nodes[i]).norm();
     const double width = dim == 2 ? 1.0 : 0.5 * (wall[i] + wall[j]) / spacing;
-    if (of >= sections.size() || !(spacing > 0 && width > 0)) continue;
-    const double length = bending_length(sections[of].bending_stiffness, width * normal_stiffness),
+    const bool counts = of < sections.size() && spacing > 0 && width > 0;
+    spacings.push_back(spacing);
+    lengths.push_back(
+        counts ? bending_length(sections[of].bending_stiffness, width * normal_stiffness) : -1.0);
+    if (counts && !is_along(member))
+      enough = std::max(enough,
+                        node_count_for(frame.perimeter, lengths.back(), coarsest_bonded_spacing));
+  }
+  for (std::size_t m = 0; m < spacings.size(); ++m) {
+    const double spacing = spacings[m], length = lengths[m],
                  most = coarsest_bonded_spacing * length;
+    if (length < 0) continue;
     if (spacing <= most * (1 + 1e-9)) continue;
-    const bool is_along = dim == 3 && member.section > 0;
-    const std::string enough =
-        is_along || frame.count_on_outline == 0
-            ? std::string()
-            : message({", nodes >= ", std::ceil(frame.count_on_outline * spacing / most)});
+    const bool along = is_along(frame.members[m]);
+    const std::string named =
+        along || frame.perimeter == 0 ? std::string() : message({", nodes >= ", enough});
     throw InvalidInput(message(
-        {"lining: ", is_along ? "ribs" : "nodes", " ", spacing,
+        {"lining: ", along ? "ribs" : "nodes", " ", spacing,
          " m apart are too far to see its bond to the rock fail at the edge of a block: that acts "
          "over L = (4 E I / k_n)^(1/4) = ",
-         length, " m; accepted: at most ", coarsest_bonded_spacing, " L = ", most, " m", enough,
+         length, " m; accepted: at most ", coarsest_bonded_spacing, " L = ", most, " m", named,
          ", or an interface without tensile strength"}));
   }
 }

@@ -32,9 +32,13 @@ struct WallPiece {
       to;  ///< places that it lies behind, along the outline anticlockwise from vertex 0 [m]
   double depth = 0;  ///< of its centre behind the edge; 0: on the outline [m]
   int hole = -1;     ///< that it bounds, an index; -1: it lies on the outline
+  /// Of one that bounds a hole, in 2-D: stretches of its edge where another piece is in front of
+  /// it, in order and apart, from the beginning of the edge [m].
+  std::vector<std::pair<double, double>> hidden{};
 
   /// What of the outline, or of the area of its edges, it stands for: as wide as it is seen from
-  /// the opening. Nothing where it overhangs [m], [m^2].
+  /// the opening. Nothing where it overhangs or, in 2-D, another is in front of it: there the
+  /// pieces of a wall are as long as its outline. In 3-D what overhangs comes on top [m], [m^2].
   [[nodiscard]] double seen_measure(const WallOutline& outline) const {
     return seen_measure(outline, facet);
   }
@@ -44,8 +48,13 @@ struct WallPiece {
     if (hole < 0) return part.measure();
     const auto e = static_cast<std::size_t>(edge);
     // In 2-D it is that of its parts together, however it is divided.
-    if constexpr (Geometry::dim == 2)
-      return std::max(0.0, outline.place(e, part.end) - outline.place(e, part.start));
+    if constexpr (Geometry::dim == 2) {
+      const double start = outline.place(e, part.start), end = outline.place(e, part.end);
+      double seen_length = std::max(0.0, end - start);
+      for (const auto& [low, high] : hidden)
+        seen_length -= std::max(0.0, std::min(end, high) - std::max(start, low));
+      return seen_length;
+    }
     const double seen = dot_product(part.area_vector(),
                                     outline.in_space<Geometry::dim>(outline.within(e, 0)).normal);
     return std::max(0.0, seen) /
@@ -156,7 +165,10 @@ class WallFinder {
     for (const auto& group : connected_groups(dropped, all_connect, tolerance_))
       add_holes(group, number++);
     if (!faces_.empty()) add_faces_of_holes();
-    if constexpr (dim == 2) join_faces_of_holes();
+    if constexpr (dim == 2) {
+      join_faces_of_holes();
+      find_hidden();
+    }
     sort();
     return std::move(wall_);
   }
@@ -304,6 +316,40 @@ class WallFinder {
       joined.push_back(std::move(piece));
     }
     wall_.pieces = std::move(joined);
+  }
+
+  /// Where rock overhangs in a hole, what lies behind it is not seen.
+  void find_hidden() {
+    const auto is_seen = [&](const WallPiece<Geometry>& piece) {
+      const auto e = static_cast<std::size_t>(piece.edge);
+      return piece.hole < 0 ||
+             outline_.place(e, piece.facet.end) > outline_.place(e, piece.facet.start);
+    };
+    for (WallPiece<Geometry>& piece : wall_.pieces) {
+      if (piece.hole < 0 || !is_seen(piece)) continue;
+      const auto e = static_cast<std::size_t>(piece.edge);
+      for (const WallPiece<Geometry>& other : wall_.pieces) {
+        const double from = std::max(piece.from, other.from), to = std::min(piece.to, other.to);
+        // Pieces do not cross: what is in front anywhere is so wherever both are.
+        const double middle = 0.5 * (from + to) - outline_.start(e);
+        if (other.edge == piece.edge && from < to && is_seen(other) &&
+            depth_at(other, middle) < depth_at(piece, middle))
+          piece.hidden.emplace_back(from - outline_.start(e), to - outline_.start(e));
+      }
+      std::sort(piece.hidden.begin(), piece.hidden.end());
+      double end = 0;
+      for (auto& [from, to] : piece.hidden) {
+        from = std::max(from, end);
+        end = to = std::max(from, to);
+      }
+    }
+  }
+  /// How far a piece lies behind a place of its edge [m].
+  [[nodiscard]] double depth_at(const WallPiece<Geometry>& piece, double s) const {
+    const auto e = static_cast<std::size_t>(piece.edge);
+    const Vec2 way = piece.facet.end - piece.facet.start;
+    return cross(Vec2(piece.facet.start - outline_.point(e, s)), way) /
+           cross(outline_.way_behind(e, s), way);
   }
 
   /// Along the outline; in 3-D edge by edge, as they were found.

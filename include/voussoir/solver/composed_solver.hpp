@@ -91,18 +91,16 @@ class ComposedSolver {
   /// Takes an opening out of the rock: a round. The traction that the excavated rock exerted on the
   /// walls that it leaves goes on acting until a stage takes it away; that of every round has a
   /// part of its own. What is left of a block is where it was as a part of the whole; joints
-  /// remember their slip, bolts and linings what they carry. Blocks get new numbers:
-  /// `RockMass::origins`.
+  /// remember their slip, bolts and linings what they carry. A lining that stands where the round
+  /// goes is opened there: `opened_linings`. Blocks get new numbers: `RockMass::origins`.
   /// @param smallest_piece  bodies at the wall below this are dropped [m^2] or [m^3]; by default
   ///                        see `smallest_piece_of`
   /// @param progress        asked now and then whether to go on
-  /// @return  linings that stood where the round goes, and are opened there
   /// @throws InvalidInput   the opening does not fit (see `carve`), or a bolt that stands holds
   ///                        rock in it; the solver is as it was
   /// @throws Stopped        the same, but before the first round: the solver is then of no more use
-  std::vector<OpenedLining<dim>> excavate(const typename Geometry::Opening& opening,
-                                          double smallest_piece = of_the_rock,
-                                          const Progress& progress = {});
+  void excavate(const typename Geometry::Opening& opening, double smallest_piece = of_the_rock,
+                const Progress& progress = {});
 
   /// Installs a bolt along a straight bar, head first. It grips at every joint it crosses, in the
   /// present position of the rock, free of force but for its pretension.
@@ -224,7 +222,8 @@ class ComposedSolver {
   [[nodiscard]] int bolt_count() const { return static_cast<int>(installed_.size()); }
   /// All of them as they were installed, in that order.
   [[nodiscard]] const auto& installed_bolts() const { return installed_; }  ///< `InstalledBolt`
-  /// Linings that later rounds went through, in the order of the rounds.
+  /// Linings that later rounds went through, of all rounds so far, in their order: a lining that
+  /// two rounds open is in it twice, each time with what that round took out.
   [[nodiscard]] const std::vector<OpenedLining<dim>>& opened_linings() const { return opened_; }
   /// Of every round that was excavated, the part of its wall traction that still acts.
   [[nodiscard]] std::vector<double> wall_fractions() const { return walls_.fractions(); }
@@ -262,8 +261,8 @@ class ComposedSolver {
   /// @param touched  the blocks that it touched; null: all, nothing has moved yet
   void hold_wall(const BodyMarks* touched = nullptr);
   /// Takes a round out of rock that has moved, or has been excavated before.
-  std::vector<OpenedLining<dim>> excavate_further(const typename Geometry::Opening& opening,
-                                                  double smallest_piece, const Progress& progress);
+  void excavate_further(const typename Geometry::Opening& opening, double smallest_piece,
+                        const Progress& progress);
   /// Goes on acting on all bodies until the next stage takes it away.
   void hold(Eigen::VectorXd load) {
     walls_.add(std::move(load));

@@ -26,11 +26,12 @@ template <class Solver>
   Eigen::VectorXd u;
   system.forces(system.displacement, u);
   (void)system.elastic_solver(linear, progress).solve_in_place(u, {.relative = 1e-6}, progress);
-  return detail::wall_motion_of(
-      solver.mass(), solver.mass().openings.back(), [&](int b) { return system.body(b).movable; },
-      [&](int b, const auto& p) {
-        return displacement_at<dim>(u.data() + dof * b, Vec<dim>(p - system.body(b).centre));
-      });
+  return detail::wall_motion_of<typename Solver::Geometry>(
+      solver.mass(), solver.mass().openings.back(),
+      {[&](int b) { return system.body(b).movable; },
+       [&](int b, const auto& p) {
+         return displacement_at<dim>(u.data() + dof * b, Vec<dim>(p - system.body(b).centre));
+       }});
 }
 
 /// How a tunnel's section closes, by the first parts of its wall's inward motion round the section:

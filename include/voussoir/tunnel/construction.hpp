@@ -193,7 +193,7 @@ template <class Solver>
 template <class Solver>
 void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress) {
   for (const auto& round : stage.rounds)
-    (void)solver.excavate(round.opening, round.smallest_piece, progress);
+    solver.excavate(round.opening, round.smallest_piece, progress);
   StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
   for (const auto& bolts : stage.bolts)
     for (const auto& bar : bolts.bars) {

@@ -117,4 +117,9 @@ VOUSSOIR_INLINE Vec2 centre_of(const std::vector<PrismaticOpening>& joined) {
 
 #endif
 
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE std::vector<SimplePolygon> joined_openings(const RockMass<Planar>&);
+VOUSSOIR_SPATIAL_TEMPLATE std::vector<PrismaticOpening> joined_openings(const RockMass<Spatial>&);
+#endif
+
 }  // namespace voussoir

@@ -53,8 +53,7 @@ class RibBuilder {
       : mass_(mass),
         opening_(opening),
         nodes_(ring_nodes(opening.section(), ribs.ring)),
-        fill_depth_(ribs.ring.fill_depth),
-        count_(ribs.ring.nodes.value_or(default_lining_nodes)) {
+        fill_depth_(ribs.ring.fill_depth) {
     const auto [low, high] = stretch_inside(opening, mass.domain);
     from_ = std::max(ribs.from, low);
     const double to = std::min(ribs.to, high);
@@ -71,7 +70,7 @@ class RibBuilder {
   }
 
   [[nodiscard]] LiningFrame<Spatial> build(bool tied) {
-    frame_.count_on_outline = count_;
+    frame_.perimeter = opening_.section().perimeter();
     for (int row = 0; row < rows_; ++row)
       for (int n = 0; n < ring_; ++n) {
         const auto here = static_cast<std::size_t>(n);
@@ -184,7 +183,7 @@ class RibBuilder {
   const PrismaticOpening& opening_;
   RingNodes nodes_;
   double fill_depth_, from_ = 0, width_ = 0;
-  int count_, rows_ = 0, ring_ = 0;
+  int rows_ = 0, ring_ = 0;
   LiningFrame<Spatial> frame_;
 };
 

@@ -116,7 +116,7 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
   LiningFrame<Planar> frame;
   frame.nodes = nodes.places;
   frame.centre = ring.centre.value_or(centre_of(opening));
-  frame.count_on_outline = ring.nodes.value_or(default_lining_nodes);
+  frame.perimeter = opening.perimeter();
   for (std::size_t n = 0; n < nodes.places.size(); ++n)
     if (nodes.joined[n])
       frame.members.push_back(

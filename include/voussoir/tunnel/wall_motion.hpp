@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -64,6 +65,15 @@ struct AxisStretch {
   double to = std::numeric_limits<double>::infinity();
 };
 
+/// What a solver or a run says of its bodies. Whose they are is no matter of the wall: what finds
+/// it is compiled once a geometry.
+template <class Geometry>
+struct BodiesSeen {
+  std::function<bool(int body)> is_there;
+  std::function<Vec<Geometry::dim>(int body, const Vec<Geometry::dim>& place)>
+      displacement;  ///< [m]
+};
+
 /// Where a wall is seen from, and of which openings it is a wall.
 template <class Geometry>
 struct WallSeen {
@@ -121,15 +131,12 @@ VOUSSOIR_INLINE void add_corners_of(const SimplePolygon& other, const SimplePoly
   return facet;
 }
 
-/// Of pieces that are there, moved by a displacement.
-/// @param is_there  is_there(body)
-/// @param displacement  displacement(body, place) [m]
-template <class Geometry, class IsThere, class Displacement>
+/// Of pieces that are there.
+template <class Geometry>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
                                                      const typename Geometry::Opening& opening,
                                                      const WallSeen<Geometry>& seen,
-                                                     IsThere&& is_there,
-                                                     Displacement&& displacement) {
+                                                     const BodiesSeen<Geometry>& bodies) {
   constexpr int dim = Geometry::dim;
   constexpr double endless = std::numeric_limits<double>::infinity();
   const double tolerance = 1e3 * mass.domain.tolerance();
@@ -140,7 +147,7 @@ template <class Geometry, class IsThere, class Displacement>
   for (const auto& later : seen.later) add_corners_of(section_of(later), section, tolerance, marks);
   std::vector<WallMotion> motion;
   for (const auto& piece : wall_pieces(mass, opening)) {
-    if (!is_there(piece.body)) continue;
+    if (!bodies.is_there(piece.body)) continue;
     const auto e = static_cast<std::size_t>(piece.edge);
     auto within = std::optional(piece.facet);
     if constexpr (dim == 3) within = part_along(std::move(within), opening, seen.stretch);
@@ -161,7 +168,7 @@ template <class Geometry, class IsThere, class Displacement>
           }))
         continue;
       const Vec2 p = holds_centre ? facing : Vec2(outline.in_section(place) - centre);
-      const auto moved = displacement(piece.body, place);
+      const auto moved = bodies.displacement(piece.body, place);
       Vec2 u;
       if constexpr (dim == 2)
         u = moved;
@@ -178,22 +185,20 @@ template <class Geometry, class IsThere, class Displacement>
 
 /// About the centre of the opening.
 /// @param stretch  that is looked at, in 3-D
-template <class Geometry, class IsThere, class Displacement>
+template <class Geometry>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of(const RockMass<Geometry>& mass,
                                                      const typename Geometry::Opening& opening,
-                                                     IsThere&& is_there,
-                                                     Displacement&& displacement,
+                                                     const BodiesSeen<Geometry>& bodies,
                                                      const AxisStretch& stretch = {}) {
-  return wall_motion_of<Geometry>(
-      mass, opening, WallSeen<Geometry>{centre_of(opening), {}, stretch}, is_there, displacement);
+  return wall_motion_of<Geometry>(mass, opening,
+                                  WallSeen<Geometry>{centre_of(opening), {}, stretch}, bodies);
 }
 
 /// Of the last opening and those that it is joined to, as far as the last reaches along its axis.
 /// @param stretch  that is looked at, in 3-D along the last
-template <class Geometry, class IsThere, class Displacement>
+template <class Geometry>
 [[nodiscard]] std::vector<WallMotion> wall_motion_of_joined(const RockMass<Geometry>& mass,
-                                                            IsThere&& is_there,
-                                                            Displacement&& displacement,
+                                                            const BodiesSeen<Geometry>& bodies,
                                                             const AxisStretch& stretch = {}) {
   std::vector<WallMotion> motion;
   auto joined = joined_openings(mass);
@@ -208,10 +213,17 @@ template <class Geometry, class IsThere, class Displacement>
       seen.stretch = {shift + std::max(stretch.from, last.from()),
                       shift + std::min(stretch.to, last.to())};
     }
-    for (const WallMotion& part : wall_motion_of(mass, *opening, seen, is_there, displacement))
+    for (const WallMotion& part : wall_motion_of(mass, *opening, seen, bodies))
       motion.push_back(part);
   }
   return motion;
+}
+
+/// The bodies of a solver as they stand.
+template <class Solver>
+[[nodiscard]] BodiesSeen<typename Solver::Geometry> bodies_of(const Solver& solver) {
+  return {[&solver](int b) { return solver.system().body(b).movable; },
+          [&solver](int b, const auto& p) { return solver.displacement_of(b, p); }};
 }
 
 }  // namespace detail
@@ -221,17 +233,13 @@ template <class Geometry, class IsThere, class Displacement>
 template <class Solver>
 [[nodiscard]] std::vector<WallMotion> wall_motion(
     const Solver& solver, const typename Solver::Geometry::Opening& opening) {
-  return detail::wall_motion_of(
-      solver.mass(), opening, [&](int b) { return solver.system().body(b).movable; },
-      [&](int b, const auto& p) { return solver.displacement_of(b, p); });
+  return detail::wall_motion_of(solver.mass(), opening, detail::bodies_of(solver));
 }
 /// Of the last opening and those that it is joined to (`joined_openings`): after the bench the
 /// section that it makes with its heading. None before one was carved.
 template <class Solver>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver) {
-  return detail::wall_motion_of_joined(
-      solver.mass(), [&](int b) { return solver.system().body(b).movable; },
-      [&](int b, const auto& p) { return solver.displacement_of(b, p); });
+  return detail::wall_motion_of_joined(solver.mass(), detail::bodies_of(solver));
 }
 /// In 3-D within a stretch of the opening.
 /// @param section  the middle of the stretch along the axis [m]
@@ -242,11 +250,8 @@ requires(Solver::dim == 3)
                                                       const PrismaticOpening& opening,
                                                       double section, double half_length) {
   require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
-  return detail::wall_motion_of<typename Solver::Geometry>(
-      solver.mass(), opening,
-      {centre_of(opening), {}, {section - half_length, section + half_length}},
-      [&](int b) { return solver.system().body(b).movable; },
-      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); });
+  return detail::wall_motion_of(solver.mass(), opening, detail::bodies_of(solver),
+                                {section - half_length, section + half_length});
 }
 /// The same of the last opening and those that it is joined to.
 template <class Solver>
@@ -254,19 +259,18 @@ requires(Solver::dim == 3)
     [[nodiscard]] std::vector<WallMotion> wall_motion(const Solver& solver, double section,
                                                       double half_length) {
   require(half_length > 0, "half of the stretch of wall", half_length, "> 0 m");
-  return detail::wall_motion_of_joined(
-      solver.mass(), [&](int b) { return solver.system().body(b).movable; },
-      [&](int b, const Vec3& p) { return solver.displacement_of(b, p); },
-      {section - half_length, section + half_length});
+  return detail::wall_motion_of_joined(solver.mass(), detail::bodies_of(solver),
+                                       {section - half_length, section + half_length});
 }
 /// Of rock that moves.
 /// @param mass  from which the run was made
 template <class Geometry, class... Parts>
 [[nodiscard]] std::vector<WallMotion> wall_motion(const Dynamics<Geometry::dim, Parts...>& run,
                                                   const RockMass<Geometry>& mass) {
-  return detail::wall_motion_of_joined(
-      mass, [&](int b) { return !run.body(b).is_gone; },
-      [&](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); });
+  const detail::BodiesSeen<Geometry> bodies{
+      [&run](int b) { return !run.body(b).is_gone; },
+      [&run](int b, const auto& p) { return Vec<Geometry::dim>(run.motion(b)(p) - p); }};
+  return detail::wall_motion_of_joined(mass, bodies);
 }
 
 #if VOUSSOIR_BODIES
@@ -313,6 +317,18 @@ VOUSSOIR_INLINE void add_corners_of(const SimplePolygon& other, const SimplePoly
 
 }  // namespace detail
 
+#endif
+
+#ifdef VOUSSOIR_COMPILED
+VOUSSOIR_PLANAR_TEMPLATE std::vector<WallMotion> detail::wall_motion_of<Planar>(
+    const RockMass<Planar>&, const SimplePolygon&, const BodiesSeen<Planar>&, const AxisStretch&);
+VOUSSOIR_PLANAR_TEMPLATE std::vector<WallMotion> detail::wall_motion_of_joined<Planar>(
+    const RockMass<Planar>&, const BodiesSeen<Planar>&, const AxisStretch&);
+VOUSSOIR_SPATIAL_TEMPLATE std::vector<WallMotion> detail::wall_motion_of<Spatial>(
+    const RockMass<Spatial>&, const PrismaticOpening&, const BodiesSeen<Spatial>&,
+    const AxisStretch&);
+VOUSSOIR_SPATIAL_TEMPLATE std::vector<WallMotion> detail::wall_motion_of_joined<Spatial>(
+    const RockMass<Spatial>&, const BodiesSeen<Spatial>&, const AxisStretch&);
 #endif
 
 }  // namespace voussoir

@@ -6,7 +6,6 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/model/detail/next_round.hpp>
-#include <voussoir/model/opened_lining.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/opening_checks.hpp>
@@ -17,9 +16,8 @@ namespace voussoir {
 // The rounds that a solver takes out of its rock.
 
 template <class Models>
-auto ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
-                                      double smallest_piece, const Progress& progress)
-    -> std::vector<OpenedLining<dim>> {
+void ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
+                                      double smallest_piece, const Progress& progress) {
   if (smallest_piece == of_the_rock) smallest_piece = smallest_piece_of(*mass_);
   if (is_loaded_)
     throw InvalidInput(
@@ -37,13 +35,11 @@ auto ComposedSolver<Models>::excavate(const typename Geometry::Opening& opening,
   system_ = new_system();
   build(progress);
   hold_wall();
-  return {};
 }
 
 template <class Models>
-auto ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& opening,
-                                              double smallest_piece, const Progress& progress)
-    -> std::vector<OpenedLining<dim>> {
+void ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& opening,
+                                              double smallest_piece, const Progress& progress) {
   const auto mass = std::make_shared<RockMass<Geometry>>(
       carve(RockMass<Geometry>(*mass_), opening, smallest_piece, progress));
   SystemType next = new_system();
@@ -55,7 +51,6 @@ auto ComposedSolver<Models>::excavate_further(const typename Geometry::Opening& 
   fallen_ = std::move(after.fallen);
   hold_wall(&after.touched);
   opened_.insert(opened_.end(), after.opened.begin(), after.opened.end());
-  return std::move(after.opened);
 }
 
 }  // namespace voussoir
