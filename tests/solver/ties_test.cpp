@@ -196,16 +196,6 @@ TEST_SUITE("solver/ties") {
   // are good for.
   constexpr double within = 1e-6, next_to_nothing = 0.1;
 
-  /// What is known not to agree.
-  bool is_known(std::uint64_t seed, const std::string& image) {
-    const bool is_mirrored = image == "mirrored";
-    // So much slips that the unloading goes in increments, of which each leaves its slip behind.
-    if (seed == 10 || seed == 22) return image != "in pieces";
-    // A block that is too small stands on the middle of the domain between two that are each
-    // other's image: it has to go to one of them.
-    return is_mirrored && (seed == 28 || seed == 42);
-  }
-
   template <class Method>
   void check(std::uint64_t first, std::uint64_t last) {
     for (std::uint64_t seed = first; seed <= last; ++seed) {
