@@ -140,8 +140,8 @@ TEST_SUITE("solver/bonded_lining") {
   // 200 nodes are 0.33 L apart, which the mesh chosen is no coarser than. Relaxation commits what
   // breaks on its way and asks for no error estimate: on meshes twice as coarse it needs 1.3 times
   // the bond, on the safe side.
-  // Of many nodes each is a small part of the block, of 400 a thirtieth: what may be missing is less
-  // by that.
+  // Of many nodes each is a small part of the block, of 400 a thirtieth: what may be missing is
+  // less by that.
   TEST_CASE("relaxation finds it") { check_found_by<Relaxation>(300, {0.98}); }
   TEST_CASE("two-level search finds it") { check_found_by<TwoLevel>(200, {0.9}); }
   TEST_CASE_TEMPLATE("all procedures find it on two meshes [long]", Method, TwoLevel, Relaxation,
