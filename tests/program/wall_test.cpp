@@ -113,7 +113,7 @@ Answer answer_of(const Shape& shape, double degrees, const std::string& edge, bo
 /// From a centimetre inside of the wall to a centimetre behind it.
 std::vector<Answer> answers_of(const Shape& shape, double degrees, const std::string& edge,
                                bool ends) {
-  CAPTURE(shape.name);
+  CAPTURE(std::string(shape.name));
   CAPTURE(degrees);
   CAPTURE(edge);
   CAPTURE(ends);

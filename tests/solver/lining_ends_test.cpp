@@ -18,6 +18,7 @@
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "support/arch_on_feet.hpp"
 #include "support/elastic_tunnel.hpp"
 #include "support/faults.hpp"
 #include "support/jointed_rock.hpp"
@@ -27,6 +28,8 @@
 namespace lining_ends_test {
 
 using namespace voussoir;
+using voussoir_test::apart;
+using voussoir_test::ArchOnFeet;
 using voussoir_test::box;
 using voussoir_test::degree;
 using voussoir_test::mirrored_2d;
@@ -60,27 +63,19 @@ SimplePolygon section(const std::string& name) {
 }
 constexpr double corner = -30.9637565;  // atan(1.5 / 2.5) [degrees]
 
-struct Figures {
-  double thrust, moment, right, left;  ///< right and left: what the feet bear
-};
 template <class Tunnel = Solver<MohrCoulombJoint>>
-Figures carried(const RockMass<Planar>& rock, const SimplePolygon& opening,
-                const LiningRing& ring) {
+ArchOnFeet carried(const RockMass<Planar>& rock, const SimplePolygon& opening,
+                   const LiningRing& ring) {
   Tunnel tunnel(rock, tied, {.density = 2700, .surcharge = 1e6});
   tunnel.excavate(opening, 0);
   tunnel.install_lining(lining_frame(tunnel.mass(), opening, ring),
                         LiningSection::rectangular(0.2, 25e9), interface, bearing);
   REQUIRE(tunnel.equilibrium(0, {}, exact).verdict == Verdict::stable);
-  const auto feet = foot_forces(tunnel);
-  REQUIRE(feet.size() == 2);
-  const SupportDemand demand = support_demand(tunnel);
-  const bool right_first = feet[0].place.x() > feet[1].place.x();
-  return {demand.largest_thrust, demand.largest_moment, feet[right_first ? 0 : 1].bearing,
-          feet[right_first ? 1 : 0].bearing};
+  return voussoir_test::arch_on_feet(tunnel);
 }
 template <class Tunnel = Solver<MohrCoulombJoint>>
-Figures carried(const RockMass<Planar>& rock, const SimplePolygon& opening, double from,
-                double to) {
+ArchOnFeet carried(const RockMass<Planar>& rock, const SimplePolygon& opening, double from,
+                   double to) {
   return carried<Tunnel>(rock, opening, {.from = from * degree, .to = to * degree});
 }
 
@@ -93,13 +88,6 @@ bool stays_on_blocks(RockMass<Planar> rock, const SimplePolygon& opening) {
     return std::pair(frame.ends[0].body, frame.ends[1].body);
   };
   return bodies(-29) == bodies(-30.95);
-}
-
-/// The largest of the relative differences.
-double apart(const Figures& a, const Figures& b) {
-  const auto relative = [](double x, double y) { return std::abs(x - y) / std::max(x, y); };
-  return std::max({relative(a.thrust, b.thrust), relative(a.moment, b.moment),
-                   relative(a.right, b.right), relative(a.left, b.left)});
 }
 
 }  // namespace
@@ -121,7 +109,7 @@ TEST_SUITE("solver/lining_ends") {
     const RockMass<Planar> image = slice(ground, voussoir_test::moved(joints, mirror), {0.4, 5});
     for (const bool both : {true, false}) {
       CAPTURE(both);
-      Figures before{};
+      ArchOnFeet before{};
       for (int step = 0; step <= 20; ++step) {
         const double from = -29 - 0.25 * step, to = both ? 180 - from : 210;
         CAPTURE(from);
@@ -138,14 +126,14 @@ TEST_SUITE("solver/lining_ends") {
           CHECK(says(refusal, "on the flat floor between its corners at -149.04 and -30.964 deg"));
           continue;
         }
-        const Figures now = carried(rock, opening, from, to);
+        const ArchOnFeet now = carried(rock, opening, from, to);
         if (step > 0) CHECK(apart(now, before) < 0.05);
         before = now;
         if (both || step % 4 != 0) continue;
         // The mirror image: two searches to an error of 1e-6 of the largest displacement each.
-        const Figures mirrored =
+        const ArchOnFeet mirrored =
             carried(image, voussoir_test::moved(opening, mirror), 180 - to, 180 - from);
-        CHECK(apart(now, {mirrored.thrust, mirrored.moment, mirrored.left, mirrored.right}) < 1e-3);
+        CHECK(apart(now, mirrored.mirrored()) < 1e-3);
       }
     }
   }
@@ -160,8 +148,8 @@ TEST_SUITE("solver/lining_ends") {
     const RockMass<Planar> rock =
         voussoir_test::jointed_rock(domain_around(opening, 20, 6, 6), 1, {0.4, 5}, 100);
     using Relaxed = Solver<MohrCoulombJoint, Relaxation>;
-    const Figures above = carried<Relaxed>(rock, opening, -30.75, 210.75),
-                  on_it = carried<Relaxed>(rock, opening, -31, 211);
+    const ArchOnFeet above = carried<Relaxed>(rock, opening, -30.75, 210.75),
+                     on_it = carried<Relaxed>(rock, opening, -31, 211);
     CHECK(apart(above, on_it) < 0.05);
     // Friction on the lining remembers the path: procedures differ.
     CHECK(apart(on_it, carried(rock, opening, -31, 211)) < 0.05);
@@ -171,7 +159,7 @@ TEST_SUITE("solver/lining_ends") {
     const SimplePolygon opening = section("box");
     const RockMass<Planar> rock =
         voussoir_test::jointed_rock(domain_around(opening, 20, 6, 6), 2, {0.4, 5}, 100);
-    const Figures at_corner =
+    const ArchOnFeet at_corner =
         carried(rock, opening, lined_part(opening, LinedPart::roof_and_walls));
     CHECK(apart(at_corner, carried(rock, opening, -31.4, 211.4)) < 1e-9);
     CHECK(apart(at_corner, carried(rock, opening, -31, 211)) < 1e-9);

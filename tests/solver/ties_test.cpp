@@ -211,7 +211,7 @@ TEST_SUITE("solver/ties") {
         const WorstFigure worst =
             worst_of(other.tables, made.tables, between(image), next_to_nothing);
         CAPTURE(seed);
-        CAPTURE(image.name);
+        CAPTURE(std::string(image.name));
         CAPTURE(worst.where);
         CHECK(worst.difference <= within);
       }
@@ -238,7 +238,7 @@ TEST_SUITE("solver/ties") {
         const WorstFigure worst = worst_figure(name, one.tables.at(name), made.tables.at(name),
                                                image.map, next_to_nothing);
         CAPTURE(seed);
-        CAPTURE(image.name);
+        CAPTURE(std::string(image.name));
         CAPTURE(worst.where);
         CHECK(worst.difference <= 0.02);  // the overshoot that they say of themselves
       }
