@@ -228,7 +228,7 @@ bool follows_the_profile(const std::string& picture) {
 /// Two ribs on the wall of the last round.
 void install_ribs(Tunnel& tunnel, double spacing) {
   const LiningRibs ribs{.ring = {.nodes = 36}, .spacing = spacing, .tied = false};
-  tunnel.install_lining(lining_frame(tunnel.mass(), ribs),
+  tunnel.install_lining(lining_frame(tunnel.mass(), ribs, tunnel.fallen()),
                         {LiningSection::strip(0.25, spacing, 25e9)},
                         CoulombJoint({1e10, 1e10, 0.6}));
 }

@@ -25,19 +25,55 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 /// Sum of the area vectors of all that surrounds a body, the largest of all bodies: where its
 /// surface is closed it is zero.
+/// @param fallen  bodies that are no longer there
 template <class Geometry>
-double worst_gap(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening) {
+double worst_gap(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening,
+                 const std::vector<int>& fallen = {}) {
   using Vector = Vec<Geometry::dim>;
+  const auto is_there = [&](int b) {
+    return std::find(fallen.begin(), fallen.end(), b) == fallen.end();
+  };
   std::vector<Vector> sum(mass.bodies.size(), Vector::Zero());
   for (const auto& c : CutContacts::find(mass)) {
+    if (!is_there(c.a) || !is_there(c.b)) continue;
     sum[index(c.a)] += c.facet.area_vector();
     sum[index(c.b)] -= c.facet.area_vector();
   }
   for (const auto& f : boundary_facets(mass)) sum[index(f.body)] += f.facet.area_vector();
-  for (const auto& w : wall_pieces(mass, opening)) sum[index(w.body)] -= w.facet.area_vector();
+  for (const auto& w : wall_of(mass, opening, fallen).pieces) {
+    CHECK(is_there(w.body));
+    sum[index(w.body)] -= w.facet.area_vector();
+  }
   double worst = 0;
-  for (const Vector& s : sum) worst = std::max(worst, s.norm());
+  for (int b = 0; index(b) < sum.size(); ++b)
+    if (is_there(b)) worst = std::max(worst, sum[index(b)].norm());
   return worst;
+}
+
+/// Every third body at the wall, and every third of those behind one of these; none at the edge of
+/// the domain.
+template <class Geometry>
+std::vector<int> some_of_the_wall(const RockMass<Geometry>& mass,
+                                  const typename Geometry::Opening& opening) {
+  std::vector<int> at_wall, fallen;
+  for (const auto& piece : wall_pieces(mass, opening))
+    if (piece.hole < 0) at_wall.push_back(piece.body);
+  const auto at_edge = boundary_facets(mass);
+  const auto take_some = [&](std::vector<int> bodies) {
+    for (const auto& f : at_edge) std::erase(bodies, f.body);
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    for (std::size_t k = 0; k < bodies.size(); k += 3) fallen.push_back(bodies[k]);
+  };
+  take_some(at_wall);
+  std::vector<int> behind;
+  const auto is_fallen = [&](int b) {
+    return std::find(fallen.begin(), fallen.end(), b) != fallen.end();
+  };
+  for (const auto& c : CutContacts::find(mass))
+    if (is_fallen(c.a) != is_fallen(c.b)) behind.push_back(is_fallen(c.a) ? c.b : c.a);
+  take_some(behind);
+  return fallen;
 }
 
 /// Length or area of the outline that the wall stands for.
@@ -104,6 +140,30 @@ TEST_SUITE("rockmass/wall_pieces") {
         CHECK(seen<Planar>(mass, opening) == near(opening.perimeter()).epsilon(1e-9));
       }
     CHECK(of_holes > 100);
+  }
+
+  TEST_CASE("where bodies have fallen it closes what stands, and the void with them") {
+    for (const SimplePolygon& opening :
+         {SimplePolygon(regular(36, 3)), SimplePolygon(regular(4, 3)), horseshoe})
+      for (std::uint64_t seed = 1; seed <= 8; ++seed)
+        for (const double smallest : {0.0, 0.1}) {
+          CAPTURE(opening.size());
+          CAPTURE(seed);
+          CAPTURE(smallest);
+          const auto mass = carve(jointed_rock(ground, seed), opening, smallest);
+          const std::vector<int> fallen = some_of_the_wall<Planar>(mass, opening);
+          REQUIRE(fallen.size() > 5);
+          CHECK(worst_gap<Planar>(mass, opening, fallen) < 20 * mass.domain.tolerance());
+          double doubled_area = 0, missing = mass.carving.dropped_measure, length = 0;
+          for (const int b : fallen) missing += mass.bodies[index(b)].properties.measure;
+          const WallOutline outline(opening);
+          for (const auto& piece : wall_of(mass, opening, fallen).pieces) {
+            doubled_area += piece.facet.area_vector().dot(piece.facet.centre());
+            length += piece.seen_measure(outline);
+          }
+          CHECK(doubled_area == near(2 * (opening.area() + missing)).epsilon(1e-8));
+          CHECK(length == near(opening.perimeter()).epsilon(1e-9));
+        }
   }
 
   TEST_CASE("a slab dropped off a flat roof: the wall is its upper side, at its depth") {
@@ -209,6 +269,9 @@ TEST_SUITE("rockmass/wall_pieces") {
         CHECK(pieces_of_holes<Spatial>(mass, opening) > 5);
         CHECK(worst_gap<Spatial>(mass, opening) < 1e-7);
         CHECK(seen<Spatial>(mass, opening) == near(seen<Spatial>(whole, opening)).epsilon(0.02));
+        const std::vector<int> fallen = some_of_the_wall<Spatial>(mass, opening);
+        REQUIRE(fallen.size() > 5);
+        CHECK(worst_gap<Spatial>(mass, opening, fallen) < 1e-7);
       }
   }
 

@@ -179,6 +179,48 @@ TEST_SUITE("tunnel/lining_ring") {
       CHECK((force[k] - facet * frame.nodes[k].normalized()).norm() <= 1e-6);
   }
 
+  TEST_CASE("where a block has fallen it does what it does where a piece was dropped") {
+    const auto opening = circular_opening(5, 36);
+    const auto rock = jointed_rock(domain_around(opening, 14, 4, 4), 3);
+    // Every third block at the wall, out of the rock before or after: the same lining.
+    const auto standing = carve(rock, opening, 0.1);
+    std::vector<int> fallen, number(standing.bodies.size());
+    auto dropped = standing;
+    dropped.bodies.clear();
+    const auto pieces = wall_pieces(standing);
+    for (std::size_t b = 0; b < standing.bodies.size(); ++b) {
+      const bool is_at_wall = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+        return piece.body == static_cast<int>(b);
+      });
+      number[b] = static_cast<int>(dropped.bodies.size());
+      if (is_at_wall && b % 3 == 0) {
+        fallen.push_back(static_cast<int>(b));
+        dropped.dropped.push_back(standing.bodies[b]);
+      } else {
+        dropped.bodies.push_back(standing.bodies[b]);
+      }
+    }
+    REQUIRE(fallen.size() > 5);
+    const LiningRing ring{.nodes = 36};
+    const LiningFrame<Planar> after = lining_frame(standing, ring, fallen),
+                              before = lining_frame(dropped, ring),
+                              spanning = lining_frame(standing, ring);
+    CHECK(spanning.gaps.empty());
+    CHECK(after.gaps.size() > 2);  // deeper than half a metre
+    CHECK(after.fills.size() > spanning.fills.size());
+    REQUIRE(after.contacts.size() == before.contacts.size());
+    for (std::size_t k = 0; k < after.contacts.size(); ++k) {
+      const auto &a = after.contacts[k], &b = before.contacts[k];
+      CHECK(a.node == b.node);
+      CHECK(number[static_cast<std::size_t>(a.body)] == b.body);
+      CHECK((a.facet.start - b.facet.start).norm() < 1e-12);
+      CHECK((a.facet.end - b.facet.end).norm() < 1e-12);
+    }
+    REQUIRE(after.gaps.size() == before.gaps.size());
+    for (std::size_t k = 0; k < after.gaps.size(); ++k)
+      CHECK(after.gaps[k].share == voussoir_test::near(before.gaps[k].share).epsilon(1e-9));
+  }
+
   TEST_CASE("a hole deeper than the lining fills is a gap, and said") {
     const auto mass = tunnel_wall(0.3);
     const LiningFrame<Planar> on_outline = lining_frame(mass, {.nodes = 36, .fill_depth = 0});

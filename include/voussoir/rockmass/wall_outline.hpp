@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/geometry/half_space.hpp>
 #include <voussoir/geometry/part_of.hpp>
@@ -17,11 +18,19 @@
 
 namespace voussoir {
 
+/// A place of an outline.
+struct OutlinePlace {
+  std::size_t edge;
+  double s;  ///< from its beginning [m]
+};
+
 /// Parts the rock behind the outline of an opening among the edges in front of it, and along these.
 ///
 /// Behind an edge lies what is outside and between the lines that halve the angles at its two
 /// corners. From the one to the other the lines turn evenly, so every place of the outline has a
-/// line of its own (on a circle its radius), and what lies on it is behind that place.
+/// line of its own (on a circle its radius), and what lies on it is behind that place. Behind an
+/// edge between two corners that turn the other way, where rock hangs into the opening, the lines
+/// meet: there it parts rock as far as to where they do.
 class WallOutline {
  public:
   /// Outlives neither the polygon nor the opening.
@@ -77,19 +86,31 @@ class WallOutline {
   [[nodiscard]] const Vec2& in_section(const Vec2& p) const { return p; }
   [[nodiscard]] Vec2 in_section(const Vec3& p) const { return opening_->across(p); }
 
-  /// What of a facet or a shape lies behind the places of an edge between two; an infinite place
-  /// does not bound it.
-  /// @param low, high  from the beginning of the edge [m]
+  /// What of a facet or a shape lies behind the places between two; an infinite place does not
+  /// bound it.
   template <int Dim, class Thing>
-  [[nodiscard]] std::optional<Thing> part_between(std::optional<Thing> thing, std::size_t e,
-                                                  double low, double high, double tolerance) const {
-    if (thing && std::isfinite(high))
-      thing = part_of(*thing, in_space<Dim>(before(e, high)), tolerance);
-    if (thing && std::isfinite(low)) {
-      HalfSpace<2> side = before(e, low);
+  [[nodiscard]] std::optional<Thing> part_between(std::optional<Thing> thing,
+                                                  const OutlinePlace& low, const OutlinePlace& high,
+                                                  double tolerance) const {
+    if (thing && std::isfinite(high.s))
+      thing = part_of(*thing, in_space<Dim>(before(high.edge, high.s)), tolerance);
+    if (thing && std::isfinite(low.s)) {
+      HalfSpace<2> side = before(low.edge, low.s);
       thing = part_of(*thing, in_space<Dim>({-side.normal, -side.offset}), tolerance);
     }
     return thing;
+  }
+  /// Between two places of one edge.
+  template <int Dim, class Thing>
+  [[nodiscard]] std::optional<Thing> part_between(std::optional<Thing> thing, std::size_t e,
+                                                  double low, double high, double tolerance) const {
+    return part_between<Dim>(std::move(thing), {e, low}, {e, high}, tolerance);
+  }
+
+  /// The angle by which the outline turns from an edge to the next, to the left [rad].
+  [[nodiscard]] double turn_after(std::size_t e) const {
+    const Vec2 &here = edges_[e].along, &next = edges_[e + 1 == size() ? 0 : e + 1].along;
+    return elementary::angle_of(cross(here, next), dot_product(here, next));
   }
 
  private:

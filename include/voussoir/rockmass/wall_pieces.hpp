@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
@@ -62,7 +64,8 @@ struct WallPiece {
   }
 };
 
-/// Void behind the outline where a piece of rock was dropped, as far as it lies behind one edge.
+/// Void behind the outline where a piece of rock was dropped or a block has fallen, as far as it
+/// lies behind one edge.
 template <class Geometry>
 struct WallHole {
   int group;  ///< holes of one number are parts of one void
@@ -86,12 +89,15 @@ struct Wall {
 /// along a joint, the wall is a face of that joint. Those around a hole are the other sides of its
 /// cuts.
 ///
+/// @param fallen  bodies that are no longer there: they have left holes as dropped pieces have
 /// @cost  one bounding test per body; faces x outline edges near the opening only
 [[nodiscard]] VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass,
-                                                   const SimplePolygon& opening);
+                                                   const SimplePolygon& opening,
+                                                   const std::vector<int>& fallen = {});
 /// The sides of an opening in 3-D, not its ends.
 [[nodiscard]] VOUSSOIR_INLINE Wall<Spatial> wall_of(const RockMass<Spatial>& mass,
-                                                    const PrismaticOpening& opening);
+                                                    const PrismaticOpening& opening,
+                                                    const std::vector<int>& fallen = {});
 
 /// Its pieces alone.
 template <class Geometry>
@@ -138,31 +144,37 @@ class WallFinder {
   using Facet = typename Geometry::Facet;
   using Opening = typename Geometry::Opening;
 
-  WallFinder(const RockMass<Geometry>& mass, const Opening& opening)
+  WallFinder(const RockMass<Geometry>& mass, const Opening& opening, const std::vector<int>& fallen)
       : mass_(mass),
         outline_(opening),
         box_(opening, mass.domain.tolerance()),
-        tolerance_(mass.domain.tolerance()) {
+        tolerance_(mass.domain.tolerance()),
+        is_there_(mass.bodies.size(), true) {
+    for (const int b : fallen) is_there_[static_cast<std::size_t>(b)] = false;
     for (std::size_t e = 0; e < outline_.size(); ++e)
       sides_.push_back(outline_piece(opening, e, mass.domain));
   }
 
   [[nodiscard]] Wall<Geometry> find() {
     for (std::size_t b = 0; b < mass_.bodies.size(); ++b)
-      for (const Shape& part : mass_.bodies[b].parts)
+      for (const Shape& part : standing_parts(b))
         on_outline(part, [&](std::size_t e, Facet facet, double from, double to) {
           const double start = outline_.start(e);
           wall_.pieces.push_back({static_cast<int>(b), std::move(facet), static_cast<int>(e),
                                   start + from, start + to});
         });
 
-    std::vector<Shape> dropped;
-    for (const Body<Geometry>& body : mass_.dropped)
-      dropped.insert(dropped.end(), body.parts.begin(), body.parts.end());
+    std::vector<Shape> missing;
+    const auto add = [&](const Body<Geometry>& body) {
+      missing.insert(missing.end(), body.parts.begin(), body.parts.end());
+    };
+    for (const Body<Geometry>& body : mass_.dropped) add(body);
+    for (std::size_t b = 0; b < mass_.bodies.size(); ++b)
+      if (!is_there_[b]) add(mass_.bodies[b]);
     // Pieces that lay side by side have left one hole, across joints, too.
     const std::vector<Cut> all_connect(mass_.cuts.size(), Cut{Cut::Kind::seam, 0});
     int number = 0;
-    for (const auto& group : connected_groups(dropped, all_connect, tolerance_))
+    for (const auto& group : connected_groups(missing, all_connect, tolerance_))
       add_holes(group, number++);
     if (!faces_.empty()) add_faces_of_holes();
     if constexpr (dim == 2) {
@@ -174,6 +186,12 @@ class WallFinder {
   }
 
  private:
+  /// What of a body is there: all or nothing.
+  [[nodiscard]] std::span<const Shape> standing_parts(std::size_t body) const {
+    return is_there_[body] ? std::span<const Shape>(mass_.bodies[body].parts)
+                           : std::span<const Shape>();
+  }
+
   /// Faces of a shape that lie on the outline: visit(edge, what of the face lies on it, from, to).
   template <class Visit>
   void on_outline(const Shape& shape, Visit&& visit) const {
@@ -221,30 +239,27 @@ class WallFinder {
     return {low, high};
   }
 
-  /// A face of what was dropped, and the holes that its part has left.
+  struct Bounds {
+    OutlinePlace low, high;
+  };
+  /// A face of what is missing, and the holes that its part has left.
   struct HoleFace {
     Facet facet;
     std::size_t first_hole, end_hole;
   };
 
-  /// Of what was dropped, in one piece; nothing if it did not lie at this outline.
-  void add_holes(const std::vector<Shape>& dropped, int number) {
+  /// Of what is missing, in one piece; nothing if it did not lie at this outline.
+  void add_holes(const std::vector<Shape>& missing, int number) {
     std::vector<std::size_t> edges;
-    for (const Shape& part : dropped)
+    for (const Shape& part : missing)
       on_outline(part, [&](std::size_t e, const Facet&, double, double) { edges.push_back(e); });
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    // Behind the edges next to those it may reach behind rock: it is a hole of these, then.
-    const auto is_edge = [&](std::size_t e) {
-      return std::binary_search(edges.begin(), edges.end(), e % outline_.size());
-    };
-    for (const Shape& part : dropped) {
+    for (const Shape& part : missing) {
       const std::size_t first = wall_.holes.size();
       for (const std::size_t e : edges) {
-        constexpr double endless = std::numeric_limits<double>::infinity();
-        const Bounds bounds{is_edge(e + outline_.size() - 1) ? 0.0 : -endless,
-                            is_edge(e + 1) ? outline_.start(e + 1) - outline_.start(e) : endless};
-        auto shape = outline_.template part_between<dim>(std::optional(part), e, bounds.low,
+        const Bounds bounds = bounds_of_hole(e, edges);
+        auto shape = outline_.template part_between<dim>(std::optional(part), bounds.low,
                                                          bounds.high, tolerance_);
         if (!shape) continue;
         wall_.holes.push_back({number, static_cast<int>(e), std::move(*shape)});
@@ -255,9 +270,39 @@ class WallFinder {
     }
   }
 
+  /// Places between which what is missing is a hole of an edge: its own, and on each side half of
+  /// those up to the next edge at which something is missing, for what lies behind rock; all there
+  /// is on a side where no such edge comes before the outline has turned round.
+  /// @param edges  at which something is missing, in order
+  [[nodiscard]] Bounds bounds_of_hole(std::size_t e, const std::vector<std::size_t>& edges) const {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    const auto at =
+        static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), e) - edges.begin());
+    const std::size_t before = edges[(at + edges.size() - 1) % edges.size()],
+                      after = edges[(at + 1) % edges.size()];
+    const auto between = [&](std::size_t first, std::size_t last, const OutlinePlace& otherwise) {
+      double turn = 0, length = 0;
+      for (std::size_t k = first;;) {
+        turn += outline_.turn_after(k);
+        k = (k + 1) % outline_.size();
+        if (k == last || k == first) break;
+        length += edge_length(k);
+      }
+      if (first == last || turn > std::numbers::pi) return otherwise;
+      std::size_t k = (first + 1) % outline_.size();
+      for (length *= 0.5; k != last && length > edge_length(k); k = (k + 1) % outline_.size())
+        length -= edge_length(k);
+      return OutlinePlace{k, length};
+    };
+    return {between(before, e, {e, -endless}), between(e, after, {e, endless})};
+  }
+  [[nodiscard]] double edge_length(std::size_t e) const {
+    return outline_.start(e + 1) - outline_.start(e);
+  }
+
   void add_faces_of_holes() {
     for (std::size_t b = 0; b < mass_.bodies.size(); ++b)
-      for (const Shape& part : mass_.bodies[b].parts)
+      for (const Shape& part : standing_parts(b))
         for (std::size_t k = 0; k < part.size(); ++k) {
           const auto of_cut = faces_.find(part.cut(k));
           if (of_cut == faces_.end()) continue;
@@ -271,7 +316,7 @@ class WallFinder {
   }
   void add_face_of_hole(int body, const Facet& face, std::size_t hole) {
     const auto e = static_cast<std::size_t>(wall_.holes[hole].edge);
-    auto facet = outline_.template part_between<dim>(std::optional(face), e, bounds_[hole].low,
+    auto facet = outline_.template part_between<dim>(std::optional(face), bounds_[hole].low,
                                                      bounds_[hole].high, tolerance_);
     if (!facet) return;
     const auto [from, to] = places(e, *facet);
@@ -281,7 +326,7 @@ class WallFinder {
   }
 
   /// Makes one of what lies in line: into which convex parts carving has divided blocks and what
-  /// was dropped, which differs in the mirror, is no matter of the wall.
+  /// is missing, which differs in the mirror, is no matter of the wall.
   void join_faces_of_holes() {
     std::vector<WallPiece<Geometry>> joined;
     const auto group = [&](const WallPiece<Geometry>& piece) {
@@ -363,29 +408,28 @@ class WallFinder {
     wall_.pieces = std::move(along);
   }
 
-  struct Bounds {
-    double low, high;  ///< places of the edge [m]
-  };
-
   const RockMass<Geometry>& mass_;
   WallOutline outline_;
   OpeningBox box_;
   double tolerance_;
+  std::vector<bool> is_there_;  ///< of every body
   std::vector<decltype(outline_piece(std::declval<const Opening&>(), 0, mass_.domain))> sides_;
   Wall<Geometry> wall_;
   std::vector<Bounds> bounds_;                  ///< of every hole
-  std::map<int, std::vector<HoleFace>> faces_;  ///< of dropped bodies, by their cuts
+  std::map<int, std::vector<HoleFace>> faces_;  ///< of what is missing, by their cuts
 };
 
 }  // namespace detail
 
-VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass, const SimplePolygon& opening) {
-  return detail::WallFinder<Planar>(mass, opening).find();
+VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass, const SimplePolygon& opening,
+                                     const std::vector<int>& fallen) {
+  return detail::WallFinder<Planar>(mass, opening, fallen).find();
 }
 
 VOUSSOIR_INLINE Wall<Spatial> wall_of(const RockMass<Spatial>& mass,
-                                      const PrismaticOpening& opening) {
-  return detail::WallFinder<Spatial>(mass, opening).find();
+                                      const PrismaticOpening& opening,
+                                      const std::vector<int>& fallen) {
+  return detail::WallFinder<Spatial>(mass, opening, fallen).find();
 }
 
 #endif

@@ -174,10 +174,11 @@ namespace detail {
 /// @throws InvalidInput  see `lining_frame`, `with_chosen_nodes`
 template <class Solver>
 [[nodiscard]] LiningFrame<typename Solver::Geometry> frame_of(
-    const RockMass<typename Solver::Geometry>& mass, const LiningInstallation<Solver>& lining) {
+    const Solver& solver, const LiningInstallation<Solver>& lining) {
+  const auto& mass = solver.mass();
   if (mass.openings.empty() || lining.sections.empty() ||
       is_pinned_lining<typename Solver::Lining>())
-    return lining_frame(mass, lining.layout);
+    return lining_frame(mass, lining.layout, solver.fallen());
   const auto& opening = lining.opening ? *lining.opening : mass.openings.back();
   auto layout = lining.layout;
   const LiningSection& across = lining.sections.front();
@@ -186,7 +187,7 @@ template <class Solver>
   else
     layout.ring = with_chosen_nodes<3>(layout.ring, opening.section(), across, lining.interface_law,
                                        layout.spacing);
-  return lining_frame(mass, opening, layout);
+  return lining_frame(mass, opening, layout, solver.fallen());
 }
 
 /// @throws InvalidInput  see the calls; Stopped
@@ -201,8 +202,8 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
       (void)solver.install_bolt(bar, bolts.law, bolts.spacing, bolts.anchors);
     }
   for (const auto& lining : stage.linings)
-    (void)solver.install_lining(frame_of(solver.mass(), lining), lining.sections,
-                                lining.interface_law, lining.feet);
+    (void)solver.install_lining(frame_of(solver, lining), lining.sections, lining.interface_law,
+                                lining.feet);
 }
 
 }  // namespace detail

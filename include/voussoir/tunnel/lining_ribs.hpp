@@ -32,15 +32,16 @@ struct LiningRibs {
 /// wall there touches its node at one point.
 ///
 /// @param opening  that is lined; it may be one that was taken out in rounds
+/// @param fallen   bodies that have fallen before, see `lining_frame` of a ring
 /// @throws InvalidInput  as `lining_frame` of a ring; the stretch lies outside; spacing out of
 /// range
 ///                       or longer than the stretch
-[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                                const PrismaticOpening& opening,
-                                                                const LiningRibs& ribs);
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(
+    const RockMass<Spatial>& mass, const PrismaticOpening& opening, const LiningRibs& ribs,
+    const std::vector<int>& fallen = {});
 /// The same on the wall of the last opening.
-[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                                const LiningRibs& ribs);
+[[nodiscard]] VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(
+    const RockMass<Spatial>& mass, const LiningRibs& ribs, const std::vector<int>& fallen = {});
 
 #if VOUSSOIR_BODIES
 
@@ -69,7 +70,7 @@ class RibBuilder {
     ring_ = static_cast<int>(nodes_.places.size());
   }
 
-  [[nodiscard]] LiningFrame<Spatial> build(bool tied) {
+  [[nodiscard]] LiningFrame<Spatial> build(bool tied, const std::vector<int>& fallen) {
     frame_.perimeter = opening_.section().perimeter();
     for (int row = 0; row < rows_; ++row)
       for (int n = 0; n < ring_; ++n) {
@@ -86,7 +87,7 @@ class RibBuilder {
       }
     add_neighbours(tied);
     add_panels();
-    LiningOnWall<Spatial>(mass_, opening_, nodes_, fill_depth_)
+    LiningOnWall<Spatial>(mass_, opening_, nodes_, fill_depth_, fallen)
         .put_on(frame_, [this](int ring_node, const SpatialFacet& facet, auto&& add) {
           each_row(ring_node, facet, add);
         });
@@ -191,15 +192,17 @@ class RibBuilder {
 
 VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
                                                   const PrismaticOpening& opening,
-                                                  const LiningRibs& ribs) {
+                                                  const LiningRibs& ribs,
+                                                  const std::vector<int>& fallen) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  return detail::RibBuilder(mass, opening, ribs).build(ribs.tied);
+  return detail::RibBuilder(mass, opening, ribs).build(ribs.tied, fallen);
 }
 
 VOUSSOIR_INLINE LiningFrame<Spatial> lining_frame(const RockMass<Spatial>& mass,
-                                                  const LiningRibs& ribs) {
+                                                  const LiningRibs& ribs,
+                                                  const std::vector<int>& fallen) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  return lining_frame(mass, mass.openings.back(), ribs);
+  return lining_frame(mass, mass.openings.back(), ribs, fallen);
 }
 
 #endif

@@ -27,15 +27,20 @@ namespace voussoir {
 /// turning it.
 ///
 /// @param opening  that is lined; its outline may be that of a section taken out in rounds
+/// @param fallen   bodies that have fallen before (`ComposedSolver::fallen`): their holes are
+/// filled
+///                 as those of dropped pieces
 /// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc; rock
 ///                       that is not yet excavated where a node would be, or no rock at all because
 ///                       that is outside the domain
 [[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
                                                                const SimplePolygon& opening,
-                                                               const LiningRing& ring);
+                                                               const LiningRing& ring,
+                                                               const std::vector<int>& fallen = {});
 /// The same on the wall of the last opening.
 [[nodiscard]] VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
-                                                               const LiningRing& ring);
+                                                               const LiningRing& ring,
+                                                               const std::vector<int>& fallen = {});
 
 namespace detail {
 
@@ -103,14 +108,16 @@ template <class Geometry>
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
-                                                 const LiningRing& ring) {
+                                                 const LiningRing& ring,
+                                                 const std::vector<int>& fallen) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
-  return lining_frame(mass, mass.openings.back(), ring);
+  return lining_frame(mass, mass.openings.back(), ring, fallen);
 }
 
 VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
                                                  const SimplePolygon& opening,
-                                                 const LiningRing& ring) {
+                                                 const LiningRing& ring,
+                                                 const std::vector<int>& fallen) {
   if (mass.openings.empty()) throw InvalidInput("lining: there is no opening to line");
   const detail::RingNodes nodes = detail::ring_nodes(opening, ring);
   LiningFrame<Planar> frame;
@@ -143,7 +150,7 @@ VOUSSOIR_INLINE LiningFrame<Planar> lining_frame(const RockMass<Planar>& mass,
       detail::require_excavated(mass, Vec2(part.edge.centre() + inwards * normal));
     frame.panels.push_back({part.node, part.edge});
   }
-  detail::LiningOnWall<Planar> wall(mass, opening, nodes, ring.fill_depth);
+  detail::LiningOnWall<Planar> wall(mass, opening, nodes, ring.fill_depth, fallen);
   wall.put_on(frame, [](int node, auto&& part, auto&& add) { add(node, part); });
   return frame;
 }

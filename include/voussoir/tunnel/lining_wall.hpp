@@ -17,10 +17,10 @@ namespace voussoir::detail {
 
 /// Gives every node of a lining its contacts with the wall behind its stretch of the outline.
 ///
-/// Where a piece of rock was dropped, the lining fills the hole: it bears on the body behind, at
-/// the outline and at right angles to it, over what of the outline is in front of that body. So a
-/// hole changes neither the area on which the rock presses nor the way it presses, and fills do not
-/// key a smooth lining to the rock.
+/// Where a piece of rock was dropped or a block has fallen, the lining fills the hole: it bears on
+/// the body behind, at the outline and at right angles to it, over what of the outline is in front
+/// of that body. So a hole changes neither the area on which the rock presses nor the way it
+/// presses, and fills do not key a smooth lining to the rock.
 template <class Geometry>
 class LiningOnWall {
  public:
@@ -29,8 +29,8 @@ class LiningOnWall {
   using Shape = typename Geometry::Shape;
 
   LiningOnWall(const RockMass<Geometry>& mass, const typename Geometry::Opening& opening,
-               const RingNodes& nodes, double fill_depth)
-      : wall_(wall_of(mass, opening)),
+               const RingNodes& nodes, double fill_depth, const std::vector<int>& fallen)
+      : wall_(wall_of(mass, opening, fallen)),
         outline_(opening),
         nodes_(nodes),
         fill_depth_(fill_depth),

@@ -42,9 +42,9 @@ struct LiningRing {
   double from = 0;                   ///< [rad], anticlockwise from the right-hand springing
   double to = 2 * std::numbers::pi;  ///< [rad], from < to <= from + 2 pi
   std::optional<Vec2> centre{};      ///< about which angles are counted [m]; none: see `centre_of`
-  /// Where pieces of rock were dropped (`carve`), it fills the holes up to this far behind the
-  /// outline and bears on the rock there; what is deeper stays a gap, see `LiningFrame::gaps`
-  /// [m], >= 0.
+  /// Where pieces of rock were dropped (`carve`) or have fallen, it fills the holes up to this far
+  /// behind the outline and bears on the rock there; what is deeper stays a gap, see
+  /// `LiningFrame::gaps` [m], >= 0.
   double fill_depth = default_fill_depth;
 };
 

@@ -55,7 +55,7 @@ class LiningAssembly {
     const LiningFrame<Geometry> wanted =
         is_pinned_lining<Lining>() ? without_bare_nodes(given) : given;
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
-                     [this](const auto& c) { return system_.body(c.body).movable; }))
+                     [this](const auto& c) { return !system_.body(c.body).is_gone; }))
       throw InvalidInput("lining: no rock touches it");
     if constexpr (!is_pinned_lining<Lining>())
       if (holds_tension<dim>(interface_law))
@@ -200,14 +200,14 @@ class LiningAssembly {
     system_.linings.push_back({first_node_, law, is_pinned_lining<Lining>(), thickness,
                                LiningSurface<Geometry>(
                                    frame, thickness, [this](int b) { return system_.motion_of(b); },
-                                   [this](int b) { return !system_.body(b).movable; }),
-                               frame.fills, frame.gaps, std::move(free)});
+                                   [this](int b) { return system_.body(b).is_gone; }),
+                               frame.fills, gaps_behind(frame), std::move(free)});
     const std::size_t before = system_.interface.contacts().size();
     for (const int k : order_by_bodies(frame.contacts, [&](const LiningContact<Geometry>& c) {
            return std::pair<int, int>(c.body, first_node_ + c.node);
          })) {
       const LiningContact<Geometry>& c = frame.contacts[static_cast<std::size_t>(k)];
-      if (!system_.body(c.body).movable) continue;  // that block is detached
+      if (system_.body(c.body).is_gone) continue;
       const int node = first_node_ + c.node;
       const auto touch = [&](const Vec<dim>& centre, std::span<const FacetPoint<dim>> points) {
         system_.interface.add(node, c.body, c.facet, centre, system_.body(c.body).centre, points,
@@ -226,6 +226,24 @@ class LiningAssembly {
       }
     }
     system_.interface.touch_at(system_.displacement.data(), before);
+  }
+
+  /// Those of the frame, and where it was made as if blocks were there that have fallen.
+  [[nodiscard]] std::vector<LiningGap> gaps_behind(const LiningFrame<Geometry>& frame) const {
+    std::vector<double> open(frame.nodes.size(), 0.0), whole(frame.nodes.size(), 0.0);
+    for (const auto& panel : frame.panels)
+      whole[static_cast<std::size_t>(panel.node)] += panel.facet.measure();
+    for (const auto& c : frame.contacts)
+      if (system_.body(c.body).is_gone) open[static_cast<std::size_t>(c.node)] += c.facet.measure();
+    for (const LiningGap& gap : frame.gaps) {
+      const auto node = static_cast<std::size_t>(gap.node);
+      open[node] += gap.share * whole[node];
+    }
+    std::vector<LiningGap> gaps;
+    for (std::size_t k = 0; k < open.size(); ++k)
+      if (whole[k] > 0 && open[k] > 0.01 * whole[k])
+        gaps.push_back({static_cast<int>(k), open[k] / whole[k]});
+    return gaps;
   }
 
   System& system_;
