@@ -257,6 +257,8 @@ TEST_SUITE("rockmass/trace_file") {
          "\"x1\",\"y1\",\"x2\",\"y2\",\"set\"\n\"1.5\",\"2\",\"3\",\"4\",\"0\"\n"
          "\"5\",\"6\",\"7\",\"8\",\"1\"\n"},
         {"quoted decimal comma", "\"1,5\",\"2,0\",\"3,0\",\"4,0\",0\n\"5\",\"6\",\"7\",\"8\",1\n"},
+        {"counted from 0", "x0,y0,x1,y1,set\n1.5,2,3,4,0\n5,6,7,8,1\n"},
+        {"counted from 0, the end first", "x1,y1,x0,y0,set\n3,4,1.5,2,0\n7,8,5,6,1\n"},
         {"capitals", "X1,Y1,X2,Y2,SET\n1.5,2,3,4,0\n5,6,7,8,1\n"},
         {"units", "X1 [m],Y1 [m],X2 [m],Y2 [m],Set\n1.5,2,3,4,0\n5,6,7,8,1\n"},
         {"units in blanks", "x1 [m] y1 [m] x2 [m] y2 [m] set\n1.5 2 3 4 0\n5 6 7 8 1\n"},

@@ -324,6 +324,22 @@ VOUSSOIR_INLINE std::pair<std::string, std::string> name_and_unit(std::string_vi
   return 0;
 }
 
+/// What columns of these names are. Beside x0, y0 the other end is x1, y1.
+[[nodiscard]] VOUSSOIR_INLINE std::vector<TraceColumn> columns_named(
+    const std::vector<std::string>& names) {
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const bool from_zero = has("x0") && has("x1") && !has("x2");
+  std::vector<TraceColumn> columns;
+  for (const std::string& name : names) {
+    columns.push_back(column_named(name));
+    if (from_zero && name == "x1") columns.back() = TraceColumn::x2;
+    if (from_zero && name == "y1") columns.back() = TraceColumn::y2;
+  }
+  return columns;
+}
+
 /// Whether the columns are enough to make traces of.
 [[nodiscard]] VOUSSOIR_INLINE bool is_table_of_traces(const TraceLayout& layout) {
   const auto has = [&](TraceColumn column) { return layout.count(column) == 1; };
@@ -351,15 +367,14 @@ VOUSSOIR_INLINE TraceLayout layout_of(const std::vector<std::string>& lines, Tra
     for (std::size_t at; (at = line.find(" [")) != std::string::npos;) line.erase(at, 1);
     tried.separator = told != 0 ? told : separator_of(line);
     const std::vector<TraceField> fields = fields_of(line, tried.separator);
-    std::size_t coordinates = 0;
+    std::vector<std::string> names;
     for (const TraceField& field : fields) {
-      const auto [name, unit] = name_and_unit(field.text);
-      tried.columns.push_back(column_named(name));
+      names.push_back(name_and_unit(field.text).first);
       tried.names.push_back(field.text);
-      coordinates += tried.columns.back() != TraceColumn::other &&
-                     tried.columns.back() != TraceColumn::id &&
-                     tried.columns.back() != TraceColumn::set;
     }
+    tried.columns = columns_named(names);
+    const std::size_t coordinates = fields.size() - tried.count(TraceColumn::other) -
+                                    tried.count(TraceColumn::id) - tried.count(TraceColumn::set);
     const bool is_data = fields.empty() || written_number(fields[0].text).fault.empty() ||
                          low.find("linestring") != std::string::npos;
     if (is_table_of_traces(tried) && !is_data) {
