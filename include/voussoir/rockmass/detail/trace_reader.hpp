@@ -47,7 +47,9 @@ namespace detail {
 /// Which set numbers a trace may have, for a message.
 [[nodiscard]] inline std::string accepted_sets(const TraceFileLimits& limits, int first) {
   if (!limits.sets) return "a whole number from 0 to 999999, or none";
-  if (*limits.sets == 0) return "none, as there is no joint set to name";
+  if (*limits.sets == 0)
+    return "none, for the model has no joint sets: define one for each set of the file, by name, or "
+           "leave the column out";
   std::string names;
   for (const std::string& name : limits.set_names) names += (names.empty() ? "" : ", ") + name;
   const std::string by_name = names.empty() ? "" : ", a name (" + names + ")";
