@@ -59,6 +59,11 @@ std::string name_of(const Input& input, int block) {
 }
 
 std::string shown(const char* format, double value) {
+  if (!std::isfinite(value)) {
+    std::string without = format;
+    const std::size_t at = without.find('%');
+    return without.replace(at, without.find_first_of("efg", at) + 1 - at, "not computed");
+  }
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;

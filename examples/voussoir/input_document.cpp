@@ -475,7 +475,17 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
     return d[a.size()][b.size()];
   };
   if (word.size() > 60) return "";
+  // A word of several, as "direction" for "dip_direction", says more than letters do.
   std::string best;
+  int holding = 0;
+  for (const std::string& candidate : candidates)
+    if (('_' + lower(candidate) + '_').find('_' + lower(word) + '_') != std::string::npos &&
+        candidate.size() > word.size()) {
+      best = candidate;
+      ++holding;
+    }
+  if (holding == 1) return best;
+  best.clear();
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t d = distance(lower(word), lower(candidate));

@@ -73,7 +73,8 @@ struct Document {
 /// `text` with control characters shown as `?`, cut behind 80 bytes.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// The candidate that `word` is probably meant to be: at most one slip in three letters.
+/// The candidate that `word` is probably meant to be: the only one of several words of which it is
+/// one, or at most one slip in three letters.
 /// @return  empty if none is near
 [[nodiscard]] std::string closest(std::string_view word,
                                   const std::vector<std::string>& candidates);

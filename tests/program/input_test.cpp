@@ -768,6 +768,8 @@ TEST_SUITE("program/input") {
     check_refused({
         {"[rock]\n", "[rock]\ndensty = \"2700 kg/m^3\"\n", 10,
          "unknown key `densty` in [rock], did you mean `density`?", "density"},
+        {"dip_direction = ", "direction = \"E\"\ndip_direction = ", 15,
+         "unknown key `direction` in [joint_set[0]], did you mean `dip_direction`?", "intensity"},
         {"[rock]\n", "[rock]\nK0 = 1\n", 10, "did you mean `stress.K0`?", "density"},
         {"[rock]\n", "[rock]\nzzz = 1\n", 10, "unknown key `zzz` in [rock]", "density"},
         {"[rock]\n", "[rock]\n\"a b.c\" = 1\n", 10, "unknown key `\"a b.c\"`", "density"},
