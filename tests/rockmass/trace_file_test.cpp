@@ -112,7 +112,8 @@ TEST_SUITE("rockmass/trace_file") {
         contains(message, "accepted: as set number 0 to 2 (joint sets, counted from 0), or none"));
     CHECK(
         contains(refusal(text, {.sets = 1, .first_set = 0}), "map.csv:1: there is no joint set 2"));
-    CHECK(contains(refusal(text, {.sets = 0}), "as set number none, for the model has no joint sets: define one"));
+    CHECK(contains(refusal(text, {.sets = 0}),
+                   "as set number none, for the model has no joint sets: define one"));
     CHECK(refusal("0,0,1,1\n", {.sets = 0}) == "accepted");
   }
 
