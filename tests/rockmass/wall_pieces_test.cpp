@@ -153,6 +153,7 @@ TEST_SUITE("rockmass/wall_pieces") {
           const auto mass = carve(jointed_rock(ground, seed), opening, smallest);
           const std::vector<int> fallen = some_of_the_wall<Planar>(mass, opening);
           REQUIRE(fallen.size() > 5);
+          CHECK_THROWS_AS((void)wall_of(mass, opening, {1000000}), InvalidInput);
           CHECK(worst_gap<Planar>(mass, opening, fallen) < 20 * mass.domain.tolerance());
           double doubled_area = 0, missing = mass.carving.dropped_measure, length = 0;
           for (const int b : fallen) missing += mass.bodies[index(b)].properties.measure;

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
+#include <voussoir/core/errors.hpp>
+#include <voussoir/core/invariants.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
@@ -90,6 +92,7 @@ struct Wall {
 /// cuts.
 ///
 /// @param fallen  bodies that are no longer there: they have left holes as dropped pieces have
+/// @throws InvalidInput  there is no such body
 /// @cost  one bounding test per body; faces x outline edges near the opening only
 [[nodiscard]] VOUSSOIR_INLINE Wall<Planar> wall_of(const RockMass<Planar>& mass,
                                                    const SimplePolygon& opening,
@@ -150,7 +153,13 @@ class WallFinder {
         box_(opening, mass.domain.tolerance()),
         tolerance_(mass.domain.tolerance()),
         is_there_(mass.bodies.size(), true) {
-    for (const int b : fallen) is_there_[static_cast<std::size_t>(b)] = false;
+    for (const int b : fallen) {
+      if (!is_index(b, mass.bodies.size()))
+        throw InvalidInput(
+            message({"wall: there is no body ", b, " that could have fallen; accepted: 0 to ",
+                     static_cast<int>(mass.bodies.size()) - 1}));
+      is_there_[static_cast<std::size_t>(b)] = false;
+    }
     for (std::size_t e = 0; e < outline_.size(); ++e)
       sides_.push_back(outline_piece(opening, e, mass.domain));
   }

@@ -27,9 +27,7 @@ namespace voussoir {
 /// turning it.
 ///
 /// @param opening  that is lined; its outline may be that of a section taken out in rounds
-/// @param fallen   bodies that have fallen before (`ComposedSolver::fallen`): their holes are
-/// filled
-///                 as those of dropped pieces
+/// @param fallen   bodies that have fallen before (`ComposedSolver::fallen`), whose holes it fills
 /// @throws InvalidInput  a value out of range; no opening; fewer than two nodes in the arc; rock
 ///                       that is not yet excavated where a node would be, or no rock at all because
 ///                       that is outside the domain

@@ -228,7 +228,7 @@ class LiningAssembly {
     system_.interface.touch_at(system_.displacement.data(), before);
   }
 
-  /// Those of the frame, and where it was made as if blocks were there that have fallen.
+  /// Those of the frame, and those over fallen blocks, which a frame may take to be there.
   [[nodiscard]] std::vector<LiningGap> gaps_behind(const LiningFrame<Geometry>& frame) const {
     std::vector<double> open(frame.nodes.size(), 0.0), whole(frame.nodes.size(), 0.0);
     for (const auto& panel : frame.panels)
