@@ -2,7 +2,7 @@
 // How much answers and times depend on the numbers inside the search for equilibrium. Each is
 // halved and doubled, as far as its range goes, the others left alone, over tunnels with and
 // without rockfall, supported, in 3-D, and with contact updates. Prints the table of
-// docs/sensitivity.md; with --all every run as CSV. A quarter of an hour.
+// docs/sensitivity.md; with --all every run as CSV. A third of an hour.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

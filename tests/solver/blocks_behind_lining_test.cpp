@@ -106,6 +106,20 @@ TEST_SUITE("solver/blocks_behind_lining") {
     }
   }
 
+  TEST_CASE("a lining made as if the fallen block were there has a gap there, and says so") {
+    Solver<> tunnel(slice(ground, beds(0.2), {0, 1e30}), joint, in_situ);
+    tunnel.excavate(opening, 0);
+    REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
+    REQUIRE(tunnel.fallen().size() == 4);
+    const LiningFrame<Planar> frame = lining_frame(tunnel.mass(), LiningRing{.nodes = 40});
+    CHECK(frame.gaps.empty());
+    tunnel.install_lining(frame, LiningSection::rectangular(0.15, 25e9), interface_law);
+    // The slab is 3 m of the roof, a node has 0.35 m of it, and at either end one has a part.
+    const int gaps = support_condition(tunnel).gaps;
+    CHECK(gaps >= 8);
+    CHECK(gaps <= 10);
+  }
+
   TEST_CASE_TEMPLATE("a block that is held bears on the lining, too", Method, TwoLevel, Relaxation,
                      Explicit) {
     using Tunnel = Solver<CoulombJoint, Method>;
@@ -118,10 +132,7 @@ TEST_SUITE("solver/blocks_behind_lining") {
                           LiningSection::rectangular(0.15, 25e9), interface_law);
     REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
     CHECK(support_demand(tunnel).largest_moment < 1);  // it stands free of force
-    // A roof pressed down by a tenth of a millimetre, of which the springs between it and the
-    // lining take little.
-    const double down = 1e-4;
-    tunnel.displace({{block, {0, -down}}});
+    tunnel.displace({{block, {0, -1e-4}}});
     REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
     CHECK(support_demand(tunnel).largest_moment > 1e3);  // 1.5e3 to 1.7e3 by the three
   }
