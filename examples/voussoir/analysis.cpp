@@ -18,8 +18,10 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "joint_sets.hpp"
 #include "mapped_rock.hpp"
 #include "plausibility.hpp"
+#include "spatial_analysis.hpp"
 
 namespace voussoir::program {
 
@@ -35,37 +37,6 @@ std::string number(double value, const char* format = "%.3g") {
   return text;
 }
 
-Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
-  Acceptance acceptance;
-  acceptance.error_estimate = input.run.tolerance;
-  acceptance.displacement_limit = input.run.displacement_limit;
-  acceptance.contact_update_limit = input.run.contact_update_limit;
-  acceptance.collapse_measure = collapse_measure_of(opening);
-  return acceptance;
-}
-
-/// The law of the joints, and of those sets that differ.
-LawsBySet<CoulombJoint> laws_of(const Input& input) {
-  LawsBySet<CoulombJoint> laws(CoulombJoint(mechanics_of(input, -1)));
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
-    const JointSetInput& set = input.joint_sets[k];
-    if (!set.normal_stiffness && !set.shear_stiffness && !set.friction_angle) continue;
-    const int index = static_cast<int>(k);
-    laws.add(index, CoulombJoint(mechanics_of(input, index)));
-  }
-  return laws;
-}
-
-std::vector<Segment> bars_of(const BoltsInput& bolts, const BoltSpacing& spacing,
-                             const SimplePolygon& opening) {
-  return bolt_bars({.length = bolts.length,
-                    .angular_spacing = spacing.is_angle ? spacing.value : 0.0,
-                    .wall_spacing = spacing.is_angle ? 0.0 : spacing.value,
-                    .from = bolts.arc.from,
-                    .to = bolts.arc.to},
-                   opening);
-}
-
 Domain<2> domain_of(const Input& input) {
   Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
                                    input.model.below_invert);
@@ -73,147 +44,10 @@ Domain<2> domain_of(const Input& input) {
   return domain;
 }
 
-BoltInstallation<Tunnel> bolts_of(const BoltsInput& bolts, const BoltSpacing& spacing,
-                                  const SimplePolygon& opening) {
-  return {bars_of(bolts, spacing, opening), bolt_of(bolts), bolts.out_of_plane, anchors_of(bolts)};
-}
-
-/// On the full ring: as many as facets, or as many as it takes to be no farther apart than joints,
-/// for a block that falls between two nodes loads none, or than a bond needs.
-/// @param thickness  of the lining [m], > 0
-int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening,
-                 double thickness) {
-  const LiningInput& lining = *input.lining;
-  if (lining.nodes) return *lining.nodes;
-  const double half_width = input.tunnel.half_width();
-  const double joint_spacing = radial_spacing(mass, Vec2::Zero(), half_width, 2 * half_width);
-  const double needed = std::ceil(opening.perimeter() / joint_spacing);
-  const int count = static_cast<int>(
-      std::clamp(needed, static_cast<double>(std::max(input.tunnel.facets, 8)), 2000.0));
-  if (!(lining.tensile_bond > 0)) return count;
-  return std::max(
-      count, *with_chosen_nodes<2>({}, opening, section_of(lining, thickness), interface_of(lining))
-                  .nodes);
-}
-
-LiningInstallation<Tunnel> lining_of(const LiningInput& lining, int nodes, double thickness) {
-  LiningRing ring{.nodes = nodes, .fill_depth = lining.fill_depth};
-  if (lining.arc) {
-    ring.from = lining.arc->from;
-    ring.to = lining.arc->to;
-  }
-  LiningInstallation<Tunnel> made{ring, {section_of(lining, thickness)}, interface_of(lining)};
-  if (const auto& feet = lining.feet) {
-    // Under a rib the beam settles and presses by so much more than all along.
-    const double peak = feet->on_beam().settlement;
-    made.feet.emplace(FootBearing::Params{
-        .width = feet->width,
-        .stiffness = feet->stiffness / peak,
-        .strength = feet->strength.value_or(std::numeric_limits<double>::infinity()) / peak,
-        .friction_angle = feet->friction_angle});
-  }
-  return made;
-}
-
-/// The stages of the input. `spacing` none: no bolts; `thickness` 0: no lining.
-Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel,
-                                     const SimplePolygon& opening,
-                                     const std::optional<BoltSpacing>& spacing, double thickness,
-                                     const LinearSettings& linear, RangeSought range) {
-  Construction<Tunnel> construction;
-  construction.method = method_of(input, linear, range);
-  construction.acceptance = acceptance_of(input, opening);
-  for (const StageInput& stage : input.stages) {
-    auto& made = construction.add_stage(stage.name, stage.wall_traction);
-    if (stage.install_bolts && spacing)
-      made.install_bolts(bolts_of(*input.bolts, *spacing, opening));
-    if (stage.install_lining && thickness > 0)
-      made.install_lining(lining_of(
-          *input.lining, lining_nodes(input, tunnel.mass(), opening, thickness), thickness));
-  }
-  return construction;
-}
-
-/// What became of the joints: how often one went into a block, and why a cut was not made.
-std::string slicing_text(const SlicingReport& slicing, const Input& input) {
-  std::string text = counted(slicing.joints, "joint") + ", of which " +
-                     std::to_string(slicing.joints - slicing.outside_joints) +
-                     " reach into the domain: " + counted(slicing.cuts, "cut") + " made, " +
-                     std::to_string(slicing.refused_too_small) +
-                     " refused for a part smaller than blocks.min_inscribed_radius = " +
-                     format_quantity(input.blocks.min_inscribed_radius, dimension::length) + ", " +
-                     std::to_string(slicing.refused_too_long) + " for a part longer than " +
-                     "blocks.max_elongation = " + number(input.blocks.max_elongation);
-  if (slicing.coincident > 0)
-    text += ", " + std::to_string(slicing.coincident) + " merged with an existing joint";
-  return text;
-}
-
-/// No result without its rock: joints asked for and not used are said.
-void check_slicing(const Input& input, const SlicingReport& slicing,
-                   std::vector<std::string>& warnings) {
-  const bool asked = !input.joint_sets.empty() || !input.joints_file.empty();
-  if (!asked) return;
-  const std::string text = slicing_text(slicing, input);
-  if (slicing.joints == slicing.outside_joints) {
-    warnings.push_back("the rock is one block without joints, though there are joint sets: " +
-                       text);
-  } else if (slicing.cuts == 0 && input.joints_file.empty()) {
-    // Traces may all end in whole rock: what of them cuts nothing is said with its metres.
-    throw InvalidInput("no joint cuts the rock, which stays one block: " + text +
-                       "\n   = accepted: limits in [blocks] that let joints cut");
-  } else if (2 * slicing.refused_too_long > slicing.offered_cuts() ||
-             50 * slicing.cuts < slicing.offered_cuts()) {
-    // Far more cuts than blocks are refused for size in any dense network: that is its saturation.
-    warnings.push_back("most joints leave no trace in the rock: " + text);
-  }
-  if (slicing.blocks_too_long > 0)
-    warnings.push_back(
-        counted(slicing.blocks_too_long, "block") + " longer than blocks.max_elongation = " +
-        number(input.blocks.max_elongation) + ", as the domain is: no joint cut them shorter");
-}
-
-/// What became of the random joints of every set, after `mapped` others.
-/// @throws InvalidInput  none of one set is used
-void add_random_sources(const Input& input, std::size_t mapped, GeneratedRock& rock) {
-  std::vector<JointSource> sources;
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
-    sources.push_back({input.joint_sets[k].name});
-    sources.back().law = mechanics_of(input, static_cast<int>(k));
-  }
-  for (std::size_t k = mapped; k < rock.mass.joints.size(); ++k) {
-    JointSource& source = sources[static_cast<std::size_t>(rock.mass.joints[k].set)];
-    const JointFate fate = rock.mass.slicing.fates[k];
-    ++source.asked;
-    source.used += fate == JointFate::used;
-    source.outside += fate == JointFate::outside;
-    source.refused += fate == JointFate::refused;
-  }
-  for (const JointSource& source : sources)
-    if (source.asked > 0 && source.used == 0 && source.refused > 0)
-      throw InvalidInput(source.name + ": none of its " + counted(source.asked, "joint") +
-                         " cuts the rock: " + std::to_string(source.outside) +
-                         " outside the domain, " + std::to_string(source.refused) +
-                         " refused for parts too small or too long, or where a joint was already" +
-                         "\n   = accepted: limits in [blocks] that let them cut, or a source of "
-                         "joints that are not there yet");
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    const bool is_mapped =
-        std::any_of(rock.joints.begin(), rock.joints.end(), [&](const JointSource& source) {
-          return source.mapped && source.mapped->set == static_cast<int>(k);
-        });
-    if (input.joint_sets[k].is_random())
-      rock.joints.push_back(std::move(sources[k]));
-    else if (!is_mapped)
-      rock.warnings.push_back("joint_set[" + std::to_string(k) + "] " + sources[k].name +
-                              " has no joint: no trace of joints.file names it, and it has neither "
-                              "intensity nor spacing");
-  }
-}
-
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   std::vector<std::string> warnings = run.warnings;
   for (std::string& text : unusual_values(input)) warnings.push_back(std::move(text));
+  if (!input.unused.empty()) warnings.push_back(input.unused_text());
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
   if (mass.slicing.coincident > 0)
@@ -285,13 +119,13 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   const Domain<2> domain = domain_of(input);
   std::vector<JointSet> sets;
   std::vector<int> index;  // of a random set among those of the input
+  const double trend = input.tunnel.trend.value_or(0);
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     const JointSetInput& s = input.joint_sets[k];
     if (!s.is_random()) continue;
-    sets.push_back({s.name, s.dip,
-                    s.dip_direction == DipDirection::east ? voussoir::DipDirection::east
-                                                          : voussoir::DipDirection::west,
-                    s.sd, s.intensity.value_or(0.0), s.spacing.value_or(0.0), s.extent});
+    const auto shown = section_set(s, trend);
+    if (!shown) continue;  // it runs along the section, and the run says so
+    sets.push_back(*shown);
     index.push_back(static_cast<int>(k));
   }
   GeneratedRock rock;
@@ -317,28 +151,35 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
     slice_by_traces(input, domain, std::move(traces), random, progress, rock);
   }
   check_slicing(input, rock.mass.slicing, rock.warnings);
-  add_random_sources(input, rock.mass.joints.size() - random.size(), rock);
+  std::vector<int> set_of;
+  for (const Joint& joint : rock.mass.joints) set_of.push_back(joint.set);
+  add_random_sources(input, set_of.size() - random.size(), set_of, rock.mass.slicing, rock.joints,
+                     rock.warnings);
+  for (const JointSetInput& set : input.joint_sets)
+    if (std::string text = section_text(set, trend); !text.empty())
+      (section_set(set, trend) ? rock.in_section : rock.warnings).push_back(std::move(text));
   return rock;
 }
 
 ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& report) {
+  if (input.is_spatial()) return spatial_rock_in_situ(input, report);
   const Progress progress = [&](double fraction) { return report("blocks", fraction); };
   const SimplePolygon opening = opening_of(input);
   const GeneratedRock rock = rock_of(input, progress);
   const LawsBySet<CoulombJoint> laws = laws_of(input);
   double unbalance = 0;
+  const auto in_situ_tunnel = [&](const FarField<2>& far_field) {
+    return Tunnel(rock.mass, laws, in_situ_of(input), progress, far_field);
+  };
   const auto tunnel_of = [&](const FarField<2>& far_field) {
-    Tunnel tunnel(rock.mass, laws,
-                  {.density = input.rock.density,
-                   .k0 = input.stress.K0,
-                   .surcharge = input.stress.surcharge,
-                   .gravity = input.model.gravity},
-                  progress, far_field);
+    Tunnel tunnel = in_situ_tunnel(far_field);
     unbalance = tunnel.out_of_balance_ratio();
     tunnel.excavate(opening, input.blocks.min_wall_area, progress);
     return tunnel;
   };
   BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
+  if (input.has_rounds)  // each takes out its part; what the boundary does was asked of the whole
+    bounded.tunnel = in_situ_tunnel(bounded.boundary.field);
   std::vector<std::string> warnings = rock.warnings;
   const double half_width = input.tunnel.half_width();
   for (std::string& text : remarks_on(in_situ_closure(
@@ -346,18 +187,24 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
            std::sqrt(block_sizes(rock.mass).mean),
            radial_spacing(rock.mass, Vec2::Zero(), half_width, 2 * half_width))))
     warnings.push_back(std::move(text));
-  return {
-      std::move(bounded.tunnel), rock.joints,     opening, std::move(bounded.boundary), unbalance,
-      std::move(warnings),       rock.joints_read};
+  return {std::move(bounded.tunnel),
+          rock.joints,
+          opening,
+          std::move(bounded.boundary),
+          unbalance,
+          std::move(warnings),
+          rock.joints_read,
+          rock.in_section};
 }
 
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
   if (!input.bolts) return;
+  // Along the tunnel the rows lie inside; the section says the rest.
   const Domain<2> domain = domain_of(input);
   const SimplePolygon opening = opening_of(input);
   for (const auto& spacing : spacings) {
     if (!spacing) continue;
-    for (const Segment& bar : bars_of(*input.bolts, *spacing, opening))
+    for (const Segment& bar : bolt_bars(pattern_of(*input.bolts, *spacing), opening))
       if ((bar.end.array() < domain.low.array()).any() ||
           (bar.end.array() > domain.high.array()).any())
         throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
@@ -400,27 +247,17 @@ SupportChoice supports_of(const Input& input) {
 
 namespace {
 
-/// Adds to a numerical fault which keys of the input are likely to blame.
-template <class Compute>
-auto naming_unusual_values(const Input& input, Compute&& compute) {
-  try {
-    return compute();
-  } catch (const NumericalFault& fault) {
-    std::string text = fault.what();
-    for (const std::string& value : unusual_values(input)) text += "\n   = " + value;
-    throw NumericalFault(text);
-  }
-}
-
 RunResult computed_run(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   report("blocks", -1.0);
   ExcavatedRock excavated = excavated_rock(input, true, report);
-  RunResult run{std::move(excavated.tunnel), excavated.opening, excavated.boundary};
+  RunResult run{std::get<Tunnel>(std::move(excavated.tunnel)), excavated.opening,
+                excavated.boundary};
   run.warnings = run.rock_warnings = std::move(excavated.warnings);
   run.joints = std::move(excavated.joints);
   run.joints_read = std::move(excavated.joints_read);
+  run.in_section = std::move(excavated.in_section);
   run.in_situ_unbalance = excavated.in_situ_unbalance;
   run.generation_seconds = seconds_since(start);
   const auto search = std::chrono::steady_clock::now();
@@ -428,8 +265,8 @@ RunResult computed_run(const Input& input, const Report& report) {
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
   run.built = construct(run.tunnel,
-                        construction_of(input, run.tunnel, run.opening, supports.spacing,
-                                        supports.thickness, linear, RangeSought::all),
+                        construction_of(input, run.tunnel, !input.has_rounds, run.opening, supports,
+                                        linear, RangeSought::all),
                         report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
@@ -454,27 +291,27 @@ constexpr double memory_of_a_case = 4e9;
 TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
                               const SupportChoice& supports, const Report& report) {
   TunnelResult result;
-  result.blocks = rock.tunnel.mass().bodies.size();
-  result.boundary = boundary_text(rock.boundary);
+  std::visit([&](const auto& tunnel) { result.blocks = tunnel.mass().bodies.size(); }, rock.tunnel);
+  result.boundary = input.is_spatial() ? spatial_boundary_text : boundary_text(rock.boundary);
   result.warnings = rock.warnings;
   for (std::string& text : unusual_values(input)) result.warnings.push_back(std::move(text));
-  try {
-    Tunnel tunnel = rock.tunnel;
-    const auto built = naming_unusual_values(input, [&] {
-      return construct(
-          tunnel,
-          construction_of(input, tunnel, rock.opening, supports.spacing, supports.thickness,
-                          {.memory_limit = memory_of_a_case}, RangeSought::until_marginal),
-          report);
-    });
+  if (!input.unused.empty()) result.warnings.push_back(input.unused_text());
+  const auto compute = [&](auto tunnel, const auto& construction) {
+    const auto built =
+        naming_unusual_values(input, [&] { return construct(tunnel, construction, report); });
     if (built.last().stopped) throw Stopped();
     result.verdict = built.verdict();
     result.lost_lining = built.has_lost_lining();
     result.fallen = built.fallen_measure();
     if (const auto range = built.rockfall_range()) result.marginal = range->is_marginal();
     result.reason = built.last().reason;
-    result.convergence = built.stages.back().convergence;
     result.demand = support_demand(tunnel);
+    if constexpr (std::is_same_v<decltype(tunnel), SpatialTunnel>) {
+      result.convergence = middle_convergence(input, tunnel, rock.opening);
+      result.demand = per_metre(input, result.demand);
+    } else {
+      result.convergence = built.stages.back().convergence;
+    }
     const SupportCondition condition = support_condition(tunnel);
     result.bolts_yielded = condition.yielded;
     result.bolts_ruptured = condition.ruptured;
@@ -483,6 +320,15 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
       result.of_bolt_strength = result.demand.largest_bolt_force / bolt_strength(*input.bolts);
     result.error_estimate = built.last().error_estimate;
     result.out_of_balance = built.last().unbalance_over_weight;
+  };
+  const LinearSettings linear{.memory_limit = memory_of_a_case};
+  try {
+    if (const auto* section = std::get_if<Tunnel>(&rock.tunnel))
+      compute(*section, construction_of(input, *section, !input.has_rounds, rock.opening, supports,
+                                        linear, RangeSought::until_marginal));
+    else
+      compute(std::get<SpatialTunnel>(rock.tunnel),
+              construction_of(input, rock.opening, supports, linear, RangeSought::until_marginal));
   } catch (const NumericalFault& fault) {
     result.failed = true;
     result.reason = fault.what();

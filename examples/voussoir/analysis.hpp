@@ -7,41 +7,33 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
-#include <voussoir/rockmass/mapped_slicing.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
 #include "boundary.hpp"
+#include "construction_plan.hpp"
 #include "input.hpp"
+#include "joint_report.hpp"
 #include "models.hpp"
 
 /// From a checked input to results: the analyses behind the verbs of the program.
 namespace voussoir::program {
 
-/// What became of the joints of one source: random ones of a set, or those of a set that were
-/// mapped. And what the set is made of.
-struct JointSource {
-  std::string name;
-  std::size_t asked = 0;          ///< joints
-  std::size_t used = 0;           ///< that cut a block
-  std::size_t outside = 0;        ///< that do not reach the domain
-  std::size_t refused = 0;        ///< for parts too small or too long, or where a joint was already
-  CoulombJoint::Params law = {};  ///< mechanics taken
-  std::optional<MappedSet> mapped = {};  ///< none: they are random
-};
-
 /// A finished run.
-struct RunResult {
-  Tunnel tunnel;
-  SimplePolygon opening;
-  ChosenBoundary boundary = {};
-  ConstructionResult<Planar> built = {};
+template <class Geometry>
+struct RunResultIn {
+  TunnelIn<Geometry> tunnel;
+  SimplePolygon opening;         ///< its section
+  ChosenBoundary boundary = {};  ///< 2-D; in 3-D there are rollers
+  ConstructionResult<Geometry> built = {};
   double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
   int bonded_nodes =
       0;  ///< of the lining on the full outline, chosen for its bond; 0: they are not
   std::vector<JointSource> joints = {};
   std::string joints_read = {};                 ///< how the file of traces was read, in words
+  std::vector<std::string> in_section = {};     ///< how sets by azimuth show there, a line each
   std::vector<std::string> rock_warnings = {};  ///< of `warnings`, those that the picture shows too
   std::vector<std::string> warnings = {};
   double generation_seconds = 0, equilibrium_seconds = 0;
@@ -52,53 +44,63 @@ struct RunResult {
   [[nodiscard]] double fallen_measure() const { return built.fallen_measure(); }
   /// How much of that hangs on limits and rates; where rock has come off in motion, or nearly.
   [[nodiscard]] std::optional<RockfallRange> rockfall() const { return built.rockfall_range(); }
-  /// At the end [m].
+  /// At the end [m]; in 3-D of the whole length.
   [[nodiscard]] const Convergence& convergence() const { return built.stages.back().convergence; }
 };
+using RunResult = RunResultIn<Planar>;
+using SpatialRunResult = RunResultIn<Spatial>;
 
 /// What is being done and how far it is, see `StageProgress`; rock and diagrams too.
 using Report = StageProgress;
 
 /// Rock, and what its maker must be told about it.
-struct GeneratedRock {
-  RockMass<Planar> mass;
+template <class Geometry>
+struct GeneratedRockIn {
+  RockMass<Geometry> mass;
   std::vector<JointSource> joints;
   std::vector<std::string> warnings;
   std::string joints_read;  ///< how the file of traces was read, in words; empty: there is none
+  std::vector<std::string> in_section = {};  ///< how sets by azimuth show there, a line each
 };
+using GeneratedRock = GeneratedRockIn<Planar>;
 
 /// Slices the rock of an input: random sets and mapped traces, together.
 /// @throws InvalidInput  the file of traces cannot be read or used, it makes too many blocks, or no
 ///                       joint of those asked for, or of one source of them, cuts the rock
 /// @throws Stopped       `progress` said so
 [[nodiscard]] GeneratedRock rock_of(const Input& input, const Progress& progress = {});
+/// The same in 3-D, of the sets alone.
+[[nodiscard]] GeneratedRockIn<Spatial> spatial_rock_of(const Input& input,
+                                                       const Progress& progress = {});
 
 /// @throws InvalidInput, NumericalFault  the latter names the values of the input that are unusual
 /// @throws Stopped       `report` said so while rock was made
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
+/// @pre the input is one in 3-D
+[[nodiscard]] SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report);
 
-/// The rock of an input under its in-situ stress, excavated, nothing moved: the start of every
-/// tunnel that differs in its supports only.
+/// Of the middle third of a tunnel that has been driven, 3-D [m].
+[[nodiscard]] Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel,
+                                             const SimplePolygon& section);
+
+/// The rock of an input under its in-situ stress, nothing moved: the start of every tunnel that
+/// differs in its supports only. A section that is taken out at once is out.
 struct ExcavatedRock {
-  Tunnel tunnel;
+  std::variant<Tunnel, SpatialTunnel> tunnel;
   std::vector<JointSource> joints;
   SimplePolygon opening;
   ChosenBoundary boundary;
-  double in_situ_unbalance;           ///< of the worst block over its weight [-]
-  std::vector<std::string> warnings;  ///< about the rock
-  std::string joints_read = {};       ///< how the file of traces was read, in words
+  double in_situ_unbalance;                  ///< of the worst block over its weight [-]
+  std::vector<std::string> warnings;         ///< about the rock
+  std::string joints_read = {};              ///< how the file of traces was read, in words
+  std::vector<std::string> in_section = {};  ///< how sets by azimuth show there, a line each
 };
 
 /// @param wants_bias  see `bounded_tunnel`
-/// @throws as `rock_of`
+/// @throws as `rock_of`, `spatial_rock_of`
 [[nodiscard]] ExcavatedRock excavated_rock(const Input& input, bool wants_bias,
                                            const Report& report);
 
-/// The supports of one tunnel among many in the same rock.
-struct SupportChoice {
-  std::optional<BoltSpacing> spacing;  ///< none: no bolts
-  double thickness = 0;                ///< of the lining [m]; 0: no lining
-};
 /// Those of the file itself.
 [[nodiscard]] SupportChoice supports_of(const Input& input);
 

@@ -11,7 +11,7 @@
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/csv_table.hpp>
 
-#include "report_json.hpp"
+#include "output_parts.hpp"
 
 namespace voussoir::program {
 

@@ -8,12 +8,12 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
-#include <voussoir/lining/lining_model.hpp>
-#include <voussoir/lining/node_spacing.hpp>
 
 #include "blocks_input.hpp"
+#include "input_checks.hpp"
 #include "input_document.hpp"
 #include "input_section.hpp"
+#include "joint_sets.hpp"
 #include "orientation_input.hpp"
 #include "plausibility.hpp"
 
@@ -41,12 +41,21 @@ constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // o
 constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
 constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
 constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};  // along the tunnel [m]
-constexpr Range thickness_range{.low = 1e-3, .high = 10};      // of a lining [m]
 constexpr Range ground_range{.low = 1e3, .high = 1e13};        // modulus of ground [Pa]
 
 // ---- The keys: name, where it goes, dimension, range, needed or not. Defaults are in input.hpp.
 
-void read_model(Section& s, ModelInput& model) {
+/// Takes note of a key that is there, and has a meaning in the other dimension only.
+void note_unused(Input& input, const Section& s, std::string_view key) {
+  if (s.has(key)) input.unused.push_back(s.full(key));
+}
+
+void read_model(Section& s, Input& input) {
+  ModelInput& model = input.model;
+  s.integer("dimension", model.dimension, 2, 3);
+  s.quantity("length", model.length, dimension::length, above(0),
+             input.is_spatial() ? Need::required : Need::optional);
+  if (!input.is_spatial()) note_unused(input, s, "length");
   s.quantity("width", model.width, dimension::length, above(0), Need::required);
   s.quantity("below_invert", model.below_invert, dimension::length, above(0), Need::required);
   s.integer("seed", model.seed, 0, std::numeric_limits<std::int64_t>::max());
@@ -155,7 +164,8 @@ void read_vertices(Section& s, std::vector<Point>& vertices) {
   if (signed_area(vertices) < 0) std::reverse(vertices.begin(), vertices.end());
 }
 
-void read_tunnel(Section& s, TunnelInput& tunnel) {
+void read_tunnel(Section& s, Input& input) {
+  TunnelInput& tunnel = input.tunnel;
   const bool known = s.choice<TunnelShape>("shape", tunnel.shape,
                                            {{"circle", TunnelShape::circle},
                                             {"horseshoe", TunnelShape::horseshoe},
@@ -176,33 +186,55 @@ void read_tunnel(Section& s, TunnelInput& tunnel) {
   of_shape(TunnelShape::polygon, "polygon", [&] { read_vertices(s, tunnel.vertices); });
   s.quantity("cover", tunnel.cover, dimension::length, above(0), Need::required);
   s.integer("facets", tunnel.facets, 12, 720);
+  s.quantity("trend", tunnel.trend, dimension::angle, between(0, degrees(360)));
+  s.quantity("round_length", tunnel.round_length, dimension::length, above(0));
+  s.only_with(s.has("round_length"), "round_length",
+              [&] { s.integer("rounds", tunnel.rounds, 1, 1000); });
+  if (input.is_spatial()) return;
+  for (const char* const key : {"round_length", "rounds"}) note_unused(input, s, key);
 }
 
 /// @param is_mapped  joints.file may give the joints of a set that has no random ones
-void read_joint_set(Section& s, JointSetInput& set, bool is_mapped) {
-  const bool is_random = s.has("intensity") || s.has("spacing");
+void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped) {
+  const int given = s.has("intensity") + s.has("spacing") + s.has("P32");
+  const bool is_random = given > 0;
   const Need need = is_mapped && !is_random ? Need::optional : Need::required;
   s.text("name", set.name);
   read_orientation(s, set, need);
-  // One of the two, so the one that is there decides which of them is needed.
-  const bool both = s.has("intensity") && s.has("spacing");
   s.quantity("intensity", set.intensity, dimension::intensity,
              {.low = 0, .high = 1e4, .low_included = false});
   s.quantity("spacing", set.spacing, dimension::length, above(0));
-  s.only_with(is_random || !is_mapped, "intensity or spacing", [&] {
+  s.quantity("P32", set.p32, dimension::area_per_volume,
+             {.low = 0, .high = 1e4, .low_included = false});
+  s.only_with(is_random || !is_mapped, "intensity, spacing or P32", [&] {
     s.quantity("sd", set.sd, dimension::angle, between(0, degrees(45)), Need::optional);
+    if (const auto value = s.find("K", Need::optional))
+      set.fisher = value->as_number({.low = 5, .high = 1e6});
     s.quantity("extent", set.extent, dimension::length, above(0), Need::optional,
                Infinity::allowed);
+    s.quantity("strike_extent", set.strike_extent, dimension::length, above(0));
   });
+  if (!input.is_spatial()) note_unused(input, s, "strike_extent");
+  if (s.has("sd") && s.has("K"))
+    s.complain("K", "is given besides sd", "one of the two; K = 1 / sd^2, sd in radians");
+  if (set.strike_extent && !set.is_azimuth && !input.tunnel.trend)
+    s.complain("strike_extent",
+               "is of a set of the section, whose joints go on along the tunnel without end",
+               "no strike_extent, or a dip_direction by azimuth and tunnel.trend");
+  else if (set.strike_extent && std::isinf(set.extent) && !s.faulty("extent"))
+    s.complain("strike_extent", "is of joints that have no extent down the dip",
+               R"(extent = "2 m" besides it)");
   s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, per_area_range);
   s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, per_area_range);
   s.quantity("friction", set.friction_angle, dimension::angle, angle_below_90());
-  if (both) {
-    s.complain("spacing", "is given besides intensity", "one of intensity and spacing");
+  if (given > 1) {
+    s.complain(s.has("spacing") ? "spacing" : "P32",
+               std::string("is given besides ") + (s.has("intensity") ? "intensity" : "P32"),
+               "one of intensity, spacing and P32");
   } else if (!is_random && !is_mapped) {
     s.complain(
-        "intensity", "is missing, and so is spacing",
-        R"(either intensity = "1 /m^2" or spacing = "1.2 m"; or joints.file, with mapped joints of this set)");
+        "intensity", "is missing, and so are spacing and P32",
+        R"(one of intensity = "1 /m^2", spacing = "1.2 m" and P32 = "1.5 m^2/m^3"; or joints.file, with mapped joints of this set)");
   } else if (set.intensity && std::isinf(set.extent) && !s.faulty("extent")) {
     s.complain(
         "intensity",
@@ -349,7 +381,8 @@ void read_bolts(Section& s, BoltsInput& bolts) {
   }
 }
 
-void read_lining(Section& s, LiningInput& lining) {
+void read_lining(Section& s, Input& input) {
+  LiningInput& lining = input.lining.emplace();
   s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
@@ -382,6 +415,8 @@ void read_lining(Section& s, LiningInput& lining) {
   s.integer("nodes", lining.nodes, 8, 2000);
   s.quantity("fill_depth", lining.fill_depth, dimension::length, {.low = 0, .high = 10},
              Need::optional);
+  s.quantity("rib_spacing", lining.rib_spacing, dimension::length, rib_spacing_range);
+  if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
@@ -405,10 +440,40 @@ void read_lining(Section& s, LiningInput& lining) {
                "a key arc, or no table feet");
 }
 
-void read_stage(Section& s, StageInput& stage) {
+/// What a round excavates: all of the section, or what lies between the limits given.
+void read_part(Section& s, StageInput& round) {
+  bool excavates = true;
+  const bool known = s.choice<bool>("excavate", excavates, {{"section", true}, {"nothing", false}},
+                                    Need::optional);
+  SectionPart part;
+  const auto limits = [&] {
+    s.quantity("above", part.bottom, dimension::length, Range{}, Need::optional);
+    s.quantity("below", part.top, dimension::length, Range{}, Need::optional);
+    s.quantity("right_of", part.left, dimension::length, Range{}, Need::optional);
+    s.quantity("left_of", part.right, dimension::length, Range{}, Need::optional);
+  };
+  if (!known) return s.unread(limits);
+  s.only_with(excavates, R"(excavate = "section")", limits);
+  if (!excavates) return;
+  if (!(part.bottom < part.top) && !s.faulty("above") && !s.faulty("below"))
+    s.complain("above", "leaves nothing: it is not lower than below", "an elevation under below");
+  if (!(part.left < part.right) && !s.faulty("right_of") && !s.faulty("left_of"))
+    s.complain("right_of", "leaves nothing: it is not left of left_of", "a place left of left_of");
+  round.part = part;
+}
+
+/// @param is_round  in a table [[round]], which says what it excavates
+void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
   s.text("name", stage.name);
   s.quantity("wall_traction", stage.wall_traction, dimension::number, between(0, 1),
-             Need::required);
+             is_round ? Need::optional : Need::required);
+  if (is_round) {
+    read_part(s, stage);
+    s.only_with(input.tunnel.round_length.has_value(), "tunnel.round_length",
+                [&] { s.integer("behind", stage.behind, 0, 1000); });
+    if (!input.is_spatial()) note_unused(input, s, "behind");
+    if (input.is_spatial() && input.tunnel.round_length) note_unused(input, s, "wall_traction");
+  }
   const auto value = s.find("install", Need::optional);
   if (!value) return;
   const auto items = value->as_list(0, 2, R"(a list of "bolts", "lining")");
@@ -523,8 +588,8 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     read_laid_blocks(file, input, directory);
     return file.finish();
   }
-  file.table("model", [&](Section& s) { read_model(s, input.model); });
-  file.table("tunnel", [&](Section& s) { read_tunnel(s, input.tunnel); });
+  file.table("model", [&](Section& s) { read_model(s, input); });
+  file.table("tunnel", [&](Section& s) { read_tunnel(s, input); });
   rock();
   file.table("stress", [&](Section& s) {
     s.number("K0", input.stress.K0, between(0, 10), Need::required);
@@ -535,235 +600,35 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.tables("joint_set", [&](Section& s, std::size_t i) {
     JointSetInput& set = input.joint_sets.emplace_back();
     set.name = "set " + std::to_string(i + 1);
-    read_joint_set(s, set, file.has("joints"));
+    read_joint_set(s, input, set, file.has("joints"));
   });
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
+    if (input.joint_sets[k].is_azimuth && input.joint_sets[k].is_random() && !input.tunnel.trend)
+      file.complain("joint_set[" + std::to_string(k) + "].dip_direction",
+                    "is an azimuth, and the file does not say where the tunnel goes",
+                    R"(tunnel.trend = "0 deg", clockwise from North, looking along the tunnel)");
   file.optional_table("joints", [&](Section& s) { read_mapped(s, input, directory); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
     support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
-    support.optional_table("lining", [&](Section& s) { read_lining(s, input.lining.emplace()); });
+    support.optional_table("lining", [&](Section& s) { read_lining(s, input); });
   });
-  file.tables("stage", [&](Section& s, std::size_t i) {
-    StageInput& stage = input.stages.emplace_back();
-    stage.name = "stage " + std::to_string(i + 1);
-    read_stage(s, stage);
-  });
+  input.has_rounds = file.has("round");
+  for (const char* const table : {"stage", "round"})
+    file.tables(table, [&](Section& s, std::size_t i) {
+      const bool is_round = table == std::string_view("round");
+      if (!is_round && input.has_rounds && i == 0)
+        file.complain(
+            "stage", "is given besides round, and nothing says which comes first",
+            R"([[round]] alone; a stage without excavation is one with excavate = "nothing")");
+      StageInput& stage = input.stages.emplace_back();
+      stage.name = std::string(table).append(" ").append(std::to_string(i + 1));
+      read_stage(s, input, stage, is_round);
+      if (!is_round && i == 0) stage.part = SectionPart{};
+    });
   refuse_loads_on_blocks(file);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
   file.finish();
-}
-
-// ---- What two or more keys must agree on. Each looks only at keys that were read without fault.
-
-void check_opening(Checker& checker, const Input& input) {
-  if (checker.faulty("tunnel")) return;
-  const double half_width = input.tunnel.half_width();
-  const std::string below =
-      "below " + format_quantity(half_width, dimension::length) + ", half the width of the opening";
-  const char* const keys[] = {"diameter", "width", "vertices"};
-  const std::string opening = std::string(" (tunnel.") +
-                              keys[static_cast<int>(input.tunnel.shape)] + ": " +
-                              format_quantity(2 * half_width, dimension::length) + " wide)";
-  if (!checker.faulty("model")) {
-    double reach = half_width;  // of the opening to a side; a polygon may sit off its centre
-    for (const Point& vertex : input.tunnel.vertices) reach = std::max(reach, std::abs(vertex[0]));
-    if (!(reach < input.model.width / 2)) {
-      checker.report("model.width", "leaves no ground beside the opening" + opening,
-                     "above " + format_quantity(2 * reach, dimension::length));
-    }
-  }
-  if (!checker.faulty("blocks") && !(input.blocks.min_inscribed_radius < half_width))
-    checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening" + opening,
-                   below);
-  if (input.lining && !checker.faulty("support.lining.thickness") &&
-      !(input.lining->thickness < half_width))
-    checker.report("support.lining.thickness", "fills the opening" + opening, below);
-  if (input.diagram && !checker.faulty("diagram.thickness") &&
-      !(input.diagram->thickness.back() < half_width))
-    checker.report("diagram.thickness", "fills the opening" + opening, below);
-}
-
-void check_snap(Checker& checker, const Input& input) {
-  if (!input.mapped.snap || checker.faulty("joints") || checker.faulty("blocks")) return;
-  if (*input.mapped.snap > input.blocks.min_inscribed_radius)
-    checker.report("joints.snap", "closes more than the smallest block is wide",
-                   "at most " +
-                       format_quantity(input.blocks.min_inscribed_radius, dimension::length) +
-                       ", blocks.min_inscribed_radius");
-}
-
-std::string counted(double count) {
-  return count < 1e15 ? std::to_string(std::llround(count)) : std::string("1e15 or more");
-}
-
-/// The arc of a word, and whether feet can stand where it ends.
-void check_arc(Checker& checker, Input& input) {
-  if (!input.lining || checker.faulty("tunnel") || checker.faulty("support.lining")) return;
-  LiningInput& lining = *input.lining;
-  const std::string key = "support.lining.arc";
-  try {
-    const SimplePolygon opening = opening_of(input);
-    LiningRing ring{.nodes = lining.nodes.value_or(std::max(input.tunnel.facets, 8))};
-    if (lining.part && *lining.part != LinedPart::all) {
-      ring = lined_part(opening, *lining.part, ring);
-      lining.arc = ArcInput{ring.from, ring.to};
-    }
-    if (!lining.arc || !lining.feet) return;
-    ring.from = lining.arc->from;
-    ring.to = lining.arc->to;
-    for (const auto& end : detail::ring_nodes(opening, ring).ends) {
-      if (end.refusal.empty()) continue;
-      const std::string begin = "lining: ", mark = "; accepted: ";
-      const std::size_t at = end.refusal.find(mark);
-      std::string why = end.refusal.substr(begin.size(), at - begin.size());
-      if (input.tunnel.shape == TunnelShape::horseshoe)
-        why += " (tunnel.wall_height = " +
-               format_quantity(input.tunnel.wall_height, dimension::length) + ")";
-      checker.report(key, "is too long for feet: " + why,
-                     end.refusal.substr(at + mark.size()) + R"(; "roof and walls" ends there)");
-      return;
-    }
-  } catch (const InvalidInput& fault) {
-    checker.report(key, std::string("does not fit the tunnel: ") + fault.what(),
-                   R"(two angles, "roof", "roof and walls" or "all")");
-  }
-}
-
-/// Nodes are close enough together for a bond, see `node_spacing.hpp`.
-void check_bond(Checker& checker, const Input& input) {
-  if (!input.lining || !(input.lining->tensile_bond > 0)) return;
-  for (const char* key : {"support.lining", "tunnel", "diagram"})
-    if (checker.faulty(key)) return;
-  const LiningInput& lining = *input.lining;
-  double thinnest = lining.thickness;
-  if (input.diagram)
-    for (const double thickness : input.diagram->thickness)
-      if (thickness > 0) thinnest = std::min(thinnest, thickness);
-  const double length =
-      bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
-                     lining.interface_normal_stiffness);
-  const double perimeter = opening_of(input).perimeter();
-  const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
-               chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
-  const auto metres = [](double value) { return format_quantity(value, dimension::length); };
-  const std::string why = "the bond of a lining " + metres(thinnest) +
-                          " thick acts over L = (4 E I / kn)^(1/4) = " + metres(length);
-  const std::string others = "a softer interface, or no tensile_bond";
-  const std::string enough = counted(least) + " to 2000, no farther apart than " +
-                             shortest_text(coarsest_bonded_spacing) + " L";
-  if (lining.nodes ? *lining.nodes >= least : chosen <= 2000) return;
-  const std::string accepted = least > 2000 ? "a thicker lining, " + others : enough;
-  if (lining.nodes)
-    checker.report("support.lining.nodes",
-                   "puts nodes " + metres(perimeter / *lining.nodes) +
-                       " apart, too far to see the bond fail at the edge of a block: " + why,
-                   accepted + (chosen <= 2000 ? ", or no key nodes to have it chosen"
-                               : least > 2000 ? ""
-                                              : ", or " + others));
-  else
-    checker.report(
-        "support.lining",
-        "has no key nodes, and " + counted(chosen) + " would be chosen, more than 2000: " + why,
-        least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
-}
-
-void check_boundary(Checker& checker, const Input& input) {
-  if (checker.faulty("boundary")) return;
-  const BoundaryInput& boundary = input.boundary;
-  if (boundary.sides.has_value() != boundary.base.has_value()) {
-    const bool has_sides = boundary.sides.has_value();
-    checker.report(has_sides ? "boundary.sides" : "boundary.base",
-                   std::string("is given, and ") +
-                       (has_sides ? "boundary.base" : "boundary.sides") + " is left to be chosen",
-                   "both, or neither");
-  } else if (boundary.sides == Boundary::stress && boundary.base == Boundary::rollers) {
-    checker.report("boundary.base", "leaves the rock free to slide between sides under stress",
-                   R"("elastic", or other sides)");
-  }
-  if (boundary.ground_above && input.stress.surcharge == 0 && !checker.faulty("stress"))
-    checker.report("boundary.top",
-                   "says that ground goes on above the domain, and stress.surcharge that it weighs "
-                   "nothing",
-                   R"(stress.surcharge = its weight, or "surface")");
-}
-
-void check_size(Checker& checker, const Input& input) {
-  for (const char* key : {"model", "tunnel", "joint_set", "blocks"})
-    if (checker.faulty(key)) return;
-  const SizeEstimate size = estimate_size(input);
-  const bool has_many_joints = size.joints > largest_count;
-  if (!has_many_joints && !(size.blocks > largest_count)) return;
-  const std::string blamed = unusual_among(input, {"model.", "tunnel.", "joint_set", "blocks."});
-  if (has_many_joints)
-    checker.report("joint_set", "would come to about " + counted(size.joints) + " joints" + blamed,
-                   "at most 1000000 in the domain: a smaller domain, or fewer joints");
-  else
-    checker.report("joint_set", "would come to about " + counted(size.blocks) + " blocks" + blamed,
-                   "at most 1000000 in the domain: a smaller domain, fewer joints, or a larger "
-                   "blocks.min_inscribed_radius");
-}
-
-void check_bolts(Checker& checker, const BoltsInput& bolts) {
-  if (checker.faulty("support.bolts")) return;
-  const auto below = [&](const std::string& key, double value, const char* limit_key,
-                         const std::optional<double>& limit) {
-    if (!limit || value < *limit) return;
-    checker.report("support.bolts." + key, std::string("is not below ") + limit_key,
-                   "below " + format_quantity(*limit, dimension::force));
-  };
-  below("pretension", bolts.pretension, "yield_force", bolts.yield_force);
-  below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
-  if (bolts.yield_force)
-    below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
-}
-
-void check_stages(Checker& checker, Input& input) {
-  if (input.stages.empty()) {
-    if (checker.faulty("stage")) return;  // meant to have some
-    input.stages.push_back({.name = "excavation and support",
-                            .install_bolts = input.bolts.has_value(),
-                            .install_lining = input.lining.has_value()});
-    return;
-  }
-  if (checker.faulty("stage")) return;
-  const auto key = [](std::size_t i) { return "stage[" + std::to_string(i) + "]"; };
-  for (std::size_t i = 1; i < input.stages.size(); ++i) {
-    if (input.stages[i].wall_traction > input.stages[i - 1].wall_traction)
-      checker.report(
-          key(i) + ".wall_traction", "is above that of the stage before",
-          "at most " + format_quantity(input.stages[i - 1].wall_traction, dimension::number));
-  }
-  if (input.stages.back().wall_traction > 0)
-    checker.report(key(input.stages.size() - 1) + ".wall_traction",
-                   "leaves traction on the wall at the end", R"("0 %" in the last stage)");
-
-  const auto check_support = [&](const std::string& word, bool StageInput::*install, bool exists) {
-    bool installed = false;
-    for (std::size_t i = 0; i < input.stages.size(); ++i) {
-      if (!(input.stages[i].*install)) continue;
-      const std::string place = key(i) + ".install";
-      if (!exists && !checker.faulty("support"))
-        checker.report(place, "names " + word + ", which the file does not describe",
-                       "a table [support." + word + "]");
-      if (installed) checker.report(place, "names " + word + " again", "each support once");
-      installed = true;
-    }
-    if (exists && !installed)
-      checker.report("support." + word, "is in no stage",
-                     "install = [\"" + word + "\"] in one [[stage]]");
-  };
-  check_support("bolts", &StageInput::install_bolts, input.bolts.has_value());
-  check_support("lining", &StageInput::install_lining, input.lining.has_value());
-}
-
-void check_diagram(Checker& checker, const Input& input) {
-  if (!input.diagram || checker.faulty("diagram")) return;
-  if (!input.bolts && input.diagram->spacing.front() && !checker.faulty("support"))
-    checker.report("diagram.spacing", "varies bolts, which the file does not describe",
-                   "a table [support.bolts]");
-  if (!input.lining && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
-    checker.report("diagram.thickness", "varies a lining, which the file does not describe",
-                   "a table [support.lining]");
 }
 
 }  // namespace
@@ -795,10 +660,64 @@ bool names_a_file(std::string_view line) {
   return line.starts_with("joints.file = ") || line.starts_with("blocks.file = ");
 }
 
+int Input::round_count() const {
+  if (!tunnel.round_length) return 1;
+  return tunnel.rounds.value_or(
+      std::max(1, static_cast<int>(std::floor(model.length / *tunnel.round_length * (1 + 1e-9)))));
+}
+
+std::string Input::unused_text() const {
+  if (unused.empty()) return "";
+  std::string text = is_spatial() ? "not used in 3-D, where the rock ahead of the face is there: "
+                                  : "not used in a section (model.dimension = 2): ";
+  for (const std::string& key : unused) text += (&key == &unused.front() ? "" : ", ") + key;
+  return text;
+}
+
 double Input::domain_top() const { return tunnel.crown() + tunnel.cover; }
 double Input::domain_bottom() const { return tunnel.invert() - model.below_invert; }
 
+namespace {
+
+/// In 3-D every crossing of three joints splits a block.
+SizeEstimate estimate_spatial_size(const Input& input) {
+  const double height = input.domain_top() - input.domain_bottom();
+  const double volume = input.model.width * height * input.model.length;
+  const double across = std::cbrt(volume);
+  struct Set {
+    double p32, area;  // 1/m; of a joint inside the domain, m^2
+    Vec3 normal;
+  };
+  std::vector<Set> sets;
+  for (const JointSetInput& set : input.joint_sets) {
+    const double extent = std::min(mean_extent(set), across);
+    sets.push_back({p32_of(set, input.tunnel.trend.value_or(0)),
+                    extent * std::min(set.strike_extent.value_or(extent), across),
+                    upward_normal(set.plane)});
+  }
+  SizeEstimate size{0, 1};
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const double joints = sets[i].p32 * volume / sets[i].area;
+    size.joints += joints;
+    size.blocks += joints;
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k)
+        size.blocks += sets[i].p32 * sets[j].p32 * sets[k].p32 * volume *
+                       std::abs(sets[i].normal.dot(cross(sets[j].normal, sets[k].normal)));
+  }
+  // Of cubes there would be 0.125 per cube of the inscribed radius.
+  const double radius = input.blocks.min_inscribed_radius;
+  size.blocks = std::min(size.blocks, 0.1 * volume / (radius * radius * radius));
+  return size;
+}
+
+}  // namespace
+
 SizeEstimate estimate_size(const Input& input) {
+  const bool is_prismatic =
+      std::all_of(input.joint_sets.begin(), input.joint_sets.end(),
+                  [&](const JointSetInput& set) { return is_of_section(input, set); });
+  if (input.is_spatial() && !is_prismatic) return estimate_spatial_size(input);
   const double height = input.domain_top() - input.domain_bottom();
   const double area = input.model.width * height;
   struct Set {
@@ -806,10 +725,13 @@ SizeEstimate estimate_size(const Input& input) {
   };
   std::vector<Set> sets;
   for (const JointSetInput& set : input.joint_sets) {
-    const double extent = std::min(set.extent, std::max(input.model.width, height));
-    const double frequency = set.spacing ? 1 / *set.spacing : set.intensity.value_or(0) * extent;
-    const double angle = set.dip_direction == DipDirection::east ? -set.dip : set.dip;
-    sets.push_back({set.intensity.value_or(frequency / extent), frequency, angle});
+    const auto shown = section_set(set, input.tunnel.trend.value_or(0));
+    if (!shown) continue;
+    const double extent = std::min(shown->extent, std::max(input.model.width, height));
+    const double frequency = shown->spacing > 0 ? 1 / shown->spacing : shown->intensity * extent;
+    const double angle = shown->dip_direction == DipDirection::east ? -shown->dip : shown->dip;
+    sets.push_back(
+        {shown->intensity > 0 ? shown->intensity : frequency / extent, frequency, angle});
   }
   SizeEstimate size{0, 1};
   // Every trace splits a block, and so does every crossing of two traces.
@@ -840,15 +762,7 @@ Input read_input_text(std::string_view text, const std::string& name,
     input.content = canonical_lines(document);
     return input;
   }
-  check_opening(checker, input);
-  check_snap(checker, input);
-  check_arc(checker, input);
-  check_bond(checker, input);
-  check_boundary(checker, input);
-  check_size(checker, input);
-  if (input.bolts) check_bolts(checker, *input.bolts);
-  check_stages(checker, input);
-  check_diagram(checker, input);
+  check_together(checker, input);
   checker.finish();
   input.content = canonical_lines(document);
   return input;

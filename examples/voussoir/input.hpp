@@ -16,22 +16,25 @@
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
+#include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/theory/foot_beam.hpp>
 #include <voussoir/tunnel/lined_part.hpp>
 #include <voussoir/tunnel/ring_nodes.hpp>
+#include <voussoir/tunnel/section_part.hpp>
 
 /// The input file of the program: what is in it, and how to read it.
 ///
-/// SI and radians throughout. Axes: x right (East), y up, both from the tunnel centre; angles
-/// anticlockwise from the right-hand springing. A member without a remark on its default must be
-/// given in the file. The keys of the file are declared in input.cpp, one line each.
+/// SI and radians throughout. Axes of the section: x right, y up, both from the tunnel centre,
+/// looking along the tunnel; angles anticlockwise from the right-hand springing. In 3-D the tunnel
+/// runs along the second axis, from the face of the domain where it begins. A member without a
+/// remark on its default must be given in the file. The keys of the file are declared in input.cpp,
+/// one line each.
 namespace voussoir::program {
 
 /// x, y [m]
 using Point = std::array<double, 2>;
 
 enum class TunnelShape { circle, horseshoe, polygon };
-enum class DipDirection { east, west };
 enum class BoltAnchors { lorig, garga_wang, joint_face };
 enum class BoltLaw { axial, axial_shear };
 enum class LiningBeam { euler_bernoulli, timoshenko };
@@ -39,6 +42,8 @@ enum class RunMethod { two_level, relaxation, explicit_ };
 
 /// [model] The block of ground that is modelled.
 struct ModelInput {
+  int dimension = 2;          ///< 2: a section in plane strain; 3
+  double length = 0;          ///< 3-D: along the tunnel [m], > 0
   double width = 0;           ///< of the whole domain, the tunnel in its middle [m], > 0
   double below_invert = 0;    ///< ground under the invert [m], > 0
   std::uint64_t seed = 1;     ///< of the random joints
@@ -56,6 +61,13 @@ struct TunnelInput {
   std::vector<Point> vertices;  ///< polygon: simple, anticlockwise whatever the file's order
   double cover = 0;             ///< crown to ground surface [m], > 0
   int facets = 72;              ///< chords on a full circle, for the curved parts, 12 to 720
+  /// Of its axis, clockwise from North [rad], 0 to 2 pi; none: to the North, and only "E" and "W"
+  /// say where joints dip.
+  std::optional<double> trend;
+  /// 3-D: it is driven in rounds of this length [m], > 0; none: its whole length at once.
+  std::optional<double> round_length;
+  /// 3-D: rounds driven, 1 to 1000; none: as many as the domain has room for.
+  std::optional<int> rounds;
 
   [[nodiscard]] double half_width() const;  ///< half the breadth of the opening [m]
   [[nodiscard]] double crown() const;       ///< y of the highest point [m]
@@ -83,20 +95,25 @@ struct BoundaryInput {
   double poisson_ratio = 0;  ///< nu, with E [-], -1 < . < 0.5
 };
 
-/// [[joint_set]] One family of joints: random ones, of which exactly one of intensity and spacing
-/// is given; or, with neither, those that joints.file has of it.
+/// [[joint_set]] One family of joints: random ones, of which exactly one of intensity, spacing and
+/// P32 is given; or, with none, those that joints.file has of it.
 struct JointSetInput {
-  std::string name;  ///< default "set 1", "set 2", ...
-  double dip = 0;    ///< from the horizontal [rad], 0 to pi/2; of random joints
-  DipDirection dip_direction = DipDirection::east;
+  std::string name;                 ///< default "set 1", "set 2", ...
+  Orientation plane{};              ///< as a compass reads it; of random joints
+  bool is_azimuth = false;          ///< dip_direction is neither "E" nor "W"
   double sd = 0;                    ///< standard deviation of the dip [rad], 0 to pi/4
-  std::optional<double> intensity;  ///< joint centres per area [1/m^2], > 0, <= 1e4
+  std::optional<double> fisher;     ///< K, in place of sd [-], 5 to 1e6
+  std::optional<double> intensity;  ///< trace centres per area of the section [1/m^2], > 0, <= 1e4
   std::optional<double> spacing;    ///< mean, across the joints [m], > 0
+  std::optional<double> p32;        ///< area of joints per volume [1/m], > 0, <= 1e4
   double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
+  /// 3-D: along the strike, of rectangles that reach as far as `extent` down the dip [m], > 0;
+  /// none: discs.
+  std::optional<double> strike_extent;
   /// Mechanics, where they differ from those of [joint]; ranges as there.
   std::optional<double> normal_stiffness, shear_stiffness, friction_angle;
 
-  [[nodiscard]] bool is_random() const { return intensity || spacing; }
+  [[nodiscard]] bool is_random() const { return intensity || spacing || p32; }
 };
 
 /// [joints] Mapped joints.
@@ -227,14 +244,21 @@ struct LiningInput {
   std::optional<int> nodes;
   /// How far behind the outline it fills the holes of dropped pieces [m], 0 to 10.
   double fill_depth = default_fill_depth;
-  std::optional<ArcInput> arc;    ///< none: the full ring
+  std::optional<ArcInput> arc;  ///< none: the full ring
+  /// 3-D: width of a strip along the tunnel [m], 0.01 to 1000; none: 1 m, or a shorter round.
+  std::optional<double> rib_spacing;
   std::optional<LinedPart> part;  ///< arc as a word, of which `arc` then has the angles
   std::optional<FeetInput> feet;  ///< of an arc alone
 };
 
-/// [[stage]] One step of the construction, in the order of the file.
+/// [[stage]] or [[round]] One step of the construction, in the order of the file.
 struct StageInput {
-  std::string name;             ///< default "stage 1", "stage 2", ...
+  std::string name;  ///< default "stage 1", "round 1", ...
+  /// What of the section is excavated at the start; none: nothing. Of stages the first excavates
+  /// all of it.
+  std::optional<SectionPart> part;
+  /// 3-D, with tunnel.round_length: so many rounds behind the face, 0 to 1000.
+  int behind = 0;
   double wall_traction = 0;     ///< left on the wall at the end / in-situ traction [-], 0 to 1
   bool install_bolts = false;   ///< at the start of the stage
   bool install_lining = false;  ///< at the start of the stage
@@ -276,13 +300,23 @@ struct Input {
   std::optional<BoltsInput> bolts;
   std::optional<LiningInput> lining;
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
+  bool has_rounds = false;         ///< stages are given as [[round]]
   RunInput run;
   std::optional<DiagramInput> diagram;
   /// Blocks in place of a tunnel: of the others model.gravity, rock, joint and run are then given.
   std::optional<LaidInput> laid;
+  /// Keys of the file that have a meaning in the other dimension alone.
+  std::vector<std::string> unused;
+  /// Names them, and says why; empty: there are none.
+  [[nodiscard]] std::string unused_text() const;
   /// Every key with its value, `stress.K0 = 1`, overrides included, sorted: for the run id.
   std::vector<std::string> content;
 
+  [[nodiscard]] bool is_spatial() const { return model.dimension == 3; }
+  /// 3-D: what is excavated at a time along the tunnel [m].
+  [[nodiscard]] double stretch() const { return tunnel.round_length.value_or(model.length); }
+  /// 3-D: how often, one behind the other.
+  [[nodiscard]] int round_count() const;
   [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
   [[nodiscard]] double domain_bottom() const;  ///< y of the lower boundary [m]
 };

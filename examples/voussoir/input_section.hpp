@@ -150,6 +150,9 @@ class Section {
     return node_ != nullptr && node_->find(key) != nullptr;
   }
 
+  /// The dotted path of a key.
+  [[nodiscard]] std::string full(std::string_view key) const;
+
   /// See `Checker::faulty`.
   [[nodiscard]] bool faulty(std::string_view key) const { return checker_.faulty(full(key)); }
 
@@ -200,7 +203,6 @@ class Section {
 
  private:
   enum class Mode { active, refused, unread };
-  [[nodiscard]] std::string full(std::string_view key) const;
   void in_mode(Mode mode, const std::string& condition, const std::function<void()>& declare);
 
   Checker& checker_;

@@ -16,6 +16,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <vector>
 #include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
@@ -94,14 +95,14 @@ int run_blocks_verb(const Options& options, const Input& input) {
   return status_of(run.last().verdict, !run.last().fallen.empty());
 }
 
-int run_verb(const Options& options) {
-  work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
-  if (input.laid) return run_blocks_verb(options, input);
+/// A tunnel in 2-D or 3-D.
+/// @param compute  the run, by what is told of its progress
+template <class Compute>
+int run_tunnel_verb(const Options& options, const Input& input, Compute&& compute) {
   RunFolder outputs(options.folder);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
-  const RunResult run = run_tunnel(input, [&](const std::string& what, double fraction) {
+  const auto run = compute([&](const std::string& what, double fraction) {
     now_doing(what, "computing the stage " + what);
     return line.show(what, fraction);
   });
@@ -109,13 +110,31 @@ int run_verb(const Options& options) {
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
   const std::string id = RunId("tunnel").add(input).text();
+  std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
   outputs.add("run.json", run_json(input, run), id);
   outputs.add("bolts.csv", bolts_csv(input, run), id);
   outputs.add("lining.csv", lining_csv(run), id);
   outputs.add("blocks.svg", blocks_svg(input, run), id);
+  if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
+    outputs.add("blocks.vtu", blocks_vtu(run), id);
+    names += ", blocks.vtu";
+  }
   if (!options.quiet) std::cout << run_summary(input, run);
-  publish(outputs, options, "run.json, bolts.csv, lining.csv, blocks.svg");
+  publish(outputs, options, names);
   return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
+}
+
+int run_verb(const Options& options) {
+  work = {"reading " + options.file, "a smaller input file"};
+  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
+  if (input.laid) return run_blocks_verb(options, input);
+  if (input.is_spatial())
+    return run_tunnel_verb(options, input, [&](const voussoir::program::Report& report) {
+      return run_spatial_tunnel(input, report);
+    });
+  return run_tunnel_verb(options, input, [&](const voussoir::program::Report& report) {
+    return run_tunnel(input, report);
+  });
 }
 
 /// Which cases, and how many rock masses of each.

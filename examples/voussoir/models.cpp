@@ -43,6 +43,14 @@ LiningSection section_of(const LiningInput& lining, double thickness) {
   return section;
 }
 
+LiningSection strip_of(const LiningInput& lining, double thickness, double width) {
+  LiningSection section =
+      LiningSection::strip(thickness, width, lining.young_modulus, lining.poisson_ratio);
+  if (lining.beam == LiningBeam::euler_bernoulli)
+    section.shear_stiffness = std::numeric_limits<double>::infinity();
+  return section;
+}
+
 ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought range) {
   const RunInput& run = input.run;
   const MotionTuning motion{.threads = linear.threads, .range = range};
@@ -76,8 +84,8 @@ ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought ra
 }
 
 std::string composition_of(const Input& input) {
-  std::string text =
-      std::string(Planar::name) + ", " + CutContacts::name + ", " + CoulombJoint::name;
+  std::string text = std::string(input.is_spatial() ? Spatial::name : Planar::name) + ", " +
+                     CutContacts::name + ", " + CoulombJoint::name;
   if (input.bolts) {
     switch (input.bolts->anchors) {
       case BoltAnchors::lorig:

@@ -50,8 +50,11 @@ class ChosenMethod {
   std::variant<TwoLevel, Relaxation, Explicit> method_;
 };
 
-using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
-                      AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
+template <class Geometry>
+using TunnelIn = Solver<Geometry, CoulombJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
+                        AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
+using Tunnel = TunnelIn<Planar>;
+using SpatialTunnel = TunnelIn<Spatial>;
 
 [[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
 [[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
@@ -62,10 +65,16 @@ using Tunnel = Solver<Planar, CoulombJoint, RockOnLining<MohrCoulombJoint>, Chos
 /// choice; as many threads as make a factor follow a stage in which rock fails
 [[nodiscard]] ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought range);
 
+/// 3-D: of a strip of the lining.
+/// @param width  along the tunnel; of those that run along it, around the section [m]
+[[nodiscard]] LiningSection strip_of(const LiningInput& lining, double thickness, double width);
+
 /// What the file has chosen, by the names of the models.
 [[nodiscard]] std::string composition_of(const Input& input);
 
 }  // namespace voussoir::program
 
-/// Compiled once, in models.cpp, for every file of the program and of the paper's analyses.
+/// Compiled once, in models.cpp and spatial_models.cpp, for every file of the program and of the
+/// paper's analyses.
 extern template class voussoir::ComposedSolver<voussoir::program::Tunnel::Parts::Models>;
+extern template class voussoir::ComposedSolver<voussoir::program::SpatialTunnel::Parts::Models>;

@@ -19,6 +19,22 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+constexpr std::array<std::pair<const char*, double>, 8> compass{{{"N", 0},
+                                                                 {"NE", 45},
+                                                                 {"E", 90},
+                                                                 {"SE", 135},
+                                                                 {"S", 180},
+                                                                 {"SW", 225},
+                                                                 {"W", 270},
+                                                                 {"NW", 315}}};
+
+/// As a value of the file.
+std::string quoted_degrees(double angle) {
+  std::string text = "\"";
+  text += significant_text(angle / degree, 4);
+  return text += " deg\"";
+}
+
 std::string degrees_text(double angle) { return significant_text(angle / degree, 4) + " deg"; }
 
 std::string lower(std::string text) {
@@ -40,29 +56,10 @@ std::optional<double> angle_of(const std::string& text) {
   }
 }
 
-/// What a plane with this azimuth of dip [rad] is in a section from west to east: "W", and its
-/// apparent dip where the true one is known.
-std::string in_section(double azimuth, std::optional<double> dip) {
-  const double east = elementary::sine(azimuth);
-  const std::string word = east > 0 ? "\"E\"" : "\"W\"";
-  if (std::abs(east) < 1e-3)
-    return "a plane that dips along the tunnel: in a section from west to east it is level, "
-           "\"0 deg\"";
-  std::string text = "in a section from west to east that is " + word;
-  if (std::abs(east) < 0.9999)
-    text += dip && *dip < 0.5 * std::numbers::pi
-                ? ", with the apparent dip " + degrees_text(elementary::angle_of(
-                                                   elementary::tangent(*dip) * std::abs(east), 1))
-                : ", with an apparent dip of tan = tan(dip) |sin(azimuth)|";
-  return text;
-}
-
-/// 0 to 360 degrees [rad].
+/// Of a point of the compass, or 0 to 360 degrees [rad].
 std::optional<double> azimuth_of(const std::string& text) {
-  constexpr std::array<std::pair<const char*, double>, 6> points{
-      {{"n", 0}, {"ne", 45}, {"se", 135}, {"s", 180}, {"sw", 225}, {"nw", 315}}};
-  for (const auto& [name, azimuth] : points)
-    if (lower(text) == name) return azimuth * degree;
+  for (const auto& [name, azimuth] : compass)
+    if (text == name) return azimuth * degree;
   const auto angle = angle_of(text);
   return angle && *angle >= 0 && *angle <= 360 * degree ? angle : std::nullopt;
 }
@@ -74,6 +71,8 @@ std::string meant_by(const std::string& text) {
     if (word == east) return "is \"E\"";
   for (const char* const west : {"w", "west", "ouest", "oeste", "ovest", "left"})
     if (word == west) return "is \"W\"";
+  for (const auto& [name, azimuth] : compass)
+    if (word == lower(name)) return std::string("is \"") + name + "\"";
   if (word == "o")
     return "reads two ways: west in French, Spanish and Italian (Ouest, Oeste, Ovest), east in "
            "German (Ost)";
@@ -88,15 +87,19 @@ std::optional<double> read_dip(const Value& value, const std::string& direction)
     const auto dip = angle_of(text.substr(0, slash));
     if (slash != std::string::npos && dip)
       if (const auto azimuth = azimuth_of(text.substr(slash + 1))) {
-        value.refuse("is dip and azimuth in one: " + in_section(*azimuth, dip),
-                     "dip = \"" + degrees_text(*dip) + "\" and dip_direction = \"E\" or \"W\"");
+        value.refuse("is dip and dip direction in one", "dip = \"" + degrees_text(*dip) +
+                                                            "\" and dip_direction = \"" +
+                                                            degrees_text(*azimuth) + "\"");
         return std::nullopt;
       }
-    const std::string other = direction == "W" ? "\"E\"" : direction == "E" ? "\"W\"" : "";
+    const auto towards = azimuth_of(direction);
+    std::string other = direction == "W" ? "\"E\"" : direction == "E" ? "\"W\"" : "";
+    if (other.empty() && towards)
+      other = quoted_degrees(std::fmod(*towards + 180 * degree, 360 * degree));
     const auto turned = [&](double angle) {
       value.refuse(
           "is the same plane as " + degrees_text(angle) + " to the other side",
-          "from 0 to 90 deg; here dip = \"" + degrees_text(angle) + "\"" +
+          "from 0 to 90 deg; here dip = " + quoted_degrees(angle) +
               (other.empty() ? ", and the other dip_direction" : ", dip_direction = " + other));
       return std::nullopt;
     };
@@ -114,25 +117,33 @@ std::optional<double> read_dip(const Value& value, const std::string& direction)
 void read_orientation(Section& s, JointSetInput& set, Need need) {
   const Range range{.low = 0, .high = 90 * degree};
   const auto dip = s.find("dip", need, quantity_form(dimension::angle, range, Infinity::refused));
-  const std::vector<std::string> words{"E", "W"};
-  const auto direction = s.find("dip_direction", need, words_form(words));
+  const std::string accepted =
+      R"(an azimuth, "135 deg", clockwise from North, with tunnel.trend; "N", "NE", "E", ...; without tunnel.trend "E", down to the right, or "W", down to the left)";
+  const auto direction = s.find("dip_direction", need, accepted);
   const auto true_dip =
       dip ? read_dip(*dip, direction ? direction->node().text : "") : std::optional<double>();
-  set.dip = true_dip.value_or(set.dip);
+  set.plane.dip = true_dip.value_or(set.plane.dip);
   if (!direction) return;
   const Node& node = direction->node();
-  const std::string accepted = R"("E", down to the right, or "W", down to the left)";
-  std::string text = node.text;
   if (node.kind == Node::Kind::integer || node.kind == Node::Kind::real)
-    text = significant_text(node.real, 12);
-  const bool is_word = std::find(words.begin(), words.end(), text) != words.end();
-  const std::optional<double> azimuth = is_word ? std::nullopt : azimuth_of(text);
-  if (const std::string meaning = is_word ? "" : meant_by(text); !meaning.empty())
+    return direction->refuse(
+        "has no unit", quoted_degrees(node.real * degree) + " if degrees are meant; " + accepted);
+  if (node.kind != Node::Kind::text) return direction->refuse("is no direction", accepted);
+  const std::string& text = node.text;
+  for (const auto& [name, azimuth] : compass)
+    if (text == name) {
+      set.is_azimuth = text != "E" && text != "W";
+      set.plane.dip_direction = azimuth * degree;
+      return;
+    }
+  if (const std::string meaning = meant_by(text); !meaning.empty())
     return direction->refuse(meaning, accepted);
-  if (azimuth)
-    return direction->refuse("is an azimuth: " + in_section(*azimuth, true_dip), accepted);
-  if (const auto at = direction->as_word(words))
-    set.dip_direction = *at == 0 ? DipDirection::east : DipDirection::west;
+  if (text.find_first_of("0123456789") == std::string::npos)
+    return direction->refuse("is no direction", accepted);
+  const auto azimuth = direction->as_quantity(
+      dimension::angle, {.low = 0, .high = std::nextafter(360 * degree, 7.0)});
+  set.is_azimuth = azimuth.has_value();
+  set.plane.dip_direction = azimuth.value_or(0);
 }
 
 }  // namespace voussoir::program

@@ -18,7 +18,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
-#include "report_json.hpp"
+#include "output_parts.hpp"
 
 namespace voussoir::program {
 
@@ -28,27 +28,6 @@ namespace {
 /// @param bearing  of a foot [N/m]
 double beam_moment(const FeetInput& feet, double bearing) {
   return feet.on_beam().moment * bearing * feet.beam->spacing * feet.beam->spacing;
-}
-
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
-std::string computed(const char* format, double value) {
-  return std::isfinite(value) ? text(format, value) : "not computed";
-}
-
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-nlohmann::json strength_json(double strength) {
-  if (!std::isfinite(strength)) return not_checked;
-  return text("%.6g kN", 1e-3 * strength);
-}
-nlohmann::json of_strength_json(double force, double strength) {
-  if (!std::isfinite(strength)) return nullptr;
-  return force / strength;
 }
 
 /// In a bar of the diameter that the anchors have [Pa].
@@ -91,26 +70,6 @@ double opening_diameter(const RunResult& run) {
 
 }  // namespace
 
-nlohmann::json report_json(const EquilibriumReport& report) {
-  return {{"verdict", to_string(report)},
-          {"reason", report.reason},
-          {"error_estimate", report.error_estimate},
-          {"out_of_balance_force_ratio", report.unbalance_over_weight},
-          {"largest_displacement_mm", 1e3 * report.largest_displacement},
-          {"force_evaluations", report.steps},
-          {"elastic_solves", report.elastic_solves},
-          {"factorisations", report.factorisations},
-          {"linear_solver",
-           {{"method", to_string(report.linear.method)},
-            {"reason", report.linear.reason},
-            {"bodies", report.linear.bodies},
-            {"memory_MB", 1e-6 * report.linear.memory},
-            {"iterations", report.linear.iterations}}},
-          {"detached_bodies", report.fallen.size()},
-          {"detached_area_m2", report.fallen_measure},
-          {"broken_bolt_springs", report.broken_bolts}};
-}
-
 namespace {
 
 /// Where at the opening a block was.
@@ -144,15 +103,6 @@ nlohmann::json detached_json(const RunResult& run) {
   return blocks;
 }
 
-/// How much would come off otherwise; empty where that is the same.
-std::string margin_text(const RunResult& run) {
-  const auto range = run.rockfall();
-  if (!range || !range->is_marginal()) return "";
-  return text("%.2f", range->low) + text(" to %.2f m2", range->high) +
-         (range->has_other_verdict ? ", and not the same verdict," : "") +
-         " with half and three times the displacement limit, other damping and slower unloading";
-}
-
 /// How much rock has come off, where, whether the rest stands without it, and how sure that is.
 std::string rockfall_sentence(const RunResult& run) {
   std::map<std::string, int> places;
@@ -176,36 +126,8 @@ std::string rockfall_sentence(const RunResult& run) {
     out += std::string("; the rest stands without ") + (count == 1 ? "it" : "them") +
            ": where nothing may fall, scale " + text("%.1f t per metre down or support it", tonnes);
   }
-  const std::string margin = margin_text(run);
+  const std::string margin = margin_text(run.rockfall(), "m2");
   return margin.empty() ? out : out + "; marginal: " + margin;
-}
-
-nlohmann::json joints_json(const std::vector<JointSource>& sources) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const JointSource& s : sources) {
-    list.push_back({{"source", s.name},
-                    {"asked", s.asked},
-                    {"used", s.used},
-                    {"outside", s.outside},
-                    {"refused", s.refused},
-                    {"kn_Pa_per_m", s.law.joint_normal_stiffness},
-                    {"ks_Pa_per_m", s.law.joint_shear_stiffness},
-                    {"friction_deg", s.law.friction_angle * 180 / std::numbers::pi}});
-    if (s.mapped)
-      list.back().update({{"set", s.mapped->set},
-                          {"mapped_m", s.mapped->mapped},
-                          {"cut_m", s.mapped->cut},
-                          {"made_m", s.mapped->made}});
-  }
-  return list;
-}
-
-nlohmann::json convergence_json(const Convergence& c) {
-  return {{"crown_mm", 1e3 * c.crown},
-          {"right_springing_mm", 1e3 * c.right_springing},
-          {"left_springing_mm", 1e3 * c.left_springing},
-          {"invert_mm", 1e3 * c.invert},
-          {"rise_of_opening_mm", 1e3 * c.rise}};
 }
 
 nlohmann::json boundary_json(const ChosenBoundary& boundary) {
@@ -236,13 +158,6 @@ std::string run_json(const Input& input, const RunResult& run) {
   const BlockSizes sizes = block_sizes(mass);
   const double diameter = opening_diameter(run);
   const double centre_stress = run.tunnel.in_situ().vertical(mass.domain.depth(Vec2::Zero()));
-  nlohmann::json stages = nlohmann::json::array();
-  for (const StageResult& stage : run.built.stages)
-    stages.push_back({{"name", stage.name},
-                      {"residual_wall_traction", stage.wall_traction},
-                      {"residual_wall_traction_asked", stage.wall_traction_asked},
-                      {"equilibrium", report_json(stage.report)},
-                      {"convergence", convergence_json(stage.convergence)}});
   nlohmann::json json = {
       {"schema", 1},
       {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
@@ -256,11 +171,12 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"detached_blocks", detached_json(run)},
       {"convergence", convergence_json(run.convergence())},
       {"boundary", boundary_json(run.boundary)},
-      {"stages", stages},
+      {"stages", stages_json(run.built.stages, "area_m2")},
       {"rock",
        {{"joints", mass.slicing.joints},
         {"joints_by_source", joints_json(run.joints)},
         {"joints_read", run.joints_read},
+        {"joints_in_section", run.in_section},
         {"bodies", sizes.count},
         {"contacts", run.tunnel.system().joints.contacts().size()},
         {"mean_block_area_m2", sizes.mean},
@@ -281,12 +197,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
-  if (const auto range = run.rockfall())
-    json["rockfall"] = {{"marginal", range->is_marginal()},
-                        {"least_detached_area_m2", range->low},
-                        {"most_detached_area_m2", range->high},
-                        {"another_verdict", range->has_other_verdict},
-                        {"near_collapse", range->is_near_collapse}};
+  if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
   const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"strength", strength_json(strength)},
@@ -333,10 +244,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   if (!input.title.empty()) text.title = input.title;
   if (input.lining) text.lining_thickness = input.lining->thickness;
   if (run.fallen_measure() > 0) {
-    std::string sentence = rockfall_sentence(run);
-    for (auto at = sentence.find("m2"); at != std::string::npos; at = sentence.find("m2", at))
-      sentence.replace(at, 2, "m²");  // a picture has what a terminal may not
-    text.remarks.push_back(std::move(sentence));
+    text.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   }
   if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
     text.remarks.push_back(
@@ -355,45 +263,13 @@ std::string run_summary(const Input& input, const RunResult& run) {
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
   if (!run.joints_read.empty()) out += "traces   " + run.joints_read + "\n";
-  for (const JointSource& s : run.joints) {
-    out += "joints   " + s.name + ": " + std::to_string(s.asked) +
-           (s.mapped ? (s.asked == 1 ? " trace, " : " traces, ") : " joints, ") +
-           std::to_string(s.used) + " used, " + std::to_string(s.refused) +
-           (s.mapped ? " part nothing, " : " without room, ") + std::to_string(s.outside) +
-           " outside";
-    if (const auto& mapped = s.mapped)
-      out += text("; %.1f m mapped", mapped->mapped) + text(", %.1f m of it cut", mapped->cut) +
-             text(", %.1f m made beyond", mapped->made);
-    out += "; kn " + format_quantity(s.law.joint_normal_stiffness, dimension::stiffness_per_area) +
-           ", ks " + format_quantity(s.law.joint_shear_stiffness, dimension::stiffness_per_area) +
-           ", friction " + format_quantity(s.law.friction_angle, dimension::angle) + "\n";
-  }
+  out += joint_lines(run.joints);
+  for (const std::string& line : run.in_section) out += "section  " + line + "\n";
   out += "boundary " + boundary_text(run.boundary) + "\n";
-  for (const StageResult& stage : run.built.stages) {
-    out += "stage    " + stage.name + ": " + to_string(stage.report) +
-           text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
-    if (!stage.fully_unloaded())
-      out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
-    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm\n";
-  }
-  out += std::string("verdict  ") +
-         to_string(last.verdict, run.fallen_measure(), run.built.has_lost_lining());
-  if (last.verdict == Verdict::stable && run.fallen_measure() > 0)
-    out += (run.built.has_lost_lining() ? ", after rockfall of " : " of ") +
-           text("%.2f m2", run.fallen_measure());
-  const std::string margin = margin_text(run);
-  if (!margin.empty()) out += ", marginal";
-  out += ": " + last.reason + "\n";
-  out += "         error estimate " + computed("%.1e", last.error_estimate) +
-         ", worst out-of-balance force ratio " + computed("%.1e", last.unbalance_over_weight) +
-         ", " + text("%.2f s\n", run.equilibrium_seconds);
-  if (last.linear.method != LinearMethod::automatic) {
-    out += std::string("solver   ") + to_string(last.linear.method) + " (" + last.linear.reason +
-           "): " + std::to_string(last.elastic_solves) + " elastic solves";
-    if (last.linear.iterations > 0)
-      out += " in " + std::to_string(last.linear.iterations) + " iterations";
-    out += text(", %.3g MB\n", 1e-6 * last.linear.memory);
-  }
+  const std::string margin = margin_text(run.rockfall(), "m2");
+  out += stage_lines(run.built.stages);
+  out += verdict_lines(last, {run.fallen_measure(), "m2", run.built.has_lost_lining(), margin},
+                       run.equilibrium_seconds);
   if (run.fallen_measure() > 0)
     out += "detached " + rockfall_sentence(run) + "\n";
   else if (!margin.empty())

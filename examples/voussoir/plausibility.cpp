@@ -9,6 +9,8 @@
 #include <voussoir/core/units.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
+#include "joint_sets.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -33,6 +35,7 @@ constexpr Common wet_friction{5 * degree, 75 * degree, true};  // of an interfac
 constexpr Common dip{0.5 * degree, 90 * degree, true};         // [rad]
 constexpr Common scatter{0.1 * degree, 30 * degree, true};     // standard deviation [rad]
 constexpr Common joint_spacing{0.05, 40};                      // of joints [m]
+constexpr Common fisher{10, 9000};                             // K [-]
 constexpr Common trace_length{0.1, 90};                        // [m]
 constexpr Common ground_modulus{0.1e9, 95e9};                  // [Pa]
 constexpr Common concrete_modulus{0.5e9, 250e9};               // to steel [Pa]
@@ -101,6 +104,10 @@ void look_at_model(const Input& input, Look& look) {
   const TunnelInput& tunnel = input.tunnel;
   const double span = 2 * tunnel.half_width();
   look.beside_opening("model.width", input.model.width, span, {3, 100});
+  if (input.is_spatial()) {
+    look.beside_opening("model.length", input.model.length, span, {0.2, 100});
+    look.at("tunnel.round_length", tunnel.round_length, {0.2, 20}, dimension::length);
+  }
   look.beside_opening("model.below_invert", input.model.below_invert, span, {0.3, 100});
   const char* const widths[] = {"diameter", "width", "vertices (their width)"};
   look.at(std::string("tunnel.") + widths[static_cast<int>(tunnel.shape)], span, {1, 50},
@@ -130,8 +137,8 @@ void look_at_model(const Input& input, Look& look) {
 /// How much of the length of traces whose centres lie in the domain lies in it, too.
 double length_inside(const Input& input, const JointSetInput& set) {
   const double width = input.model.width, height = input.domain_top() - input.domain_bottom();
-  const double across = set.extent * elementary::cosine(set.dip) / width,
-               up = set.extent * elementary::sine(set.dip) / height;
+  const double across = set.extent * elementary::cosine(set.plane.dip) / width,
+               up = set.extent * elementary::sine(set.plane.dip) / height;
   constexpr int parts = 200;
   double sum = 0;
   for (int k = 0; k < parts; ++k) {
@@ -154,8 +161,12 @@ void look_at_joints(const Input& input, Look& look) {
       look.in_shear(table + "ks", set.shear_stiffness.value_or(joint.shear_stiffness),
                     set.normal_stiffness.value_or(joint.normal_stiffness));
     look.at(table + "friction", set.friction_angle, friction, dimension::angle);
-    look.at(table + "dip", set.dip, dip, dimension::angle);
+    look.at(table + "dip", set.plane.dip, dip, dimension::angle);
     look.at(table + "sd", set.sd, scatter, dimension::angle);
+    if (set.fisher) look.at(table + "K", *set.fisher, fisher);
+    look.at(table + "P32", set.p32, {1 / joint_spacing.high, 1 / joint_spacing.low},
+            dimension::area_per_volume);
+    look.at(table + "strike_extent", set.strike_extent, trace_length, dimension::length);
     if (std::isfinite(set.extent)) {
       look.at(table + "extent", set.extent, trace_length, dimension::length);
       if (set.intensity)
@@ -209,6 +220,7 @@ void look_at_lining(const LiningInput& lining, Look& look) {
           dimension::angle);
   look.at(table + "interface.shear_bond", lining.shear_bond, bond, dimension::pressure);
   look.at(table + "interface.tensile_bond", lining.tensile_bond, bond, dimension::pressure);
+  look.at(table + "rib_spacing", lining.rib_spacing, {0.05, 20}, dimension::length);
   if (lining.arc)
     look.at(table + "arc (its angle)", lining.arc->to - lining.arc->from,
             {2 * degree, 360 * degree}, dimension::angle);
@@ -255,8 +267,8 @@ std::vector<std::string> unusual_values(const Input& input) {
   }
   if (input.lining) look_at_lining(*input.lining, look);
   for (std::size_t k = 0; k < input.stages.size(); ++k)
-    look.at(entry("stage", k) + ".wall_traction", input.stages[k].wall_traction, {0.01, 1, true},
-            dimension::number);
+    look.at(entry(input.has_rounds ? "round" : "stage", k) + ".wall_traction",
+            input.stages[k].wall_traction, {0.01, 1, true}, dimension::number);
   if (input.diagram) {
     for (std::size_t k = 0; k < input.diagram->spacing.size(); ++k)
       if (const auto& spacing = input.diagram->spacing[k])
@@ -270,7 +282,7 @@ std::vector<std::string> unusual_values(const Input& input) {
   std::vector<std::string> found = std::move(look).found();
   for (std::size_t k = 0; k < input.joint_sets.size() && !input.laid; ++k) {
     const JointSetInput& set = input.joint_sets[k];
-    if (!std::isfinite(set.extent)) continue;
+    if (!std::isfinite(set.extent) || (input.is_spatial() && !is_of_section(input, set))) continue;
     // As few as four fifths: half of the domain or more is the length of a trace.
     const double inside = length_inside(input, set);
     if (inside < 0.8)

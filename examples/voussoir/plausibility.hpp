@@ -44,4 +44,16 @@ struct InSituClosure {
 /// A sentence for each that is large.
 [[nodiscard]] std::vector<std::string> remarks_on(const InSituClosure& closure);
 
+/// Adds to a numerical fault which keys of the input are likely to blame.
+template <class Compute>
+auto naming_unusual_values(const Input& input, Compute&& compute) {
+  try {
+    return compute();
+  } catch (const NumericalFault& fault) {
+    std::string text = fault.what();
+    for (const std::string& value : unusual_values(input)) text += "\n   = " + value;
+    throw NumericalFault(text);
+  }
+}
+
 }  // namespace voussoir::program

@@ -47,6 +47,7 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
+#include <voussoir/rockmass/trace_in_section.hpp>
 #include <voussoir/solver/creep.hpp>
 #include <voussoir/solver/load_in_steps.hpp>
 #include <voussoir/solver/solver.hpp>
@@ -72,6 +73,7 @@
 #include <voussoir/tunnel/measurements.hpp>
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/outline_convergence.hpp>
+#include <voussoir/tunnel/section_part.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>

@@ -197,8 +197,8 @@ TEST_SUITE("program/input") {
     const double dips[] = {75, 25, 25};
     for (std::size_t i = 0; i < 3; ++i) {
       const JointSetInput& set = input.joint_sets[i];
-      CHECK(set.dip == degrees(dips[i]));
-      CHECK(set.dip_direction == (i < 2 ? DipDirection::east : DipDirection::west));
+      CHECK(set.plane.dip == degrees(dips[i]));
+      CHECK(set.plane.dip_direction == degrees(i < 2 ? 90 : 270));
       CHECK(set.sd == degrees(1));
       CHECK(set.intensity == 1.0);
       CHECK_FALSE(set.spacing.has_value());
@@ -489,12 +489,12 @@ TEST_SUITE("program/input") {
         {"dip = \"75 deg\"", "dip = \"91 deg\"", 14, "joint_set[0].dip", "from 0 to 90 deg"},
         {"dip = \"75 deg\"", "dip = 75", 14, "joint_set[0].dip = 75 has no unit", "35 deg"},
         {"dip_direction = \"E\"", "dip_direction = \"up\"", 15, "joint_set[0].dip_direction",
-         "\"E\", \"W\""},
+         "an azimuth"},
         {"intensity = \"1 /m^2\"", "intensity = \"0 /m^2\"", 16, "joint_set[0].intensity",
          "above 0 and at most"},
         {"intensity = \"1 /m^2\"", "intensity = \"1e5 /m^2\"", 16, "joint_set[0].intensity",
          "10000 /m^2"},
-        {"intensity = \"1 /m^2\"", "intensity = \"1 /m\"", 16, "is a quantity in m^-1",
+        {"intensity = \"1 /m^2\"", "intensity = \"1 /m\"", 16, "is an area per volume, not a",
          "a number per area"},
         {"intensity = \"1 /m^2\"", "spacing = \"0 m\"", 16, "joint_set[0].spacing", "above 0"},
         {"extent = \"1 m\"", "extent = \"0 m\"", 17, "extent", "or \"inf\""},
@@ -616,21 +616,22 @@ TEST_SUITE("program/input") {
          "dip = \"30 deg\", dip_direction = \"W\""},
         {dips("75 deg"), dips("181 deg"), 14, "is outside the accepted range", "0 to 90 deg"},
         {dips("75 deg"), dips("100 gon"), 14, "is 90 deg", "35 deg"},
-        {dips("75 deg"), dips("75/270"), 14, "that is \"W\"", "dip = \"75 deg\" and dip_direction"},
+        {dips("75 deg"), dips("75/270"), 14, "is dip and dip direction in one",
+         "dip = \"75 deg\" and dip_direction = \"270 deg\""},
         {dips("75 deg"), "dip = 75", 14, "has no unit", "35 deg"},
         {faces("\"E\""), faces("\"O\""), 15, "west in French, Spanish and Italian",
          "\"W\", down to the left"},
         {faces("\"E\""), faces("\"west\""), 15, "is \"W\"", "\"W\""},
         {faces("\"E\""), faces("\"Ost\""), 15, "is \"E\"", "\"E\""},
-        {faces("\"E\""), faces("90"), 15,
-         "is an azimuth: in a section from west to east that is \"E\"", "\"E\""},
-        // tan 75 sin 60 = 3.2320, whose angle is 72.81 deg
-        {faces("\"E\""), faces("\"240 deg\""), 15, "\"W\", with the apparent dip 72.81 deg",
-         "\"W\""},
-        {faces("\"E\""), faces("\"NE\""), 15, "\"E\", with the apparent dip 69.25 deg", "\"E\""},
-        {faces("\"E\""), faces("\"N\""), 15, "dips along the tunnel", "\"E\""},
-        {faces("\"E\""), faces("\"up\""), 15, "is not one of its words", "\"E\", \"W\""},
-        {faces("\"E\""), faces("[1]"), 15, "is a list", "\"E\", \"W\""},
+        {faces("\"E\""), faces("\"ne\""), 15, "is \"NE\"", "\"NE\""},
+        {faces("\"E\""), faces("90"), 15, "has no unit", "\"90 deg\" if degrees are meant"},
+        {faces("\"E\""), faces("\"90\""), 15, "has no unit", "35 deg"},
+        {faces("\"E\""), faces("\"361 deg\""), 15, "is outside the accepted range", "0 to 360 deg"},
+        {faces("\"E\""), faces("\"N45E\""), 15, "joint_set[0].dip_direction", "35 deg"},
+        {faces("\"E\""), faces("\"240 deg\""), 15,
+         "is an azimuth, and the file does not say where the tunnel goes", "tunnel.trend"},
+        {faces("\"E\""), faces("\"up\""), 15, "is no direction", "\"E\", down to the right"},
+        {faces("\"E\""), faces("[1]"), 15, "is no direction", "an azimuth"},
         {"density = \"2700 kg/m^3\"", "density = \"26 kN/m^3\"", 10,
          "is a unit weight: density 2651 kg/m^3", "2700 kg/m^3"},
         {"extent = \"1 m\"", "extent = \"inf\"", 16,
@@ -739,10 +740,9 @@ TEST_SUITE("program/input") {
          "a table [rock] with density"},
         {"K0 = 1\n", "", 11, "stress.K0 is missing", "a bare number"},
         {"dip = \"75 deg\"\n", "", 13, "joint_set[0].dip is missing", "an angle"},
-        {"dip_direction = \"E\"\n", "", 13, "joint_set[0].dip_direction is missing",
-         "\"E\", \"W\""},
-        {"intensity = \"1 /m^2\"\n", "", 13, "joint_set[0].intensity is missing, and so is spacing",
-         "either intensity"},
+        {"dip_direction = \"E\"\n", "", 13, "joint_set[0].dip_direction is missing", "an azimuth"},
+        {"intensity = \"1 /m^2\"\n", "", 13,
+         "joint_set[0].intensity is missing, and so are spacing", "one of intensity"},
         {"kn = \"5 GPa/m\"\n", "", 18, "joint.kn is missing", "GPa/m"},
         {"min_inscribed_radius = \"0.25 m\"\n", "", 22, "blocks.min_inscribed_radius is missing",
          "a length"},
@@ -1031,7 +1031,7 @@ TEST_SUITE("program/input") {
     CHECK(read(good, {"title=a = b # c"}).title == "a = b # c");
     CHECK(read(good, {"title=Stüble"}).title == "Stüble");
     CHECK(read(good, {"title=\"Stüble\" (süd)"}).title == "\"Stüble\" (süd)");
-    CHECK(read(good, {"joint_set[0].dip=60 deg"}).joint_sets.at(0).dip == degrees(60));
+    CHECK(read(good, {"joint_set[0].dip=60 deg"}).joint_sets.at(0).plane.dip == degrees(60));
     CHECK(read(good, {"joint_set[1].dip=60 deg", "joint_set[1].dip_direction=W",
                       "joint_set[1].spacing=2 m"})
               .joint_sets.size() == 2);

@@ -12,10 +12,12 @@
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/rib_forces.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
 #include "support/jointed_mass.hpp"
 #include "support/jointed_rock.hpp"
+#include "support/near.hpp"
 
 namespace tunnel_construction_test {
 
@@ -23,6 +25,7 @@ using namespace voussoir;
 using voussoir_test::degree;
 using voussoir_test::jointed_mass;
 using voussoir_test::jointed_rock;
+using voussoir_test::near;
 
 namespace {
 
@@ -120,10 +123,30 @@ TEST_SUITE("tunnel/construction") {
     CHECK(result.last().error_estimate == report.error_estimate);
     REQUIRE(result.verdict() == Verdict::stable);
     const SupportDemand demand = support_demand(by_plan);
+    // At every node the mean of the members that meet there across the tunnel, which runs along y.
     const auto members = lining_members(by_plan);
-    const auto strongest = std::max_element(members.begin(), members.end(),
-                                            [](auto& m, auto& n) { return m.thrust < n.thrust; });
-    CHECK(demand.largest_thrust == strongest->thrust);
+    double largest = 0, sum = 0;
+    const auto nodes = rib_forces(by_plan);
+    CHECK(static_cast<int>(nodes.size()) == by_plan.linings().front()->node_count());
+    for (const RibForce& node : nodes) {
+      double thrust = 0, moment = 0;
+      int met = 0;
+      for (const auto& m : members) {
+        if (std::abs(m.to.y() - m.from.y()) > 1e-9 ||
+            (m.from != node.position && m.to != node.position))
+          continue;
+        ++met;
+        thrust += m.thrust;
+        moment = std::max(moment, m.moment);
+      }
+      REQUIRE(met == 2);
+      CHECK(node.thrust == near(0.5 * thrust).epsilon(1e-9));
+      CHECK(std::abs(node.moment) <= moment);
+      largest = std::max(largest, node.thrust);
+      sum += node.thrust;
+    }
+    CHECK(demand.largest_thrust == largest);
+    CHECK(demand.mean_thrust == near(sum / static_cast<double>(nodes.size())));
     CHECK(demand.mean_thrust > 0);
     CHECK(demand.mean_thrust < demand.largest_thrust);
   }

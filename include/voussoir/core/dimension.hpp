@@ -27,6 +27,7 @@ inline constexpr Dimension time{0, 0, 1, 0};                  ///< s
 inline constexpr Dimension angle{0, 0, 0, 1};                 ///< rad
 inline constexpr Dimension area{0, 2, 0, 0};                  ///< m^2
 inline constexpr Dimension intensity{0, -2, 0, 0};            ///< joint centres per area, 1/m^2
+inline constexpr Dimension area_per_volume{0, -1, 0, 0};      ///< P32 of joints, m^2/m^3
 inline constexpr Dimension velocity{0, 1, -1, 0};             ///< m/s
 inline constexpr Dimension acceleration{0, 1, -2, 0};         ///< m/s^2
 inline constexpr Dimension density{1, -3, 0, 0};              ///< kg/m^3
@@ -47,7 +48,7 @@ struct DimensionWords {
   std::array<std::string_view, 4> echo;
 };
 
-inline constexpr std::array<DimensionWords, 15> dimension_words{{
+inline constexpr std::array<DimensionWords, 16> dimension_words{{
     {dimension::number, "a fraction", R"("40 %" or "2.5 %")", {"%"}},
     {dimension::mass, "a mass", R"("250 kg" or "1.2 t")", {"kg", "t"}},
     {dimension::length, "a length", R"("4 m", "10 cm" or "28 mm")", {"mm", "m"}},
@@ -57,6 +58,7 @@ inline constexpr std::array<DimensionWords, 15> dimension_words{{
     {dimension::intensity, "a number per area", R"("1 /m^2" or "0.5 1/m^2")", {"/m^2"}},
     {dimension::velocity, "a velocity", R"("0.1 m/s" or "5 mm/s")", {"mm/s", "m/s"}},
     {dimension::acceleration, "an acceleration", R"("9.81 m/s^2")", {"m/s^2"}},
+    {dimension::area_per_volume, "an area per volume", R"("1.5 m^2/m^3" or "1.5 /m")", {"m^2/m^3"}},
     {dimension::density, "a density", R"("2700 kg/m^3" or "2.7 t/m^3")", {"kg/m^3"}},
     {dimension::force, "a force", R"("500 kN" or "0.5 MN")", {"N", "kN", "MN", "GN"}},
     {dimension::moment, "a moment", R"("120 kN*m" or "0.12 MN*m")", {"N*m", "kN*m", "MN*m"}},

@@ -102,7 +102,7 @@ VOUSSOIR_INLINE std::string draw_mass_picture(const RockMass<Spatial>& mass,
   if (picture.explosion == 0) draw_extent(canvas, mass.domain, picture.corner_left_out, view, map);
   canvas.end_layer();
   canvas.begin_layer("axes");
-  draw_axes(canvas, {frame.low.x() + 60, foot + 58}, 44, view);
+  draw_axes(canvas, {frame.low.x() + 60, foot + 58}, 44, view, compass);
   draw_scale_bar(canvas, {frame.low.x() + 150, foot + 52}, 130, map.scale());
   canvas.end_layer();
   legend.draw(canvas, {frame.low.x() + 330, foot + 30});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -29,6 +30,7 @@ struct TunnelPictureText {
   std::string title = "Tunnel in jointed rock";
   double lining_thickness = 0;            ///< [m]; 0: that of each section. Without meaning in 3-D
   std::vector<std::string> remarks = {};  ///< below the verdict, a line each
+  std::array<std::string, 3> axes = detail::compass;  ///< in 3-D: what they are called
 };
 
 /// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
@@ -144,6 +146,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
                 const TunnelPictureText& text = {}) {
   const double fallen = result.fallen_measure();
   TunnelView view = picture_of(state_of(solver), bars_of(solver));
+  view.axes = text.axes;
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());

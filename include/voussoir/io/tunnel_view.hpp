@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -38,6 +39,7 @@ struct TunnelView {
   double azimuth = 0.62 * std::numbers::pi;  ///< where the viewer stands, from North [rad]
   double elevation = 0.12 * std::numbers::pi;
   std::optional<PictureBanner> banner = {};  ///< above the rock; none: a tunnel that stands
+  std::array<std::string, 3> axes = detail::compass;  ///< what they are called
 };
 
 namespace detail {
@@ -192,7 +194,7 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   const double pull = draw_lines("bolts", scene.bolts, "#b2182b", 0.6, 2.6);
 
   canvas.begin_layer("key");
-  draw_axes(canvas, {frame.low.x() + 50, foot + 60}, 40, view);
+  draw_axes(canvas, {frame.low.x() + 50, foot + 60}, 40, view, scene.axes);
   draw_scale_bar(canvas, {frame.low.x() + 130, foot + 62}, 130, map.scale());
   const double bar = frame.low.x() + 330;
   constexpr int steps = 60;

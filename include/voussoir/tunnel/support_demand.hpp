@@ -11,6 +11,7 @@
 #include <voussoir/core/message_number.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/interaction_diagram.hpp>
+#include <voussoir/tunnel/rib_forces.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 
 namespace voussoir {
@@ -21,7 +22,7 @@ struct SupportDemand {
   double largest_bolt_force = 0;  ///< [N]
   double mean_bolt_force = 0;     ///< mean over bolts of each one's largest [N]
   double largest_thrust = 0;      ///< of all linings, compression positive, 2-D [N/m], 3-D [N]
-  double mean_thrust = 0;         ///< over nodes (2-D), over members (3-D)
+  double mean_thrust = 0;         ///< over nodes
   double largest_moment = 0;      ///< absolute value, 2-D [N m/m], 3-D [N m]
 };
 
@@ -45,8 +46,8 @@ template <class Solver>
     std::erase_if(nodes, [](const LiningForce& at) { return at.is_lost; });
     add(nodes, nodes.size());
   } else {
-    const auto members = lining_members(solver);
-    add(members, members.size());
+    const std::vector<RibForce> nodes = rib_forces(solver);
+    add(nodes, nodes.size());
   }
   return demand;
 }

@@ -68,9 +68,13 @@ VOUSSOIR_INLINE void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace
 VOUSSOIR_INLINE void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, double corner_left_out,
                                  const AxonometricView& view, const PageMap& map);
 
-/// Arrows East, North and up as the viewer sees them, `length` px where seen at full length.
+/// What the axes of space are called in a picture.
+using AxisNames = std::array<std::string, 3>;
+inline const AxisNames compass{"E", "N", "up"};
+
+/// Arrows along the axes as the viewer sees them, `length` px where seen at full length.
 VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
-                               const AxonometricView& view);
+                               const AxonometricView& view, const AxisNames& names);
 
 #if VOUSSOIR_BODIES
 
@@ -172,8 +176,7 @@ VOUSSOIR_INLINE void draw_extent(SvgCanvas& canvas, const Domain<3>& domain, dou
 }
 
 VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double length,
-                               const AxonometricView& view) {
-  constexpr std::array<const char*, 3> names = {"E", "N", "up"};
+                               const AxonometricView& view, const AxisNames& names) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vec2 seen = view(Vec3::Unit(axis));
     const Vec2 arrow = length * Vec2(seen.x(), -seen.y());

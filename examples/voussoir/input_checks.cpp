@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+#include "input_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+#include <voussoir/core/units.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/lining/node_spacing.hpp>
+
+#include "plausibility.hpp"
+
+namespace voussoir::program {
+
+namespace {
+
+void check_opening(Checker& checker, const Input& input) {
+  if (checker.faulty("tunnel")) return;
+  const double half_width = input.tunnel.half_width();
+  const std::string below =
+      "below " + format_quantity(half_width, dimension::length) + ", half the width of the opening";
+  const char* const keys[] = {"diameter", "width", "vertices"};
+  const std::string opening = std::string(" (tunnel.") +
+                              keys[static_cast<int>(input.tunnel.shape)] + ": " +
+                              format_quantity(2 * half_width, dimension::length) + " wide)";
+  if (!checker.faulty("model")) {
+    double reach = half_width;  // of the opening to a side; a polygon may sit off its centre
+    for (const Point& vertex : input.tunnel.vertices) reach = std::max(reach, std::abs(vertex[0]));
+    if (!(reach < input.model.width / 2)) {
+      checker.report("model.width", "leaves no ground beside the opening" + opening,
+                     "above " + format_quantity(2 * reach, dimension::length));
+    }
+  }
+  if (!checker.faulty("blocks") && !(input.blocks.min_inscribed_radius < half_width))
+    checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening" + opening,
+                   below);
+  if (input.lining && !checker.faulty("support.lining.thickness") &&
+      !(input.lining->thickness < half_width))
+    checker.report("support.lining.thickness", "fills the opening" + opening, below);
+  if (input.diagram && !checker.faulty("diagram.thickness") &&
+      !(input.diagram->thickness.back() < half_width))
+    checker.report("diagram.thickness", "fills the opening" + opening, below);
+}
+
+void check_snap(Checker& checker, const Input& input) {
+  if (!input.mapped.snap || checker.faulty("joints") || checker.faulty("blocks")) return;
+  if (*input.mapped.snap > input.blocks.min_inscribed_radius)
+    checker.report("joints.snap", "closes more than the smallest block is wide",
+                   "at most " +
+                       format_quantity(input.blocks.min_inscribed_radius, dimension::length) +
+                       ", blocks.min_inscribed_radius");
+}
+
+std::string counted(double count) {
+  return count < 1e15 ? std::to_string(std::llround(count)) : std::string("1e15 or more");
+}
+
+/// The arc of a word, and whether feet can stand where it ends.
+void check_arc(Checker& checker, Input& input) {
+  if (!input.lining || checker.faulty("tunnel") || checker.faulty("support.lining")) return;
+  LiningInput& lining = *input.lining;
+  const std::string key = "support.lining.arc";
+  try {
+    const SimplePolygon opening = opening_of(input);
+    LiningRing ring{.nodes = lining.nodes.value_or(std::max(input.tunnel.facets, 8))};
+    if (lining.part && *lining.part != LinedPart::all) {
+      ring = lined_part(opening, *lining.part, ring);
+      lining.arc = ArcInput{ring.from, ring.to};
+    }
+    if (!lining.arc || !lining.feet) return;
+    ring.from = lining.arc->from;
+    ring.to = lining.arc->to;
+    for (const auto& end : detail::ring_nodes(opening, ring).ends) {
+      if (end.refusal.empty()) continue;
+      const std::string begin = "lining: ", mark = "; accepted: ";
+      const std::size_t at = end.refusal.find(mark);
+      std::string why = end.refusal.substr(begin.size(), at - begin.size());
+      if (input.tunnel.shape == TunnelShape::horseshoe)
+        why += " (tunnel.wall_height = " +
+               format_quantity(input.tunnel.wall_height, dimension::length) + ")";
+      checker.report(key, "is too long for feet: " + why,
+                     end.refusal.substr(at + mark.size()) + R"(; "roof and walls" ends there)");
+      return;
+    }
+  } catch (const InvalidInput& fault) {
+    checker.report(key, std::string("does not fit the tunnel: ") + fault.what(),
+                   R"(two angles, "roof", "roof and walls" or "all")");
+  }
+}
+
+/// Nodes are close enough together for a bond, see `node_spacing.hpp`.
+void check_bond(Checker& checker, const Input& input) {
+  if (!input.lining || !(input.lining->tensile_bond > 0)) return;
+  for (const char* key : {"support.lining", "tunnel", "diagram"})
+    if (checker.faulty(key)) return;
+  const LiningInput& lining = *input.lining;
+  double thinnest = lining.thickness;
+  if (input.diagram)
+    for (const double thickness : input.diagram->thickness)
+      if (thickness > 0) thinnest = std::min(thinnest, thickness);
+  const double length =
+      bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
+                     lining.interface_normal_stiffness);
+  const double perimeter = opening_of(input).perimeter();
+  const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
+               chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
+  const auto metres = [](double value) { return format_quantity(value, dimension::length); };
+  const std::string why = "the bond of a lining " + metres(thinnest) +
+                          " thick acts over L = (4 E I / kn)^(1/4) = " + metres(length);
+  const std::string others = "a softer interface, or no tensile_bond";
+  const std::string enough = counted(least) + " to 2000, no farther apart than " +
+                             shortest_text(coarsest_bonded_spacing) + " L";
+  if (lining.nodes ? *lining.nodes >= least : chosen <= 2000) return;
+  const std::string accepted = least > 2000 ? "a thicker lining, " + others : enough;
+  if (lining.nodes)
+    checker.report("support.lining.nodes",
+                   "puts nodes " + metres(perimeter / *lining.nodes) +
+                       " apart, too far to see the bond fail at the edge of a block: " + why,
+                   accepted + (chosen <= 2000 ? ", or no key nodes to have it chosen"
+                               : least > 2000 ? ""
+                                              : ", or " + others));
+  else
+    checker.report(
+        "support.lining",
+        "has no key nodes, and " + counted(chosen) + " would be chosen, more than 2000: " + why,
+        least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
+}
+
+/// What only a section can have.
+void check_spatial(Checker& checker, const Input& input) {
+  if (!input.is_spatial()) return;
+  const std::string here = " in 3-D (model.dimension = 3)";
+  if (!input.joints_file.empty())
+    checker.report("joints.file", "has traces of a section, and no planes to cut with" + here,
+                   "joint sets, or model.dimension = 2");
+  const BoundaryInput& boundary = input.boundary;
+  const auto is_rollers = [](const std::optional<Boundary>& side) {
+    return side.value_or(Boundary::rollers) == Boundary::rollers;
+  };
+  for (const auto& [key, fits] : {std::pair("boundary.sides", is_rollers(boundary.sides)),
+                                  std::pair("boundary.base", is_rollers(boundary.base)),
+                                  std::pair("boundary.top", !boundary.ground_above)})
+    if (!fits)
+      checker.report(key, "is of a section: elastic ground and stress are not made" + here,
+                     key == std::string("boundary.top")
+                         ? "\"surface\", with the ground above as stress.surcharge"
+                         : "\"rollers\"");
+  if (input.lining && input.lining->feet && input.lining->feet->beam)
+    checker.report("support.lining.feet.beam",
+                   "stands for what happens between ribs, which are there" + here, "no such table");
+  if (checker.faulty("model") || checker.faulty("tunnel")) return;
+  if (const auto& round = input.tunnel.round_length) {
+    const std::string within = "the tunnel of " +
+                               format_quantity(input.model.length, dimension::length) +
+                               " (model.length)";
+    if (!input.tunnel.rounds && input.model.length / *round > 1000) {
+      checker.report("tunnel.round_length", "makes more than 1000 rounds of " + within,
+                     "1000 rounds or fewer: a longer one, or tunnel.rounds");
+      return;
+    }
+    if (*round > input.model.length)
+      checker.report("tunnel.round_length", "is longer than " + within,
+                     "at most " + format_quantity(input.model.length, dimension::length));
+    else if (input.round_count() * *round > input.model.length * (1 + 1e-9))
+      checker.report(
+          "tunnel.rounds",
+          "rounds of " + format_quantity(*round, dimension::length) + " are longer than " + within,
+          "1 to " + std::to_string(
+                        static_cast<int>(std::floor(input.model.length / *round * (1 + 1e-9)))));
+  }
+  const double driven = input.round_count() * input.stretch();
+  if (input.bolts && !checker.faulty("support.bolts") && input.bolts->out_of_plane > driven)
+    checker.report("support.bolts.out_of_plane", "leaves no row of bolts in the tunnel",
+                   "at most " + format_quantity(driven, dimension::length) + ", what is driven");
+  if (input.lining && input.lining->rib_spacing && *input.lining->rib_spacing > input.stretch())
+    checker.report("support.lining.rib_spacing",
+                   "is longer than what is lined at a time, tunnel.round_length or model.length",
+                   "at most " + format_quantity(input.stretch(), dimension::length));
+}
+
+/// Rounds take the section out, all of it, without leaving rock that hangs in the opening.
+void check_rounds(Checker& checker, const Input& input) {
+  if (!input.has_rounds) return;
+  for (const char* key : {"round", "stage", "tunnel"})
+    if (checker.faulty(key)) return;
+  std::vector<std::size_t> order(input.stages.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // Along a tunnel what follows farther behind the face comes later.
+  if (input.is_spatial() && input.tunnel.round_length)
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return input.stages[a].behind < input.stages[b].behind;
+    });
+  const auto key = [&](std::size_t k) { return "round[" + std::to_string(k) + "]"; };
+  if (!input.stages[order.front()].part) {
+    checker.report(key(order.front()), "excavates nothing, and there is no opening yet",
+                   "an excavation first");
+    return;
+  }
+  std::erase_if(order, [&](std::size_t k) { return !input.stages[k].part; });
+  std::vector<SectionPart> parts;
+  for (const std::size_t k : order) parts.push_back(*input.stages[k].part);
+  const SimplePolygon section = opening_of(input);
+  const auto fault = fault_of_parts(section, parts);
+  if (!fault) return;
+  const auto metres = [](double value) { return format_quantity(value, dimension::length); };
+  const auto place = [&] {
+    const SectionPart& at = fault->where;
+    const auto end = [&](double value, const char* open) {
+      return std::isfinite(value) ? metres(value) : std::string(open);
+    };
+    return "x " + end(at.left, "the left wall") + " to " + end(at.right, "the right wall") +
+           ", y " + end(at.bottom, "the floor") + " to " + end(at.top, "the roof");
+  };
+  const std::string where = key(order[fault->part]);
+  using Kind = SectionFault::Kind;
+  switch (fault->kind) {
+    case Kind::empty:
+      return checker.report(where, "excavates nothing: no part of the section lies in it",
+                            "limits that cross the section");
+    case Kind::in_pieces:
+      return checker.report(where, "takes several pieces of the section at once",
+                            "limits between which the section is in one piece");
+    case Kind::twice:
+      return checker.report(
+          where, "excavates once more what a round before it has taken out: " + place(),
+          R"(limits (above, below, left_of, right_of) that leave that out, or excavate = "nothing")");
+    case Kind::undermined:
+      return checker.report(where, "leaves rock of the section hanging above it: " + place(),
+                            "the rock above first: a heading before its bench");
+    case Kind::left_over:
+      return checker.report("round", "leaves rock in the section: " + place(),
+                            "rounds that take out all of it");
+  }
+}
+
+void check_boundary(Checker& checker, const Input& input) {
+  if (checker.faulty("boundary")) return;
+  const BoundaryInput& boundary = input.boundary;
+  if (boundary.sides.has_value() != boundary.base.has_value()) {
+    const bool has_sides = boundary.sides.has_value();
+    checker.report(has_sides ? "boundary.sides" : "boundary.base",
+                   std::string("is given, and ") +
+                       (has_sides ? "boundary.base" : "boundary.sides") + " is left to be chosen",
+                   "both, or neither");
+  } else if (boundary.sides == Boundary::stress && boundary.base == Boundary::rollers) {
+    checker.report("boundary.base", "leaves the rock free to slide between sides under stress",
+                   R"("elastic", or other sides)");
+  }
+  if (boundary.ground_above && input.stress.surcharge == 0 && !checker.faulty("stress"))
+    checker.report("boundary.top",
+                   "says that ground goes on above the domain, and stress.surcharge that it weighs "
+                   "nothing",
+                   R"(stress.surcharge = its weight, or "surface")");
+}
+
+void check_size(Checker& checker, const Input& input) {
+  for (const char* key : {"model", "tunnel", "joint_set", "blocks"})
+    if (checker.faulty(key)) return;
+  const SizeEstimate size = estimate_size(input);
+  const bool has_many_joints = size.joints > largest_count;
+  if (!has_many_joints && !(size.blocks > largest_count)) return;
+  const std::string blamed = unusual_among(input, {"model.", "tunnel.", "joint_set", "blocks."});
+  if (has_many_joints)
+    checker.report("joint_set", "would come to about " + counted(size.joints) + " joints" + blamed,
+                   "at most 1000000 in the domain: a smaller domain, or fewer joints");
+  else
+    checker.report("joint_set", "would come to about " + counted(size.blocks) + " blocks" + blamed,
+                   "at most 1000000 in the domain: a smaller domain, fewer joints, or a larger "
+                   "blocks.min_inscribed_radius");
+}
+
+void check_bolts(Checker& checker, const BoltsInput& bolts) {
+  if (checker.faulty("support.bolts")) return;
+  const auto below = [&](const std::string& key, double value, const char* limit_key,
+                         const std::optional<double>& limit) {
+    if (!limit || value < *limit) return;
+    checker.report("support.bolts." + key, std::string("is not below ") + limit_key,
+                   "below " + format_quantity(*limit, dimension::force));
+  };
+  below("pretension", bolts.pretension, "yield_force", bolts.yield_force);
+  below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
+  if (bolts.yield_force)
+    below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
+}
+
+void check_stages(Checker& checker, Input& input) {
+  if (input.stages.empty()) {
+    if (checker.faulty("stage") || checker.faulty("round")) return;  // meant to have some
+    input.stages.push_back({.name = "excavation and support",
+                            .part = SectionPart{},
+                            .install_bolts = input.bolts.has_value(),
+                            .install_lining = input.lining.has_value()});
+    return;
+  }
+  const std::string table = input.has_rounds ? "round" : "stage";
+  if (checker.faulty(table)) return;
+  const auto key = [&](std::size_t i) { return table + "[" + std::to_string(i) + "]"; };
+  for (std::size_t i = 1; i < input.stages.size(); ++i) {
+    // Of what a round excavates, the wall has all of its traction yet.
+    if (input.has_rounds && input.stages[i].part) continue;
+    if (input.stages[i].wall_traction > input.stages[i - 1].wall_traction)
+      checker.report(
+          key(i) + ".wall_traction", "is above that of the stage before",
+          "at most " + format_quantity(input.stages[i - 1].wall_traction, dimension::number));
+  }
+  if (input.stages.back().wall_traction > 0)
+    checker.report(key(input.stages.size() - 1) + ".wall_traction",
+                   "leaves traction on the wall at the end", "\"0 %\" in the last " + table);
+
+  const auto check_support = [&](const std::string& word, bool StageInput::*install, bool exists) {
+    bool installed = false;
+    for (std::size_t i = 0; i < input.stages.size(); ++i) {
+      if (!(input.stages[i].*install)) continue;
+      const std::string place = key(i) + ".install";
+      if (!exists && !checker.faulty("support"))
+        checker.report(place, "names " + word + ", which the file does not describe",
+                       "a table [support." + word + "]");
+      if (installed) checker.report(place, "names " + word + " again", "each support once");
+      installed = true;
+    }
+    if (exists && !installed)
+      checker.report("support." + word, "is in no stage",
+                     "install = [\"" + word + "\"] in one [[" + table + "]]");
+  };
+  check_support("bolts", &StageInput::install_bolts, input.bolts.has_value());
+  check_support("lining", &StageInput::install_lining, input.lining.has_value());
+}
+
+void check_diagram(Checker& checker, const Input& input) {
+  if (!input.diagram || checker.faulty("diagram")) return;
+  if (!input.bolts && input.diagram->spacing.front() && !checker.faulty("support"))
+    checker.report("diagram.spacing", "varies bolts, which the file does not describe",
+                   "a table [support.bolts]");
+  if (!input.lining && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
+    checker.report("diagram.thickness", "varies a lining, which the file does not describe",
+                   "a table [support.lining]");
+}
+
+}  // namespace
+
+void check_together(Checker& checker, Input& input) {
+  check_opening(checker, input);
+  check_snap(checker, input);
+  check_arc(checker, input);
+  check_bond(checker, input);
+  check_boundary(checker, input);
+  check_spatial(checker, input);
+  check_rounds(checker, input);
+  check_size(checker, input);
+  if (input.bolts) check_bolts(checker, *input.bolts);
+  check_stages(checker, input);
+  check_diagram(checker, input);
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "joint_sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <voussoir/core/elementary.hpp>
+#include <voussoir/core/units.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/rockmass/trace_in_section.hpp>
+
+namespace voussoir::program {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Standard deviation of the dip of the traces, to first order [rad].
+double trace_deviation(const JointSetInput& set, double trend, const TraceInSection& trace) {
+  // The normals of Fisher's distribution stray by 1 / sqrt(K) to either side.
+  if (set.fisher) return std::min(1 / (std::sqrt(*set.fisher) * trace.sine), 45 * degree);
+  if (trace.sine == 1) return set.sd;
+  const double across = std::abs(elementary::sine(set.plane.dip_direction - trend));
+  return std::min(set.sd * across / (trace.sine * trace.sine), 45 * degree);
+}
+
+}  // namespace
+
+double mean_extent(const JointSetInput& set) {
+  // The traces of discs on planes at random through them are pi/4 of the diameter in the mean.
+  return set.strike_extent ? set.extent : set.extent * 4 / std::numbers::pi;
+}
+
+double p32_of(const JointSetInput& set, double trend) {
+  if (set.p32) return *set.p32;
+  if (set.spacing) return 1 / *set.spacing;
+  return set.intensity.value_or(0) * set.extent / trace_in_section(set.plane, trend).sine;
+}
+
+std::optional<JointSet> section_set(const JointSetInput& set, double trend) {
+  const TraceInSection trace = trace_in_section(set.plane, trend);
+  if (trace.sine < elementary::sine(least_angle_to_section)) return std::nullopt;
+  JointSet shown{set.name, trace.dip, trace.direction, trace_deviation(set, trend, trace)};
+  shown.extent = set.extent;
+  if (set.intensity)
+    shown.intensity = *set.intensity;
+  else if (set.spacing)
+    shown.spacing = *set.spacing / trace.sine;
+  else if (std::isinf(set.extent))
+    shown.spacing = 1 / (set.p32.value_or(0) * trace.sine);
+  else
+    shown.intensity = set.p32.value_or(0) * trace.sine / set.extent;
+  return shown;
+}
+
+std::string section_text(const JointSetInput& set, double trend) {
+  const auto degrees = [](double angle) { return significant_text(angle / degree, 3) + " deg"; };
+  if (!set.is_random()) return "";
+  const auto shown = section_set(set, trend);
+  if (!shown)
+    return set.name + ": runs along the section, within " + degrees(least_angle_to_section) +
+           ": it has no traces there, and is left out";
+  const TraceInSection trace = trace_in_section(set.plane, trend);
+  if (trace.sine == 1) return "";
+  std::string text = set.name + ": dip " + degrees(set.plane.dip) + " towards " +
+                     degrees(set.plane.dip_direction) + " is an apparent dip of " +
+                     degrees(shown->dip) + " to the " +
+                     (shown->dip_direction == DipDirection::east ? "right" : "left");
+  if (shown->spacing > 0) text += ", joints " + significant_text(shown->spacing, 3) + " m apart";
+  return text + " in the section";
+}
+
+bool is_of_section(const Input& input, const JointSetInput& set) {
+  return !set.is_azimuth && !input.tunnel.trend;
+}
+
+SpatialJointSet spatial_set(const JointSetInput& set, double trend) {
+  double towards = set.plane.dip_direction - trend;
+  if (towards < 0) towards += 2 * std::numbers::pi;
+  SpatialJointSet made{set.name, set.plane.dip, towards};
+  if (set.fisher)
+    made.fisher_concentration = *set.fisher;
+  else
+    made.dip_deviation = set.sd;
+  if (set.spacing)
+    made.spacing = *set.spacing;
+  else
+    made.area_per_volume = p32_of(set, trend);
+  if (std::isfinite(set.extent)) {
+    if (set.strike_extent)
+      made.shape = RectangularJoints{*set.strike_extent, set.extent};
+    else
+      made.shape = DiscJoints{mean_extent(set)};
+  }
+  return made;
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+#include <voussoir/equilibrium/equilibrium.hpp>
+#include <voussoir/tunnel/construction.hpp>
+
+#include "joint_report.hpp"
+
+/// What outputs of runs in 2-D and 3-D, and of blocks that are laid, have in common.
+namespace voussoir::program {
+
+/// A number by a format of printf.
+[[nodiscard]] std::string text(const char* format, double value);
+/// The same; "not computed" of what is no number.
+[[nodiscard]] std::string computed(const char* format, double value);
+
+/// With m², m³ for m2, m3: a picture has what a terminal may not.
+[[nodiscard]] std::string with_superscripts(std::string text);
+
+/// Strength of what has none.
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
+[[nodiscard]] nlohmann::json strength_json(double strength);
+[[nodiscard]] nlohmann::json of_strength_json(double force, double strength);
+
+/// The numbers that decided one search.
+/// @param measure  what is lost of rock: "area_m2", "volume_m3"
+[[nodiscard]] nlohmann::json report_json(const EquilibriumReport& report,
+                                         const std::string& measure = "area_m2");
+[[nodiscard]] nlohmann::json stages_json(const std::vector<StageResult>& stages,
+                                         const std::string& measure);
+[[nodiscard]] nlohmann::json rockfall_json(const RockfallRange& range, const std::string& measure);
+[[nodiscard]] nlohmann::json joints_json(const std::vector<JointSource>& sources);
+[[nodiscard]] nlohmann::json convergence_json(const Convergence& c);
+
+/// How much would come off otherwise; empty where that is the same.
+/// @param unit  "m2", "m3"
+[[nodiscard]] std::string margin_text(const std::optional<RockfallRange>& range,
+                                      const std::string& unit);
+
+/// Lines for a terminal.
+[[nodiscard]] std::string joint_lines(const std::vector<JointSource>& sources);
+[[nodiscard]] std::string stage_lines(const std::vector<StageResult>& stages);
+/// What has come off.
+struct LossText {
+  double fallen;     ///< over all stages
+  std::string unit;  ///< "m2", "m3"
+  bool lost_lining;
+  std::string margin;  ///< see `margin_text`
+};
+[[nodiscard]] std::string verdict_lines(const EquilibriumReport& last, const LossText& loss,
+                                        double seconds);
+
+}  // namespace voussoir::program

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+#include "models.hpp"
+
+template class voussoir::ComposedSolver<voussoir::program::SpatialTunnel::Parts::Models>;
