@@ -237,6 +237,18 @@ TEST_SUITE("program/spatial") {
     CHECK(without.json.at("rock").at("joints_by_source").size() == 1);
   }
 
+  TEST_CASE("the example is a tunnel in rounds and a section") {
+    const std::string file = VOUSSOIR_TEST_EXAMPLES "/rounds/horseshoe.toml";
+    const Input space = read_input(file);
+    CHECK(space.is_spatial());
+    CHECK(space.round_count() == 6);
+    CHECK(unusual_values(space).empty());
+    const Results section = results_of(read_file(file), in_section);
+    CHECK(section.json.at("stages").size() == 4);
+    // Bedding strikes along the tunnel, J1 nearly, J2 across: traces of it are far apart.
+    CHECK(section.json.at("rock").at("joints_in_section").size() == 2);
+  }
+
   TEST_CASE("turned with its joints a tunnel is the same, in 3-D") {
     // Compass readings and trend turned by the same angle are one rock.
     const auto at = [](double trend) {
