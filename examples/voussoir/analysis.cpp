@@ -309,6 +309,7 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
     if constexpr (std::is_same_v<decltype(tunnel), SpatialTunnel>) {
       result.convergence = middle_convergence(input, tunnel, rock.opening);
       result.demand = per_metre(input, result.demand);
+      result.fallen /= input.round_count() * input.stretch();
     } else {
       result.convergence = built.stages.back().convergence;
     }

@@ -119,7 +119,7 @@ struct TunnelResult {
   Verdict verdict = Verdict::undecided;
   bool failed = false;       ///< it could not be computed: the reason says why
   bool lost_lining = false;  ///< a lining came off its wall
-  double fallen = 0;         ///< rock that detached, over all stages [m^2]
+  double fallen = 0;         ///< rock that detached, over all stages; 3-D: per metre driven [m^2]
   bool marginal = false;     ///< that hangs on limits and rates, see `RockfallRange`
   std::string reason;        ///< of the verdict, one sentence
   Convergence convergence = {not_computed, not_computed, not_computed, not_computed};  ///< [m]
