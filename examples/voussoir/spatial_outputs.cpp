@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
@@ -141,8 +140,6 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   TunnelPictureText words;
   if (!input.title.empty()) words.title = input.title;
   words.axes = {"right", "along", "up"};
-  if (input.tunnel.trend)
-    words.axes[1] += text(" (%.0f\u00b0)", *input.tunnel.trend * 180 / std::numbers::pi);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, words);

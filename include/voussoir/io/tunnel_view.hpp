@@ -194,7 +194,7 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   const double pull = draw_lines("bolts", scene.bolts, "#b2182b", 0.6, 2.6);
 
   canvas.begin_layer("key");
-  draw_axes(canvas, {frame.low.x() + 50, foot + 60}, 40, view, scene.axes);
+  draw_axes(canvas, {frame.low.x() + 36, foot + 60}, 40, view, scene.axes);
   draw_scale_bar(canvas, {frame.low.x() + 130, foot + 62}, 130, map.scale());
   const double bar = frame.low.x() + 330;
   constexpr int steps = 60;

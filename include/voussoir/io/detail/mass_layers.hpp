@@ -187,8 +187,11 @@ VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double len
     const std::array<Vec2, 3> head = {tip, tip - 8 * along + 3 * perpendicular(along),
                                       tip - 8 * along - 3 * perpendicular(along)};
     canvas.polygon(head, {.fill = "#111"});
-    canvas.text(tip + 10 * along + Vec2(0, 4.5), names[static_cast<std::size_t>(axis)],
-                {.anchor = TextAnchor::middle});
+    // A word beside an arrow begins behind its tip.
+    const std::string& name = names[static_cast<std::size_t>(axis)];
+    const bool is_aside = name.size() > 2 && along.x() > 0.5;
+    canvas.text(tip + (is_aside ? 5 : 10) * along + Vec2(0, 4.5), name,
+                {.anchor = is_aside ? TextAnchor::start : TextAnchor::middle});
   }
 }
 
