@@ -310,6 +310,8 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
       result.convergence = middle_convergence(input, tunnel, rock.opening);
       result.demand = per_metre(input, result.demand);
       result.fallen /= input.round_count() * input.stretch();
+      if (result.fallen > 0 && !built.rockfall_range())
+        result.warnings.emplace_back("rock came off; whether that is marginal was not looked for");
     } else {
       result.convergence = built.stages.back().convergence;
     }

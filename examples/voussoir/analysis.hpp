@@ -69,7 +69,7 @@ using GeneratedRock = GeneratedRockIn<Planar>;
 ///                       joint of those asked for, or of one source of them, cuts the rock
 /// @throws Stopped       `progress` said so
 [[nodiscard]] GeneratedRock rock_of(const Input& input, const Progress& progress = {});
-/// The same in 3-D, of the sets alone.
+/// Slices the rock of an input in 3-D, of the sets alone.
 [[nodiscard]] GeneratedRockIn<Spatial> spatial_rock_of(const Input& input,
                                                        const Progress& progress = {});
 

@@ -16,7 +16,7 @@ namespace voussoir::program {
 
 /// A number by a format of printf.
 [[nodiscard]] std::string text(const char* format, double value);
-/// The same; "not computed" of what is no number.
+/// A number by a format of printf; "not computed" of what is no number.
 [[nodiscard]] std::string computed(const char* format, double value);
 
 /// With m², m³ for m2, m3: a picture has what a terminal may not.

@@ -22,7 +22,7 @@ namespace voussoir::program {
 /// The results in a few lines for a terminal.
 [[nodiscard]] std::string run_summary(const Input& input, const RunResult& run);
 
-/// The same in 3-D: volumes in place of areas, and forces of a lining over the width of its strips.
+/// Outputs in 3-D: volumes in place of areas, and forces of a lining over the width of its strips.
 [[nodiscard]] std::string run_json(const Input& input, const SpatialRunResult& run);
 [[nodiscard]] std::string bolts_csv(const Input& input, const SpatialRunResult& run);
 /// One row per member.

@@ -52,7 +52,7 @@ std::string rockfall_sentence(const SpatialRunResult& run) {
            text("%.1f t down or support it",
                 1e-3 * run.tunnel.in_situ().density * run.fallen_measure());
   const std::string margin = margin_text(run.rockfall(), "m3");
-  if (!run.rockfall()) return out + "; whether that is marginal was not looked for, round by round";
+  if (!run.rockfall()) return out + "; whether that is marginal was not looked for";
   return margin.empty() ? out : out + "; marginal: " + margin;
 }
 

@@ -15,14 +15,14 @@ namespace voussoir {
 struct RibForce {
   Vec3 position;  ///< [m]
   double thrust;  ///< N, compression positive [N]
-  double shear;   ///< V in the plane of the section [N]
-  double moment;  ///< M in that plane, positive when the outer fibre is in tension [N m]
+  double shear;   ///< V across the rib, radial [N]
+  double moment;  ///< M about the axis of the tunnel, positive: outer fibre in tension [N m]
   int lining;     ///< which it is of, in the order of installation
 };
 
 /// All linings of a solver in 3-D, one entry per node that stands: the mean of the two members that
 /// meet there across the opening, one that joins two linings among these. What runs along the
-/// opening from rib to rib does not count, nor does bending out of the plane of the section.
+/// opening from rib to rib does not count, nor does bending along the tunnel.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] std::vector<RibForce> rib_forces(const Solver& solver) {
   const auto& system = solver.system();
