@@ -32,6 +32,7 @@
 #include <voussoir/io/mass_picture.hpp>
 #include <voussoir/io/operating_system.hpp>
 #include <voussoir/io/solved_picture.hpp>
+#include <voussoir/io/stereonet_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/voussoir.hpp>

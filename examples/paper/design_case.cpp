@@ -192,7 +192,7 @@ struct ExcavatedRock::Parts {
 
 ExcavatedRock::ExcavatedRock(std::uint64_t seed, const Variant& variant) {
   Tunnel tunnel(sliced_rock(mass_a, seed, domain(variant.extent)),
-                CoulombJoint({normal_stiffness, shear_stiffness, variant.friction}),
+                AnyJoint(CoulombJoint({normal_stiffness, shear_stiffness, variant.friction})),
                 {.density = density, .k0 = variant.k0, .gravity = gravity}, opening(), 0.074);
   parts_ = std::make_unique<Parts>(Parts{seed, std::move(tunnel)});
 }

@@ -18,10 +18,12 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "mapped_rock.hpp"
 #include "plausibility.hpp"
 #include "spatial_analysis.hpp"
+#include "survey.hpp"
 
 namespace voussoir::program {
 
@@ -48,6 +50,8 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   std::vector<std::string> warnings = run.warnings;
   for (std::string& text : unusual_values(input)) warnings.push_back(std::move(text));
   if (!input.unused.empty()) warnings.push_back(input.unused_text());
+  if (input.survey && !input.survey->left_out.empty())
+    warnings.push_back(left_out_text(*input.survey));
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
   if (mass.slicing.coincident > 0)
@@ -61,13 +65,10 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(mass.carving.dropped_measure) + " m2 in all; the wall is the rock behind them" +
          (input.lining ? ", a lining fills the holes to " + number(input.lining->fill_depth) + " m"
                        : std::string()));
-  const double needed = run.tunnel.in_situ().required_friction_angle();
-  double friction = input.joint.friction_angle;
-  for (const JointSetInput& set : input.joint_sets)
-    friction = std::min(friction, set.friction_angle.value_or(friction));
-  if (needed > friction)
-    warn("in situ: with K0 = " + number(input.stress.K0) + " some joint orientations need " +
-         number(needed * 180 / std::numbers::pi) +
+  const double needed = run.tunnel.in_situ().required_friction_angle(input.domain_top());
+  if (needed >
+      (1 + 1e-12) * least_friction_angle(input, run.tunnel.in_situ().vertical(input.domain_top())))
+    warn("in situ: some joint orientations need " + number(needed * 180 / std::numbers::pi) +
          " deg of friction; joints that cannot carry the " +
          "in-situ shear slip at the first equilibrium");
   const SupportCondition supports = support_condition(run.tunnel);
@@ -166,7 +167,7 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
   const Progress progress = [&](double fraction) { return report("blocks", fraction); };
   const SimplePolygon opening = opening_of(input);
   const GeneratedRock rock = rock_of(input, progress);
-  const LawsBySet<CoulombJoint> laws = laws_of(input);
+  const LawsBySet<AnyJoint> laws = laws_of(input);
   double unbalance = 0;
   const auto in_situ_tunnel = [&](const FarField<2>& far_field) {
     return Tunnel(rock.mass, laws, in_situ_of(input), progress, far_field);

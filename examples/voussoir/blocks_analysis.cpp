@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "joint_laws.hpp"
 #include "plausibility.hpp"
 
 namespace voussoir::program {
@@ -63,9 +64,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
     return [&report, stage](double fraction) { return report(stage, fraction); };
   };
   BlocksRun run{
-      Tunnel(laid_blocks<Planar>(shapes_of(laid)),
-             CoulombJoint({input.joint.normal_stiffness, input.joint.shear_stiffness,
-                           input.joint.friction_angle}),
+      Tunnel(laid_blocks<Planar>(shapes_of(laid)), joint_of(input.joint),
              {.density = input.rock.density, .gravity = input.model.gravity, .is_laid = true},
              progress("blocks")),
       {},

@@ -36,7 +36,7 @@ FarField<2> as_asked(const std::optional<ElasticMatrix<2>>& moduli, const Bounda
 
 /// @param why  set where there are none
 std::optional<ElasticMatrix<2>> moduli_of(const BoundaryInput& input, const RockMass<Planar>& mass,
-                                          const LawsBySet<CoulombJoint>& laws, std::string& why,
+                                          const LawsBySet<AnyJoint>& laws, std::string& why,
                                           const Progress& progress) {
   if (input.young_modulus)
     return elastic_matrix<2>(
@@ -56,7 +56,7 @@ std::optional<ElasticMatrix<2>> moduli_of(const BoundaryInput& input, const Rock
 }  // namespace
 
 BoundedTunnel bounded_tunnel(const Input& input, const RockMass<Planar>& mass,
-                             const LawsBySet<CoulombJoint>& laws, const TunnelOf& tunnel_of,
+                             const LawsBySet<AnyJoint>& laws, const TunnelOf& tunnel_of,
                              bool wants_bias, const Progress& progress) {
   const BoundaryInput& asked = input.boundary;
   const bool is_elastic =

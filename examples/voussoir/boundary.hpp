@@ -39,7 +39,7 @@ struct BoundedTunnel {
 /// @param wants_bias  false: the bias of a boundary that the file has chosen is not asked for
 /// @throws InvalidInput  elastic ground is asked for, and the moduli of the rock cannot be measured
 [[nodiscard]] BoundedTunnel bounded_tunnel(const Input& input, const RockMass<Planar>& mass,
-                                           const LawsBySet<CoulombJoint>& laws,
+                                           const LawsBySet<AnyJoint>& laws,
                                            const TunnelOf& tunnel_of, bool wants_bias,
                                            const Progress& progress);
 

@@ -288,7 +288,9 @@ std::string CasePlan::joints_of(const Input& input) {
     throw InvalidInput(
         "joints.file: " + utf8_text(input.joints_file) +
         " is no file that can be read again and again\n   = accepted: a regular file");
-  const auto line = std::find_if(input.content.begin(), input.content.end(), names_a_file);
+  const auto line =
+      std::find_if(input.content.begin(), input.content.end(),
+                   [](const std::string& text) { return text.starts_with("joints.file = "); });
   std::string name;  // in quotes, with a backslash before what would end them
   const std::string value = value_of(*line);
   for (std::size_t k = 1; k + 1 < value.size(); ++k)

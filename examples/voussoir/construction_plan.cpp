@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "construction_plan.hpp"
 
-#include "mapped_rock.hpp"
+#include "joint_laws.hpp"
 
 namespace voussoir::program {
 
-LawsBySet<CoulombJoint> laws_of(const Input& input) {
-  LawsBySet<CoulombJoint> laws(CoulombJoint(mechanics_of(input, -1)));
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
-    const JointSetInput& set = input.joint_sets[k];
-    if (!set.normal_stiffness && !set.shear_stiffness && !set.friction_angle) continue;
-    const int index = static_cast<int>(k);
-    laws.add(index, CoulombJoint(mechanics_of(input, index)));
-  }
+LawsBySet<AnyJoint> laws_of(const Input& input) {
+  LawsBySet<AnyJoint> laws(joint_of(input.joint));
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
+    if (const auto& own = input.joint_sets[k].law) laws.add(static_cast<int>(k), joint_of(*own));
   return laws;
 }
 

@@ -25,7 +25,7 @@ struct SupportChoice {
 };
 
 /// The law of the joints, and of those sets that differ.
-[[nodiscard]] LawsBySet<CoulombJoint> laws_of(const Input& input);
+[[nodiscard]] LawsBySet<AnyJoint> laws_of(const Input& input);
 [[nodiscard]] Acceptance acceptance_of(const Input& input, const SimplePolygon& opening);
 /// One row around the section.
 [[nodiscard]] BoltPattern pattern_of(const BoltsInput& bolts, const BoltSpacing& spacing);

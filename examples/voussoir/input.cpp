@@ -10,12 +10,15 @@
 #include <voussoir/io/operating_system.hpp>
 
 #include "blocks_input.hpp"
+#include "drawn_outline.hpp"
 #include "input_checks.hpp"
 #include "input_document.hpp"
 #include "input_section.hpp"
+#include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "orientation_input.hpp"
 #include "plausibility.hpp"
+#include "survey.hpp"
 
 namespace voussoir::program {
 
@@ -30,7 +33,7 @@ Range angle_below_90() { return {.low = 0, .high = degrees(90), .high_included =
 // ---- 16 digits of a number, and a body then "can move without resistance"; or blocks take for
 // ---- ever to fall.
 
-constexpr Range per_area_range{.low = 1e3, .high = 1e12};       // joints, interface [Pa/m]
+constexpr Range per_area_range{.low = 1e3, .high = 1e12};       // interface [Pa/m]
 constexpr Range bolt_range{.low = 1e3, .high = 1e12};           // of one bolt [N/m]
 constexpr Range modulus_range{.low = 1e6, .high = 1e12};        // of a lining [Pa]
 constexpr Range density_range{.low = 1, .high = 1e5};           // [kg/m^3]
@@ -64,6 +67,28 @@ void read_model(Section& s, Input& input) {
     model.origin = value->as_point().value_or(model.origin);
 }
 
+void read_stress(Section& s, Input& input) {
+  StressInput& stress = input.stress;
+  s.number("K0", stress.K0, between(0, 10), Need::required);
+  if (const auto value = s.find("K0_minor", Need::optional))
+    stress.K0_minor = value->as_number(between(0, 10));
+  s.quantity("K0_trend", stress.K0_trend, dimension::angle, between(0, degrees(360)));
+  s.quantity("horizontal", stress.horizontal, dimension::pressure, surcharge_range, Need::optional);
+  s.quantity("surcharge", stress.surcharge, dimension::pressure, surcharge_range, Need::optional);
+  if (s.has("K0_minor") != s.has("K0_trend"))
+    s.complain(
+        s.has("K0_minor") ? "K0_minor" : "K0_trend",
+        std::string("is given without ") + (s.has("K0_minor") ? "K0_trend" : "K0_minor"),
+        R"(both: K0 of the major horizontal stress, K0_minor, and K0_trend = "120 deg" of the major one, clockwise from North)");
+  else if (stress.K0_minor && *stress.K0_minor > stress.K0 && !s.faulty("K0"))
+    s.complain("K0_minor", "is more than K0, that of the major horizontal stress",
+               "0 to " + shortest_text(stress.K0));
+  else if (stress.K0_minor && !input.tunnel.trend && !s.checker().faulty("tunnel"))
+    s.complain(
+        "K0_trend", "says where the stress goes, and nothing where the tunnel does",
+        R"(tunnel.trend = "0 deg" besides it, clockwise from North, looking along the tunnel)");
+}
+
 void read_boundary(Section& s, BoundaryInput& boundary) {
   using Choice = std::optional<Boundary>;
   (void)s.choice<Choice>("sides", boundary.sides,
@@ -86,6 +111,21 @@ void read_boundary(Section& s, BoundaryInput& boundary) {
   });
 }
 
+/// A path in the file is UTF-8 whatever the system's own encoding.
+/// @return  resolved; empty if there is none
+std::filesystem::path read_path(Section& s, std::string_view key, Need need,
+                                const std::filesystem::path& directory) {
+  const std::string form = "a file name, relative to the input file";
+  const auto value = s.find(key, need, form);
+  const auto text = value ? value->as_text() : std::nullopt;
+  if (!text) return {};
+  if (text->empty()) {
+    value->refuse("is empty", form);
+    return {};
+  }
+  return directory / utf8_path(*text);
+}
+
 /// Twice the area, positive when anticlockwise, about the first vertex (site coordinates).
 double signed_area(const std::vector<Point>& v) {
   double sum = 0;
@@ -95,76 +135,42 @@ double signed_area(const std::vector<Point>& v) {
   return sum;
 }
 
-double turn(const Point& a, const Point& b, const Point& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-}
-
-bool within_box(const Point& a, const Point& b, const Point& p) {
-  return p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) &&
-         p[1] >= std::min(a[1], b[1]) && p[1] <= std::max(a[1], b[1]);
-}
-
-/// Whether the closed segments ab and cd have a point in common.
-bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const double c_side = turn(a, b, c), d_side = turn(a, b, d);
-  const double a_side = turn(c, d, a), b_side = turn(c, d, b);
-  if (((c_side > 0 && d_side < 0) || (c_side < 0 && d_side > 0)) &&
-      ((a_side > 0 && b_side < 0) || (a_side < 0 && b_side > 0)))
-    return true;
-  return (c_side == 0 && within_box(a, b, c)) || (d_side == 0 && within_box(a, b, d)) ||
-         (a_side == 0 && within_box(c, d, a)) || (b_side == 0 && within_box(c, d, b));
-}
-
-bool contains_centre(const std::vector<Point>& v) {
-  bool inside = false;
-  for (std::size_t i = 0, j = v.size() - 1; i < v.size(); j = i++)
-    if ((v[i][1] > 0) != (v[j][1] > 0) &&
-        v[i][0] - v[i][1] * (v[j][0] - v[i][0]) / (v[j][1] - v[i][1]) > 0)
-      inside = !inside;
-  return inside;
-}
-
-/// @return  what keeps the vertices from being a simple polygon around (0, 0); empty if they are.
-/// @cost  O(n^2) for n vertices
-std::string polygon_fault(const std::vector<Point>& v) {
-  const auto named = [](std::size_t i) { return std::to_string(i); };
-  const std::size_t count = v.size();
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i + 1; j < count; ++j)
-      if (v[i] == v[j]) return "repeats vertex " + named(i) + " as vertex " + named(j);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Point &a = v[i], &b = v[(i + 1) % count], &c = v[(i + 2) % count];
-    const double ahead = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]);
-    if (turn(a, b, c) == 0 && ahead < 0)
-      return "folds back on itself at vertex " + named((i + 1) % count);
-    for (std::size_t j = i + 2; j < count; ++j) {
-      if ((j + 1) % count == i) continue;  // neighbours share a vertex
-      if (segments_meet(a, b, v[j], v[(j + 1) % count]))
-        return "crosses itself: the sides from vertex " + named(i) + " and from vertex " +
-               named(j) + " meet";
-    }
-  }
-  if (signed_area(v) == 0) return "encloses no area";
-  if (!contains_centre(v)) return "does not contain the tunnel centre (0, 0)";
-  return "";
-}
-
-void read_vertices(Section& s, std::vector<Point>& vertices) {
+void read_vertices(Section& s, std::vector<Point>& vertices, Need need) {
   const std::string form =
       R"(3 to 2000 points [["-2 m", "-2 m"], ["2 m", "-2 m"], ["0 m", "3 m"]] around the tunnel centre, sides that do not cross)";
-  const auto value = s.find("vertices", Need::required, form);
+  const auto value = s.find("vertices", need, form);
   if (!value) return;
   const auto points = value->as_list(3, 2000, form);
   if (!points) return;
   for (const Value& point : *points)
     if (const auto read = point.as_point()) vertices.push_back(*read);
   if (vertices.size() != points->size()) return;  // already reported
-  if (const std::string fault = polygon_fault(vertices); !fault.empty())
+  // Closed by its first point, or with a point twice, it is the same outline.
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  if (vertices.size() > 1 && vertices.front() == vertices.back()) vertices.pop_back();
+  if (const std::string fault = outline_fault(vertices); !fault.empty())
     return s.checker().report(value->node().place, value->key(), value->key() + " " + fault, form);
   if (signed_area(vertices) < 0) std::reverse(vertices.begin(), vertices.end());
 }
 
-void read_tunnel(Section& s, Input& input) {
+/// The outline by its points, or from a drawing.
+void read_outline(Section& s, Input& input, const std::filesystem::path& directory) {
+  const bool has_file = s.has("file");
+  read_vertices(s, input.tunnel.vertices, has_file ? Need::optional : Need::required);
+  const std::filesystem::path file = read_path(s, "file", Need::optional, directory);
+  std::string layer;
+  double unit = 0;
+  s.only_with(has_file, "file", [&] {
+    s.text("layer", layer);
+    read_drawing_unit(s, unit);
+  });
+  if (file.empty() || s.faulty("unit") || s.checker().faulty("model")) return;
+  if (s.has("vertices"))
+    return s.complain("vertices", "are given besides tunnel.file", "one of the two");
+  input.tunnel.vertices = drawn_outline(s, input, file, layer, unit);
+}
+
+void read_tunnel(Section& s, Input& input, const std::filesystem::path& directory) {
   TunnelInput& tunnel = input.tunnel;
   const bool known = s.choice<TunnelShape>("shape", tunnel.shape,
                                            {{"circle", TunnelShape::circle},
@@ -183,7 +189,7 @@ void read_tunnel(Section& s, Input& input) {
     s.quantity("width", tunnel.width, dimension::length, above(0), Need::required);
     s.quantity("wall_height", tunnel.wall_height, dimension::length, above(0), Need::required);
   });
-  of_shape(TunnelShape::polygon, "polygon", [&] { read_vertices(s, tunnel.vertices); });
+  of_shape(TunnelShape::polygon, "polygon", [&] { read_outline(s, input, directory); });
   s.quantity("cover", tunnel.cover, dimension::length, above(0), Need::required);
   s.integer("facets", tunnel.facets, 12, 720);
   s.quantity("trend", tunnel.trend, dimension::angle, between(0, degrees(360)));
@@ -194,16 +200,42 @@ void read_tunnel(Section& s, Input& input) {
   for (const char* const key : {"round_length", "rounds"}) note_unused(input, s, key);
 }
 
-/// @param is_mapped  joints.file may give the joints of a set that has no random ones
-void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped) {
+/// The law of the spacings fits what is said of them.
+void check_spacing(Section& s, const JointSetInput& set) {
+  const bool is_lognormal = set.spacing_law == SpacingLaw::lognormal;
+  if (set.spacing_law != SpacingLaw::fixed && (!set.spacing || std::isfinite(set.extent)))
+    s.complain("spacing_law",
+               "is of joints that go right through, by their spacing; others lie independently of "
+               "each other",
+               "a key spacing and no extent, or no spacing_law");
+  else if (is_lognormal && !s.has("spacing_sd"))
+    s.complain("spacing_law", "lacks its standard deviation", R"(spacing_sd = "0.5 m" besides it)");
+  else if (!is_lognormal && s.has("spacing_sd"))
+    s.complain("spacing_sd", "is of a lognormal spacing alone", R"(spacing_law = "lognormal")");
+  else if (set.spacing && set.spacing_sd && *set.spacing_sd > 3 * *set.spacing)
+    s.complain("spacing_sd", "is more than three times the spacing",
+               "at most " + format_quantity(3 * *set.spacing, dimension::length));
+}
+
+/// @param is_mapped    joints.file may give the joints of a set that has no random ones
+/// @param is_surveyed  joints.orientations may give the orientation of one that says nothing of it
+void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped,
+                    bool is_surveyed) {
   const int given = s.has("intensity") + s.has("spacing") + s.has("P32");
   const bool is_random = given > 0;
-  const Need need = is_mapped && !is_random ? Need::optional : Need::required;
+  set.wants_survey = is_surveyed && is_random && !s.has("dip") && !s.has("dip_direction");
+  const Need need = (is_mapped && !is_random) || set.wants_survey ? Need::optional : Need::required;
   s.text("name", set.name);
   read_orientation(s, set, need);
   s.quantity("intensity", set.intensity, dimension::intensity,
              {.low = 0, .high = 1e4, .low_included = false});
   s.quantity("spacing", set.spacing, dimension::length, above(0));
+  (void)s.choice<SpacingLaw>("spacing_law", set.spacing_law,
+                             {{"fixed", SpacingLaw::fixed},
+                              {"exponential", SpacingLaw::exponential},
+                              {"lognormal", SpacingLaw::lognormal}},
+                             Need::optional);
+  s.quantity("spacing_sd", set.spacing_sd, dimension::length, above(0));
   s.quantity("P32", set.p32, dimension::area_per_volume,
              {.low = 0, .high = 1e4, .low_included = false});
   s.only_with(is_random || !is_mapped, "intensity, spacing or P32", [&] {
@@ -215,18 +247,17 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
     s.quantity("strike_extent", set.strike_extent, dimension::length, above(0));
   });
   if (!input.is_spatial()) note_unused(input, s, "strike_extent");
+  check_spacing(s, set);
   if (s.has("sd") && s.has("K"))
     s.complain("K", "is given besides sd", "one of the two; K = 1 / sd^2, sd in radians");
-  if (set.strike_extent && !set.is_azimuth && !input.tunnel.trend)
+  if (set.strike_extent && !set.is_azimuth && !set.wants_survey && !input.tunnel.trend)
     s.complain("strike_extent",
                "is of a set of the section, whose joints go on along the tunnel without end",
                "no strike_extent, or a dip_direction by azimuth and tunnel.trend");
   else if (set.strike_extent && std::isinf(set.extent) && !s.faulty("extent"))
     s.complain("strike_extent", "is of joints that have no extent down the dip",
                R"(extent = "2 m" besides it)");
-  s.quantity("kn", set.normal_stiffness, dimension::stiffness_per_area, per_area_range);
-  s.quantity("ks", set.shear_stiffness, dimension::stiffness_per_area, per_area_range);
-  s.quantity("friction", set.friction_angle, dimension::angle, angle_below_90());
+  if (JointLawInput law = read_joint_law(s, &input.joint); !law.given.empty()) set.law = law;
   if (given > 1) {
     s.complain(s.has("spacing") ? "spacing" : "P32",
                std::string("is given besides ") + (s.has("intensity") ? "intensity" : "P32"),
@@ -254,24 +285,20 @@ void read_mapped(Section& s, Input& input, const std::filesystem::path& director
       "dead_ends", mapped.dead_ends,
       {{"do_not_cut", DeadEnds::do_not_cut}, {"cut_through", DeadEnds::cut_through}},
       Need::optional);
-  const std::string form = "a file name, relative to the input file";
-  const auto value = s.find("file", Need::required, form);
-  const auto text = value ? value->as_text() : std::nullopt;
-  if (!text) return;
-  if (text->empty()) {
-    value->refuse("is empty", form);
-    return;
-  }
-  // A path in the file is UTF-8 whatever the system's own encoding.
-  input.joints_file = directory / utf8_path(*text);
-}
-
-void read_joint(Section& s, JointInput& joint) {
-  s.quantity("kn", joint.normal_stiffness, dimension::stiffness_per_area, per_area_range,
-             Need::required);
-  s.quantity("ks", joint.shear_stiffness, dimension::stiffness_per_area, per_area_range,
-             Need::required);
-  s.quantity("friction", joint.friction_angle, dimension::angle, angle_below_90(), Need::required);
+  const bool has_survey = s.has("orientations");
+  input.joints_file = read_path(s, "file", has_survey ? Need::optional : Need::required, directory);
+  s.only_with(is_drawing(input.joints_file), "a drawing as file",
+              [&] { read_drawing_unit(s, mapped.unit); });
+  if (const auto file = read_path(s, "orientations", Need::optional, directory); !file.empty())
+    input.survey.emplace().file = file;
+  SurveyInput unused;
+  SurveyInput& survey = input.survey ? *input.survey : unused;
+  s.only_with(has_survey, "orientations", [&] {
+    s.quantity("declination", survey.declination, dimension::angle,
+               between(-degrees(90), degrees(90)), Need::optional);
+    (void)s.choice<bool>("strike", survey.strike_is_right_handed, {{"right-hand", true}},
+                         Need::optional);
+  });
 }
 
 void read_blocks(Section& s, BlocksInput& blocks) {
@@ -580,7 +607,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     file.table("rock", [&](Section& s) {
       s.quantity("density", input.rock.density, dimension::density, density_range, Need::required);
     });
-    file.table("joint", [&](Section& s) { read_joint(s, input.joint); });
+    file.table("joint", [&](Section& s) { input.joint = read_joint_law(s, nullptr); });
     file.table("run", [&](Section& s) { read_run(s, input.run); });
   };
   if (has_laid_blocks(file)) {
@@ -589,25 +616,24 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     return file.finish();
   }
   file.table("model", [&](Section& s) { read_model(s, input); });
-  file.table("tunnel", [&](Section& s) { read_tunnel(s, input); });
+  file.table("tunnel", [&](Section& s) { read_tunnel(s, input, directory); });
   rock();
-  file.table("stress", [&](Section& s) {
-    s.number("K0", input.stress.K0, between(0, 10), Need::required);
-    s.quantity("surcharge", input.stress.surcharge, dimension::pressure, surcharge_range,
-               Need::optional);
-  });
+  file.table("stress", [&](Section& s) { read_stress(s, input); });
   file.table("boundary", [&](Section& s) { read_boundary(s, input.boundary); });
   file.tables("joint_set", [&](Section& s, std::size_t i) {
     JointSetInput& set = input.joint_sets.emplace_back();
     set.name = "set " + std::to_string(i + 1);
-    read_joint_set(s, input, set, file.has("joints"));
+    const bool is_surveyed = file.has("joints", "orientations");
+    read_joint_set(s, input, set,
+                   file.has("joints") && (file.has("joints", "file") || !is_surveyed), is_surveyed);
   });
+  file.optional_table("joints", [&](Section& s) { read_mapped(s, input, directory); });
+  read_survey(file, input);
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
     if (input.joint_sets[k].is_azimuth && input.joint_sets[k].is_random() && !input.tunnel.trend)
       file.complain("joint_set[" + std::to_string(k) + "].dip_direction",
                     "is an azimuth, and the file does not say where the tunnel goes",
                     R"(tunnel.trend = "0 deg", clockwise from North, looking along the tunnel)");
-  file.optional_table("joints", [&](Section& s) { read_mapped(s, input, directory); });
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
     support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
@@ -657,13 +683,23 @@ double TunnelInput::invert() const {
 }
 
 bool names_a_file(std::string_view line) {
-  return line.starts_with("joints.file = ") || line.starts_with("blocks.file = ");
+  for (const std::string_view key :
+       {"joints.file", "joints.orientations", "blocks.file", "tunnel.file"})
+    if (line.starts_with(std::string(key).append(" = "))) return true;
+  return false;
 }
 
 int Input::round_count() const {
   if (!tunnel.round_length) return 1;
   return tunnel.rounds.value_or(
       std::max(1, static_cast<int>(std::floor(model.length / *tunnel.round_length * (1 + 1e-9)))));
+}
+
+double Input::K0_across() const {
+  if (!stress.K0_minor) return stress.K0;
+  // The section's right is a quarter turn clockwise from the tunnel.
+  const double along = elementary::cosine(stress.K0_trend.value_or(0) - tunnel.trend.value_or(0));
+  return stress.K0 + (*stress.K0_minor - stress.K0) * along * along;
 }
 
 std::string Input::unused_text() const {
@@ -765,6 +801,16 @@ Input read_input_text(std::string_view text, const std::string& name,
   check_together(checker, input);
   checker.finish();
   input.content = canonical_lines(document);
+  // What a survey comes to decides the rock, wherever its file lies.
+  for (const JointSetInput& set : input.joint_sets)
+    if (set.surveyed >= 0)
+      input.content.push_back(set.name + " (surveyed) = " + shortest_text(set.plane.dip) + ", " +
+                              shortest_text(set.plane.dip_direction) + ", " +
+                              shortest_text(set.fisher.value_or(0)));
+  if (!input.tunnel.drawn.empty())
+    for (const Point& p : input.tunnel.vertices)
+      input.content.push_back("tunnel.file (a point) = " + shortest_text(p[0]) + ", " +
+                              shortest_text(p[1]));
   return input;
 }
 

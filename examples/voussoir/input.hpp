@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,6 +19,8 @@
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/rockmass/orientation.hpp>
+#include <voussoir/rockmass/orientation_sets.hpp>
+#include <voussoir/rockmass/spacing_law.hpp>
 #include <voussoir/theory/foot_beam.hpp>
 #include <voussoir/tunnel/lined_part.hpp>
 #include <voussoir/tunnel/ring_nodes.hpp>
@@ -59,8 +63,9 @@ struct TunnelInput {
   double width = 0;             ///< horseshoe: between its walls, = diameter of its roof [m], > 0
   double wall_height = 0;       ///< horseshoe: floor to springing [m], > 0
   std::vector<Point> vertices;  ///< polygon: simple, anticlockwise whatever the file's order
-  double cover = 0;             ///< crown to ground surface [m], > 0
-  int facets = 72;              ///< chords on a full circle, for the curved parts, 12 to 720
+  std::string drawn = {};  ///< how these were read from a drawing, in words; empty: they were not
+  double cover = 0;        ///< crown to ground surface [m], > 0
+  int facets = 72;         ///< chords on a full circle, for the curved parts, 12 to 720
   /// Of its axis, clockwise from North [rad], 0 to 2 pi; none: to the North, and only "E" and "W"
   /// say where joints dip.
   std::optional<double> trend;
@@ -79,10 +84,14 @@ struct RockInput {
   double density = 0;  ///< [kg/m^3], 1 to 1e5
 };
 
-/// [stress] In situ: vertical from depth, horizontal = K0 times vertical.
+/// [stress] In situ: vertical from depth, horizontal = K0 times vertical + a constant.
 struct StressInput {
-  double K0 = 0;         ///< horizontal / vertical [-], 0 to 10
-  double surcharge = 0;  ///< on the ground surface [Pa], 0 to 1e9
+  double K0 = 0;  ///< horizontal / vertical [-], 0 to 10; with `K0_minor` of the major one
+  std::optional<double> K0_minor;  ///< of the minor horizontal stress [-], 0 to K0
+  std::optional<double>
+      K0_trend;           ///< of the major one, clockwise from North [rad], with `K0_minor`
+  double horizontal = 0;  ///< constant, in all directions [Pa], 0 to 1e9
+  double surcharge = 0;   ///< on the ground surface [Pa], 0 to 1e9
 };
 
 /// [boundary] What the sides of the domain meet. Sides and base are given together.
@@ -95,6 +104,17 @@ struct BoundaryInput {
   double poisson_ratio = 0;  ///< nu, with E [-], -1 < . < 0.5
 };
 
+/// [joint] The mechanics of all joints whose set does not say otherwise: a contact law by its word
+/// and its parameters, see joint_laws.cpp.
+struct JointLawInput {
+  std::string law = "coulomb";
+  std::map<std::string, double, std::less<>> values;  ///< by their keys, in SI
+  std::vector<std::string> given;                     ///< keys that the file has
+
+  /// @pre the law has such a parameter
+  [[nodiscard]] double at(std::string_view key) const;
+};
+
 /// [[joint_set]] One family of joints: random ones, of which exactly one of intensity, spacing and
 /// P32 is given; or, with none, those that joints.file has of it.
 struct JointSetInput {
@@ -105,15 +125,36 @@ struct JointSetInput {
   std::optional<double> fisher;     ///< K, in place of sd [-], 5 to 1e6
   std::optional<double> intensity;  ///< trace centres per area of the section [1/m^2], > 0, <= 1e4
   std::optional<double> spacing;    ///< mean, across the joints [m], > 0
-  std::optional<double> p32;        ///< area of joints per volume [1/m], > 0, <= 1e4
+  /// Of joints that go right through, by their spacing; its standard deviation, lognormal [m], > 0.
+  SpacingLaw spacing_law = SpacingLaw::fixed;
+  std::optional<double> spacing_sd;
+  std::optional<double> p32;  ///< area of joints per volume [1/m], > 0, <= 1e4
   double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
   /// 3-D: along the strike, of rectangles that reach as far as `extent` down the dip [m], > 0;
   /// none: discs.
   std::optional<double> strike_extent;
-  /// Mechanics, where they differ from those of [joint]; ranges as there.
-  std::optional<double> normal_stiffness, shear_stiffness, friction_angle;
+  std::optional<JointLawInput> law;  ///< of its own; none: that of [joint]
+
+  /// Says nothing of its orientation, which `joints.orientations` has.
+  bool wants_survey = false;
+  int surveyed = -1;  ///< set of the survey from which that was taken; -1: none
 
   [[nodiscard]] bool is_random() const { return intensity || spacing || p32; }
+};
+
+/// [joints] orientations: what was measured with a compass, by sets.
+struct SurveyInput {
+  std::filesystem::path file;           ///< resolved
+  double declination = 0;               ///< added to its azimuths [rad], -pi/2 to pi/2
+  bool strike_is_right_handed = false;  ///< a column of strikes that says nothing of its rule
+  std::string name;                     ///< of the file, for messages
+  std::vector<SurveyedPlane> planes;
+  std::vector<std::string> set_names;  ///< empty: the file names none
+  bool has_one_set = false;            ///< for that
+  std::vector<FittedSet> fits;         ///< one for each set
+  std::string layout;                  ///< how it was read, in words
+  std::vector<std::string> notes;      ///< what was not taken as it stands
+  std::vector<std::string> left_out;   ///< sets that no joint set takes
 };
 
 /// [joints] Mapped joints.
@@ -123,13 +164,7 @@ struct MappedInput {
   /// none: half of that.
   std::optional<double> snap;
   DeadEnds dead_ends = DeadEnds::cut_through;
-};
-
-/// [joint] The mechanics of all joints whose set does not say otherwise.
-struct JointInput {
-  double normal_stiffness = 0;  ///< kn [Pa/m], 1e3 to 1e12
-  double shear_stiffness = 0;   ///< ks [Pa/m], 1e3 to 1e12
-  double friction_angle = 0;    ///< friction [rad], 0 <= . < pi/2
+  double unit = 0;  ///< of a drawing [m]; 0: as it says itself
 };
 
 /// [blocks] What is too small or too slender to become a block.
@@ -295,7 +330,8 @@ struct Input {
   std::vector<JointSetInput> joint_sets;
   std::filesystem::path joints_file;  ///< measured traces, resolved, not opened; empty: none
   MappedInput mapped;
-  JointInput joint;
+  std::optional<SurveyInput> survey;
+  JointLawInput joint;
   BlocksInput blocks;
   std::optional<BoltsInput> bolts;
   std::optional<LiningInput> lining;
@@ -313,6 +349,8 @@ struct Input {
   std::vector<std::string> content;
 
   [[nodiscard]] bool is_spatial() const { return model.dimension == 3; }
+  /// Horizontal over vertical stress across the tunnel, without the constant part [-].
+  [[nodiscard]] double K0_across() const;
   /// 3-D: what is excavated at a time along the tunnel [m].
   [[nodiscard]] double stretch() const { return tunnel.round_length.value_or(model.length); }
   /// 3-D: how often, one behind the other.

@@ -372,6 +372,7 @@ void Section::flag(std::string_view key, bool& out) {
 
 void Section::in_mode(Mode mode, const std::string& condition,
                       const std::function<void()>& declare) {
+  if (mode_ != Mode::active) return declare();  // inside another, which says more
   mode_ = mode;
   condition_ = condition;
   declare();

@@ -150,6 +150,12 @@ class Section {
     return node_ != nullptr && node_->find(key) != nullptr;
   }
 
+  /// Whether a table of it has a key (no declaration).
+  [[nodiscard]] bool has(std::string_view table, std::string_view key) const {
+    const Node* const inner = node_ != nullptr ? node_->find(table) : nullptr;
+    return inner != nullptr && inner->kind == Node::Kind::table && inner->find(key) != nullptr;
+  }
+
   /// The dotted path of a key.
   [[nodiscard]] std::string full(std::string_view key) const;
 

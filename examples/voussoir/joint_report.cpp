@@ -7,6 +7,7 @@
 #include <utility>
 #include <voussoir/core/units.hpp>
 
+#include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "mapped_rock.hpp"
 
@@ -71,7 +72,7 @@ void add_random_sources(const Input& input, std::size_t mapped, const std::vecto
   std::vector<JointSource> sources;
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     sources.push_back({input.joint_sets[k].name});
-    sources.back().law = mechanics_of(input, static_cast<int>(k));
+    sources.back().law = law_of_set(input, static_cast<int>(k));
   }
   for (std::size_t k = mapped; k < set_of.size(); ++k) {
     JointSource& source = sources[static_cast<std::size_t>(set_of[k])];

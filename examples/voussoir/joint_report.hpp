@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-#include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/rockmass/mapped_slicing.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 
@@ -18,11 +17,11 @@ namespace voussoir::program {
 /// mapped. And what the set is made of.
 struct JointSource {
   std::string name;
-  std::size_t asked = 0;          ///< joints
-  std::size_t used = 0;           ///< that cut a block
-  std::size_t outside = 0;        ///< that do not reach the domain
-  std::size_t refused = 0;        ///< for parts too small or too long, or where a joint was already
-  CoulombJoint::Params law = {};  ///< mechanics taken
+  std::size_t asked = 0;    ///< joints
+  std::size_t used = 0;     ///< that cut a block
+  std::size_t outside = 0;  ///< that do not reach the domain
+  std::size_t refused = 0;  ///< for parts too small or too long, or where a joint was already
+  JointLawInput law = {};   ///< mechanics taken
   std::optional<MappedSet> mapped = {};  ///< none: they are random
 };
 

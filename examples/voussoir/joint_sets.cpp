@@ -42,6 +42,8 @@ std::optional<JointSet> section_set(const JointSetInput& set, double trend) {
   if (trace.sine < elementary::sine(least_angle_to_section)) return std::nullopt;
   JointSet shown{set.name, trace.dip, trace.direction, trace_deviation(set, trend, trace)};
   shown.extent = set.extent;
+  shown.spacing_law = set.spacing_law;
+  if (set.spacing_sd) shown.spacing_deviation = *set.spacing_sd / *set.spacing;
   if (set.intensity)
     shown.intensity = *set.intensity;
   else if (set.spacing)
@@ -82,6 +84,8 @@ SpatialJointSet spatial_set(const JointSetInput& set, double trend) {
     made.fisher_concentration = *set.fisher;
   else
     made.dip_deviation = set.sd;
+  made.spacing_law = set.spacing_law;
+  if (set.spacing_sd) made.spacing_deviation = *set.spacing_sd / *set.spacing;
   if (set.spacing)
     made.spacing = *set.spacing;
   else

@@ -27,11 +27,15 @@
 #include "blocks_analysis.hpp"
 #include "blocks_outputs.hpp"
 #include "case_plan.hpp"
+#include "check.hpp"
 #include "input_document.hpp"
 #include "outputs.hpp"
 #include "patterns.hpp"
 #include "ranks.hpp"
+#include "run_diff.hpp"
 #include "run_folder.hpp"
+#include "survey.hpp"
+#include "templates.hpp"
 #include "verbs.hpp"
 
 using namespace voussoir::program;
@@ -115,6 +119,10 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   outputs.add("bolts.csv", bolts_csv(input, run), id);
   outputs.add("lining.csv", lining_csv(run), id);
   outputs.add("blocks.svg", blocks_svg(input, run), id);
+  if (input.survey) {
+    outputs.add("stereonet.svg", stereonet_svg(input), id);
+    names += ", stereonet.svg";
+  }
   if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
     outputs.add("blocks.vtu", blocks_vtu(run), id);
     names += ", blocks.vtu";
@@ -135,6 +143,52 @@ int run_verb(const Options& options) {
   return run_tunnel_verb(options, input, [&](const voussoir::program::Report& report) {
     return run_tunnel(input, report);
   });
+}
+
+/// What is known before equilibrium is sought. Writes nothing unless it is told where.
+int check_verb(const Options& options, bool wants_picture) {
+  work = {"reading " + options.file, "a smaller input file"};
+  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
+  if (input.laid) {
+    if (!options.quiet)
+      std::cout << "blocks   " << input.laid->blocks.size() << " that are laid\n"
+                << "checked  the file can be run\n";
+    return finished;
+  }
+  ProgressLine line(options.quiet);
+  work.remedy = smaller_model;
+  const CheckedModel model = checked_model(input, [&](const std::string& what, double fraction) {
+    now_doing(what, "making the model");
+    return line.show(what, fraction);
+  });
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  if (!options.quiet) std::cout << check_text(input, model);
+  if (!wants_picture) return finished;
+  RunFolder outputs(options.folder);
+  work.doing = "writing the results";
+  const std::string id = RunId("check").add(input).text();
+  outputs.add("check.svg", check_svg(input, model), id);
+  if (input.survey) outputs.add("stereonet.svg", stereonet_svg(input), id);
+  publish(outputs, options, input.survey ? "check.svg, stereonet.svg" : "check.svg");
+  return finished;
+}
+
+/// @param file  to be written, which must not be there; empty: standard output
+int init_verb(const std::string& name, const std::string& file) {
+  const std::string text = template_text(name);
+  if (file.empty()) {
+    std::cout << text;
+    return finished;
+  }
+  const std::filesystem::path path = voussoir::utf8_path(file);
+  std::error_code error;
+  if (std::filesystem::exists(path, error))
+    throw voussoir::InvalidInput(file + " is there already\n   = accepted: the name of a new file");
+  voussoir::write_atomically(path, text);
+  std::cout << "written  " << file << "; voussoir check " << file << "; voussoir run " << file
+            << "\n";
+  return finished;
 }
 
 /// Which cases, and how many rock masses of each.
@@ -250,8 +304,32 @@ int run_program(int argc, char** argv) {
         ->allow_extra_args(false);
     add_quiet(verb);
   };
+  CLI::App* init =
+      app.add_subcommand("init", "an input file to begin with, with comments; it runs as it is");
+  std::string template_name, template_file;
+  bool lists_templates = false;
+  std::vector<std::string> template_names;
+  for (const Template& one : templates()) template_names.emplace_back(one.name);
+  CLI::Option* const init_name =
+      init->add_option("TEMPLATE", template_name, "which one, see --list")
+          ->check(CLI::IsMember(template_names));
+  init->add_option("FILE", template_file, "to be written; left out: standard output");
+  init->add_flag("--list", lists_templates, "what there is");
+  init->callback([&] {
+    if (!lists_templates && init_name->count() == 0)
+      throw CLI::ValidationError("TEMPLATE",
+                                 "is missing; voussoir init --list shows what there is");
+  });
+  CLI::App* check = app.add_subcommand(
+      "check", "what is known before anything is computed: the model made, in words and a picture");
+  add_input(check);
   CLI::App* run = app.add_subcommand("run", "one tunnel: verdict, forces, picture");
   add_input(run);
+  CLI::App* diff = app.add_subcommand("diff", "what differs between two runs");
+  std::vector<std::string> compared;
+  diff->add_option("FOLDERS", compared, "two folders of results, or their run.json")
+      ->required()
+      ->expected(2);
   CLI::App* diagram = app.add_subcommand(
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
   add_input(diagram);
@@ -373,6 +451,17 @@ int run_program(int argc, char** argv) {
   std::signal(SIGBREAK, ask_to_stop);
 #endif
   try {
+    if (*init) {
+      if (!lists_templates) return init_verb(template_name, template_file);
+      for (const Template& one : templates())
+        std::cout << one.name << std::string(12 - one.name.size(), ' ') << one.sentence << "\n";
+      return finished;
+    }
+    if (*diff) {
+      std::cout << run_diff(compared[0], compared[1]);
+      return finished;
+    }
+    if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);
     if (*verify) return verify_verb(options);

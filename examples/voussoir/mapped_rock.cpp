@@ -13,6 +13,9 @@
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
 
+#include "drawn_outline.hpp"
+#include "joint_laws.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -53,6 +56,34 @@ void warn_of(const Input& input, const MappedSet& set, std::vector<std::string>&
                        R"(joints.dead_ends = "do_not_cut" leaves them out)");
 }
 
+/// The lines of a drawing, those of a layer of the joint set of its name.
+TraceFile drawn_traces(std::istream& in, const std::string& name, const Input& input,
+                       const Vec2& origin, const Progress& progress) {
+  DxfLimits limits;
+  limits.metres = input.mapped.unit;
+  const DxfFile drawing = read_dxf(in, name, origin, limits, progress);
+  std::vector<std::string> names;
+  std::vector<int> sets;
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
+    const JointSetInput& set = input.joint_sets[k];
+    const bool has_layer = detail::dxf_layer_index(drawing.layers, set.name) >= 0;
+    if (!has_layer && set.is_random()) continue;
+    names.push_back(set.name);
+    sets.push_back(static_cast<int>(k));
+  }
+  if (names.empty() && !input.joint_sets.empty())
+    throw InvalidInput("joints.file: " + name + ": no layer has the name of a joint set; layers: " +
+                       detail::dxf_layer_list(drawing));
+  DxfTraces drawn = traces_of(drawing, names);
+  TraceFile read{std::move(drawn.traces), "lines of a drawing in " + drawing.unit, drawing.notes};
+  for (MappedTrace& trace : read.traces)
+    if (trace.set >= 0) trace.set = sets[static_cast<std::size_t>(trace.set)];
+  for (const DxfLayerCount& left : drawn.left_out)
+    read.notes.push_back("layer " + left.layer + " (" + counted(left.lines, "line") +
+                         ") names no joint set and is left out");
+  return read;
+}
+
 }  // namespace
 
 std::string counted(std::size_t count, const std::string& what) {
@@ -61,15 +92,6 @@ std::string counted(std::size_t count, const std::string& what) {
 
 std::string set_name(const Input& input, int set) {
   return set < 0 ? std::string("no set") : input.joint_sets[static_cast<std::size_t>(set)].name;
-}
-
-CoulombJoint::Params mechanics_of(const Input& input, int set) {
-  const JointInput& common = input.joint;
-  if (set < 0) return {common.normal_stiffness, common.shear_stiffness, common.friction_angle};
-  const JointSetInput& own = input.joint_sets[static_cast<std::size_t>(set)];
-  return {own.normal_stiffness.value_or(common.normal_stiffness),
-          own.shear_stiffness.value_or(common.shear_stiffness),
-          own.friction_angle.value_or(common.friction_angle)};
 }
 
 std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>& domain,
@@ -91,7 +113,9 @@ std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>&
   for (const JointSetInput& set : input.joint_sets) limits.set_names.push_back(set.name);
   limits.first_set = input.mapped.first_set;
   limits.first_set_key = "joints.first_set";
-  TraceFile read = read_traces(file, name, domain.site_origin, limits, progress);
+  TraceFile read = is_drawing(input.joints_file)
+                       ? drawn_traces(file, name, input, domain.site_origin, progress)
+                       : read_traces(file, name, domain.site_origin, limits, progress);
   rock.joints_read = name + ": " + counted(read.traces.size(), "trace") + ", " + read.layout;
   for (const std::string& note : read.notes) rock.joints_read += "; " + note;
   const TraceCoverage coverage = trace_coverage(read.traces, domain);
@@ -130,7 +154,7 @@ void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<Ma
     source.used = set.used;
     source.outside = set.outside;
     source.refused = set.joints - set.used - set.outside;
-    source.law = mechanics_of(input, set.set);
+    source.law = law_of_set(input, set.set);
     source.mapped = set;
     rock.joints.push_back(std::move(source));
     warn_of(input, set, rock.warnings);

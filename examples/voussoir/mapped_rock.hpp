@@ -28,9 +28,6 @@ void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<Ma
 /// "bedding", of the set with an index; "no set" of -1.
 [[nodiscard]] std::string set_name(const Input& input, int set);
 
-/// Mechanics of the joints of a set; -1: of those that name none.
-[[nodiscard]] CoulombJoint::Params mechanics_of(const Input& input, int set);
-
 /// "3 traces".
 [[nodiscard]] std::string counted(std::size_t count, const std::string& what);
 

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "joint_laws.hpp"
+
 namespace voussoir::program {
 
 ChosenAnchors anchors_of(const BoltsInput& bolts) {
@@ -84,8 +86,12 @@ ChosenMethod method_of(const Input& input, LinearSettings linear, RangeSought ra
 }
 
 std::string composition_of(const Input& input) {
-  std::string text = std::string(input.is_spatial() ? Spatial::name : Planar::name) + ", " +
-                     CutContacts::name + ", " + CoulombJoint::name;
+  std::string text =
+      std::string(input.is_spatial() ? Spatial::name : Planar::name) + ", " + CutContacts::name;
+  for (const JointLawInput* law : laws_in_use(input)) {
+    const std::string name = joint_of(*law).type_name();
+    if (text.find(name) == std::string::npos) text.append(", ").append(name);
+  }
   if (input.bolts) {
     switch (input.bolts->anchors) {
       case BoltAnchors::lorig:

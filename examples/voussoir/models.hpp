@@ -12,9 +12,10 @@
 ///
 /// A program that knows its physics composes exactly that (see examples/minimal.cpp). This one
 /// learns it from a file, so the choices are made at run time inside policies of our own, and one
-/// solver type serves every input: `AxialShearBolt` without shear stiffness is the axial bolt,
-/// `TimoshenkoBeam` with infinite shear stiffness is the Euler-Bernoulli beam, and an interface
-/// with `MohrCoulombJoint` without cohesion is one with `CoulombJoint`.
+/// solver type serves every input: `AnyJoint` is any contact law, `AxialShearBolt` without shear
+/// stiffness is the axial bolt, `TimoshenkoBeam` with infinite shear stiffness is the
+/// Euler-Bernoulli beam, and an interface with `MohrCoulombJoint` without cohesion is one with
+/// `CoulombJoint`.
 namespace voussoir::program {
 
 /// Any of the anchor placements.
@@ -51,7 +52,7 @@ class ChosenMethod {
 };
 
 template <class Geometry>
-using TunnelIn = Solver<Geometry, CoulombJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
+using TunnelIn = Solver<Geometry, AnyJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
                         AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
 using Tunnel = TunnelIn<Planar>;
 using SpatialTunnel = TunnelIn<Spatial>;

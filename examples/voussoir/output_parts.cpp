@@ -9,6 +9,7 @@
 #include <voussoir/io/solved_picture.hpp>
 
 #include "analysis.hpp"
+#include "joint_laws.hpp"
 
 namespace voussoir::program {
 
@@ -85,9 +86,9 @@ nlohmann::json joints_json(const std::vector<JointSource>& sources) {
                     {"used", s.used},
                     {"outside", s.outside},
                     {"refused", s.refused},
-                    {"kn_Pa_per_m", s.law.joint_normal_stiffness},
-                    {"ks_Pa_per_m", s.law.joint_shear_stiffness},
-                    {"friction_deg", s.law.friction_angle * 180 / std::numbers::pi}});
+                    {"law", s.law.law}});
+    for (const LawParameter& parameter : joint_law_row(s.law.law).parameters)
+      list.back()[json_name(parameter)] = json_value(parameter, s.law.at(parameter.key));
     if (s.mapped)
       list.back().update({{"set", s.mapped->set},
                           {"mapped_m", s.mapped->mapped},
@@ -123,9 +124,7 @@ std::string joint_lines(const std::vector<JointSource>& sources) {
     if (const auto& mapped = s.mapped)
       out += text("; %.1f m mapped", mapped->mapped) + text(", %.1f m of it cut", mapped->cut) +
              text(", %.1f m made beyond", mapped->made);
-    out += "; kn " + format_quantity(s.law.joint_normal_stiffness, dimension::stiffness_per_area) +
-           ", ks " + format_quantity(s.law.joint_shear_stiffness, dimension::stiffness_per_area) +
-           ", friction " + format_quantity(s.law.friction_angle, dimension::angle) + "\n";
+    out += "; " + law_text(s.law) + "\n";
   }
   return out;
 }

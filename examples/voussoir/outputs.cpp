@@ -19,6 +19,7 @@
 #include <voussoir/io/tunnel_tables.hpp>
 
 #include "output_parts.hpp"
+#include "survey.hpp"
 
 namespace voussoir::program {
 
@@ -197,6 +198,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
   const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
@@ -263,6 +265,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
   if (!run.joints_read.empty()) out += "traces   " + run.joints_read + "\n";
+  if (!input.tunnel.drawn.empty()) out += "outline  " + input.tunnel.drawn + "\n";
+  out += survey_lines(input);
   out += joint_lines(run.joints);
   for (const std::string& line : run.in_section) out += "section  " + line + "\n";
   out += "boundary " + boundary_text(run.boundary) + "\n";

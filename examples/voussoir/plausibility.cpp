@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
+#include "joint_laws.hpp"
 #include "joint_sets.hpp"
 
 namespace voussoir::program {
@@ -27,10 +29,8 @@ struct Common {
 constexpr double degree = std::numbers::pi / 180;
 constexpr Common gravity{5, 20};                               // [m/s^2]
 constexpr Common density{1500, 4500};                          // [kg/m^3]
-constexpr Common joint_stiffness{0.25e9, 200e9};               // joints, interface [Pa/m]
 constexpr Common interface_stiffness{0.1e9, 95e9};             // [Pa/m]
 constexpr Common ks_over_kn{0.01, 1.5};                        // [-]
-constexpr Common friction{5 * degree, 75 * degree};            // [rad]
 constexpr Common wet_friction{5 * degree, 75 * degree, true};  // of an interface that may be smooth
 constexpr Common dip{0.5 * degree, 90 * degree, true};         // [rad]
 constexpr Common scatter{0.1 * degree, 30 * degree, true};     // standard deviation [rad]
@@ -116,6 +116,8 @@ void look_at_model(const Input& input, Look& look) {
     look.beside_opening("tunnel.wall_height", tunnel.wall_height, span, {0.05, 5});
   look.beside_opening("tunnel.cover", tunnel.cover, span, {0.4, 350});
   look.at("stress.K0", input.stress.K0, {0.2, 5});
+  if (input.stress.K0_minor) look.at("stress.K0_minor", *input.stress.K0_minor, {0.1, 5});
+  look.at("stress.horizontal", input.stress.horizontal, {50e3, 40e6, true}, dimension::pressure);
   // Of ground that goes on above: as deep as any mine. On a surface: a town or a lake.
   if (input.boundary.ground_above)
     look.at("stress.surcharge", input.stress.surcharge, {0.1e6, 90e6}, dimension::pressure,
@@ -148,19 +150,30 @@ double length_inside(const Input& input, const JointSetInput& set) {
   return sum / parts;
 }
 
+/// The parameters that a table gives, and those that are held against one of them.
+void look_at_law(const std::string& table, const JointLawInput& law, Look& look) {
+  const auto is_given = [&](std::string_view key) {
+    return std::find(law.given.begin(), law.given.end(), key) != law.given.end();
+  };
+  for (const LawParameter& p : joint_law_row(law.law).parameters) {
+    if (!is_given(p.key) && !is_given(p.beside)) continue;
+    const std::string key = table + std::string(p.key);
+    const Common common{p.common_low, p.common_high, p.is_common_at_zero};
+    if (!p.beside.empty())
+      look.in_shear(key, law.at(p.key), law.at(p.beside));
+    else if (p.dimension == dimension::number)
+      look.at(key, law.at(p.key), common);
+    else
+      look.at(key, law.at(p.key), common, p.dimension);
+  }
+}
+
 void look_at_joints(const Input& input, Look& look) {
-  const JointInput& joint = input.joint;
-  look.at("joint.kn", joint.normal_stiffness, joint_stiffness, dimension::stiffness_per_area);
-  look.in_shear("joint.ks", joint.shear_stiffness, joint.normal_stiffness);
-  look.at("joint.friction", joint.friction_angle, friction, dimension::angle);
+  look_at_law("joint.", input.joint, look);
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     const JointSetInput& set = input.joint_sets[k];
     const std::string table = entry("joint_set", k) + ".";
-    look.at(table + "kn", set.normal_stiffness, joint_stiffness, dimension::stiffness_per_area);
-    if (set.shear_stiffness || set.normal_stiffness)
-      look.in_shear(table + "ks", set.shear_stiffness.value_or(joint.shear_stiffness),
-                    set.normal_stiffness.value_or(joint.normal_stiffness));
-    look.at(table + "friction", set.friction_angle, friction, dimension::angle);
+    if (set.law) look_at_law(table, *set.law, look);
     look.at(table + "dip", set.plane.dip, dip, dimension::angle);
     look.at(table + "sd", set.sd, scatter, dimension::angle);
     if (set.fisher) look.at(table + "K", *set.fisher, fisher);
@@ -177,6 +190,9 @@ void look_at_joints(const Input& input, Look& look) {
                     format_quantity(joint_spacing.low, dimension::length) + " with this extent");
     }
     look.at(table + "spacing", set.spacing, joint_spacing, dimension::length);
+    if (set.spacing && set.spacing_sd)
+      look.at(table + "spacing_sd", *set.spacing_sd, {0.05 * *set.spacing, 3 * *set.spacing},
+              dimension::length, ", 0.05 to 3 times the spacing");
   }
 }
 
@@ -307,9 +323,9 @@ std::string unusual_among(const Input& input, std::initializer_list<std::string_
 }
 
 InSituClosure in_situ_closure(const Input& input, double stress, double block, double spacing) {
-  double softest = input.joint.normal_stiffness;
-  for (const JointSetInput& set : input.joint_sets)
-    softest = std::min(softest, set.normal_stiffness.value_or(softest));
+  double softest = std::numeric_limits<double>::infinity();
+  for (const JointLawInput* law : laws_in_use(input))
+    softest = std::min(softest, normal_stiffness_at(*law, stress));
   const double opening = 2 * input.tunnel.half_width();
   return {stress, stress / softest, block, stress / softest * (opening / spacing), opening};
 }

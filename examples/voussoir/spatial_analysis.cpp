@@ -13,9 +13,11 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 
+#include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "mapped_rock.hpp"
 #include "plausibility.hpp"
+#include "survey.hpp"
 
 namespace voussoir::program {
 
@@ -38,6 +40,8 @@ std::vector<std::string> warnings_of(const Input& input, const SpatialRunResult&
   std::vector<std::string> warnings = run.warnings;
   for (std::string& text : unusual_values(input)) warnings.push_back(std::move(text));
   if (!input.unused.empty()) warnings.push_back(input.unused_text());
+  if (input.survey && !input.survey->left_out.empty())
+    warnings.push_back(left_out_text(*input.survey));
   const auto number = [](double value) { return significant_text(value, 3); };
   const RockMass<Spatial>& mass = run.tunnel.mass();
   if (mass.carving.dropped_pieces > 0)
@@ -45,13 +49,11 @@ std::vector<std::string> warnings_of(const Input& input, const SpatialRunResult&
                        " pieces at the wall below min_wall_area^(3/2) = " +
                        number(std::pow(input.blocks.min_wall_area, 1.5)) + " m3 were dropped, " +
                        number(mass.carving.dropped_measure) + " m3 in all");
-  const double needed = run.tunnel.in_situ().required_friction_angle();
-  double friction = input.joint.friction_angle;
-  for (const JointSetInput& set : input.joint_sets)
-    friction = std::min(friction, set.friction_angle.value_or(friction));
-  if (needed > friction)
-    warnings.push_back("in situ: with K0 = " + number(input.stress.K0) +
-                       " some joint orientations need " + number(needed * 180 / std::numbers::pi) +
+  const double needed = run.tunnel.in_situ().required_friction_angle<3>(input.domain_top());
+  if (needed >
+      (1 + 1e-12) * least_friction_angle(input, run.tunnel.in_situ().vertical(input.domain_top())))
+    warnings.push_back("in situ: some joint orientations need " +
+                       number(needed * 180 / std::numbers::pi) +
                        " deg of friction; joints that cannot carry the in-situ shear slip at the "
                        "first equilibrium");
   for (std::string& text : remarks_on(support_condition(run.tunnel)))
@@ -77,10 +79,15 @@ JointPlane along_the_tunnel(const Segment& trace, const JointSetInput& set,
 }  // namespace
 
 InSitu in_situ_of(const Input& input) {
-  return {.density = input.rock.density,
-          .k0 = input.stress.K0,
-          .surcharge = input.stress.surcharge,
-          .gravity = input.model.gravity};
+  const StressInput& stress = input.stress;
+  InSitu made{.density = input.rock.density,
+              .k0 = input.K0_across(),
+              .surcharge = stress.surcharge,
+              .gravity = input.model.gravity};
+  if (stress.K0_minor && input.is_spatial())
+    made = made.with_horizontal(stress.K0, *stress.K0_minor,
+                                stress.K0_trend.value_or(0) - input.tunnel.trend.value_or(0));
+  return stress.horizontal > 0 ? made.with_constant_horizontal(stress.horizontal) : made;
 }
 
 GeneratedRockIn<Spatial> spatial_rock_of(const Input& input, const Progress& progress) {

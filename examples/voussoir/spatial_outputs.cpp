@@ -11,6 +11,7 @@
 #include "output_parts.hpp"
 #include "outputs.hpp"
 #include "spatial_analysis.hpp"
+#include "survey.hpp"
 
 // What the program writes of a run in 3-D.
 namespace voussoir::program {
@@ -101,6 +102,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "volume_m3");
   const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
@@ -156,6 +158,8 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
   out += "rock     " + std::to_string(run.tunnel.mass().bodies.size()) + " blocks, " +
          std::to_string(run.tunnel.system().joints.contacts().size()) + " contacts, seed " +
          std::to_string(input.model.seed) + text("; generated in %.2f s\n", run.generation_seconds);
+  if (!input.tunnel.drawn.empty()) out += "outline  " + input.tunnel.drawn + "\n";
+  out += survey_lines(input);
   out += joint_lines(run.joints);
   out += std::string("boundary ") + spatial_boundary_text + "\n";
   out += "tunnel   " + text("%.3g m", driven_length(input)) +

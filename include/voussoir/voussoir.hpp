@@ -8,6 +8,7 @@
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/bolt/check_bolt_law.hpp>
+#include <voussoir/contact/any_joint.hpp>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/check_law.hpp>
@@ -28,6 +29,7 @@
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
 #include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/geometry/outline_from_lines.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/laboratory/elastic_moduli.hpp>
@@ -37,11 +39,14 @@
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
+#include <voussoir/rockmass/dxf_file.hpp>
 #include <voussoir/rockmass/isotropic_sets.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/laid_blocks.hpp>
 #include <voussoir/rockmass/mapped_slicing.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
+#include <voussoir/rockmass/orientation_file.hpp>
+#include <voussoir/rockmass/orientation_sets.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>

@@ -267,16 +267,17 @@ TEST_SUITE("program/bad_input") {
       std::string word, meant;
     };
     for (const Case& c : {Case{"rnu", "`run`"}, Case{"Run", "`run`"}, Case{"diagramm", "`diagram`"},
-                          Case{"verfy", "`verify`"}, Case{"init", ""}, Case{"", ""}}) {
+                          Case{"verfy", "`verify`"}, Case{"begin", ""}, Case{"", ""}}) {
       CAPTURE(c.word);
       const Outcome outcome = run_program({c.word, "--out", "nowhere"});
       CAPTURE(outcome.err);
       CHECK(outcome.status == 2);
       CHECK(outcome.err.find("`" + c.word + "` is not a verb") != std::string::npos);
       CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
-      CHECK(outcome.err.find("accepted: run, diagram, realisations, sweep, case, merge, patterns" +
-                             std::string(has_paper ? ", paper, verify; " : "; ")) !=
-            std::string::npos);
+      CHECK(
+          outcome.err.find(
+              "accepted: init, check, run, diff, diagram, realisations, sweep, case, merge, patterns" +
+              std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
     }
   }
 

@@ -209,9 +209,10 @@ VOUSSOIR_INLINE std::string draw_blocks_picture(const BlocksPicture& picture) {
   picture.header.draw(canvas);
   draw_rock(canvas, picture, map, scale, forces);
   if (picture.banner) picture.banner->draw(canvas, rock, rock.low.y());
-  draw_displacement_bar(
-      canvas, {{rock.low.x() + 4, rock.high.y() + 28}, {rock.low.x() + 324, rock.high.y() + 41}},
-      scale);
+  if (!scale.is_empty())
+    draw_displacement_bar(
+        canvas, {{rock.low.x() + 4, rock.high.y() + 28}, {rock.low.x() + 324, rock.high.y() + 41}},
+        scale);
   draw_scale_bar(canvas, {rock.low.x() + 400, rock.high.y() + 38}, 200, map.scale());
   legend.draw(canvas, {rock.low.x(), legend_top});
   if (not_drawn > 0) {

@@ -170,6 +170,8 @@ class LawModel {
   virtual bool commit_point(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual Stress<Dim> tangent_at(const PointLoad<Dim>& load,
                                                const void* state) const = 0;
+  /// Nothing for a law whose joints do not creep. @param time  [s]
+  virtual void creep(const PointLoad<Dim>& load, void* state, double time) const = 0;
   /// @pre all laws of the task are of the same type as this one
   virtual void add_forces(const ForceTask<Dim>& task) const = 0;
   virtual void react(const ReactionTask<Dim>& task) const = 0;

@@ -139,19 +139,11 @@ class ContactGroup {
   /// @return  points whose force changed by that: joints that failed, and are weaker now
   int commit(const double* u);
 
-  /// Lets joints creep for a time [s] at displacement `u`.
-  /// @tparam Creeping  the type of their laws
-  /// @throws InvalidInput  a law of another type
-  template <CreepingLaw<dim> Creeping>
+  /// Lets joints creep for a time [s] at displacement `u`, those whose law does.
   void creep(const double* u, double time) {
-    using State = typename Creeping::template State<dim>;
-    for (const auto& law : laws_)
-      if (law.template as<Creeping>() == nullptr)
-        throw InvalidInput("these joints cannot creep by a law that is not theirs");
     for (const Contact& c : contacts_)
       visit_loads(c, u, [&](std::size_t k, const auto&, const auto&, const PointLoad<dim>& load) {
-        law_of(c).template as<Creeping>()->creep(load, *static_cast<State*>(points_.states().at(k)),
-                                                 time);
+        law_of(c).model().creep(load, points_.states().at(k), time);
       });
   }
 

@@ -35,7 +35,8 @@ struct PrincipalStresses {
 
 /// The stress in the ground before anything is built, and the weight that goes with it.
 ///
-///   sigma_v = surcharge + rho g depth,   sigma_h = K0 sigma_v,   no shear on horizontal planes
+///   sigma_v = surcharge + rho g depth,   sigma_h = K0 sigma_v + constant,   no shear on horizontal
+///   planes
 ///
 /// Prescribing its tractions at the Gauss points of all contacts puts every block in equilibrium,
 /// force and moment, to rounding: no generation stage has to be simulated.
@@ -54,8 +55,9 @@ struct InSitu {
   /// Blocks that are laid, not cut out of the ground: nothing presses between them, and the first
   /// stage lets their weight come on.
   bool is_laid = false;
-  /// In 3-D: what the measured stress has besides surcharge and ratios, at every depth [Pa]. Its
-  /// vertical part is zero (see `with_measured`).
+  /// What there is besides surcharge and ratios, at every depth [Pa]: horizontal stress that does
+  /// not grow with it (`with_constant_horizontal`), or in 3-D of a measured stress. Its vertical
+  /// part is zero. In 2-D its part along x acts.
   Stress<3> besides = zeros<Stress<3>>();
 
   /// The same with these principal horizontal stresses.
@@ -68,6 +70,18 @@ struct InSitu {
     turned.k0_y = major * c * c + minor * s * s;
     turned.k0_xy = (major - minor) * s * c;
     return turned;
+  }
+
+  /// Adds a horizontal stress that is the same in all directions and at every depth, as tectonic
+  /// stress is often reported: sigma_h = constant + K0 sigma_v.
+  /// @param constant  [Pa], >= 0
+  [[nodiscard]] InSitu with_constant_horizontal(double constant) const {
+    require(constant >= 0 && std::isfinite(constant), "constant horizontal stress", constant,
+            ">= 0 Pa");
+    InSitu made = *this;
+    made.besides(0, 0) += constant;
+    made.besides(1, 1) += constant;
+    return made;
   }
 
   /// The same with this stress at a depth. Its surcharge becomes what the vertical stress there
@@ -118,6 +132,8 @@ struct InSitu {
       if (k0_y >= 0) s(1, 1) = k0_y * vertical(depth);
       s(0, 1) = s(1, 0) = k0_xy * vertical(depth);
       s += besides;
+    } else {
+      s(0, 0) += besides(0, 0);
     }
     VOUSSOIR_ASSERT(detail::is_symmetric(s), "a stress is symmetric");
     return s;
@@ -127,10 +143,15 @@ struct InSitu {
   /// Mohr circle: sin(phi) = (s1 - s3) / (s1 + s3), in 2-D |1 - K0| / (1 + K0). Zero where all
   /// principal stresses are equal; pi/2 where one is a tension.
   /// @tparam Dim  2: in the plane x, z; 3: of joints that strike in any direction
-  /// @param depth  where, if the stress was measured: elsewhere it is the same at every depth [m]
+  /// @param depth  where, if part of the stress does not grow with it: otherwise the angle is the
+  ///               same at every depth [m]
   template <int Dim = 2>
   [[nodiscard]] double required_friction_angle(double depth = 1) const {
-    if constexpr (Dim == 2) return largest_initial_friction(k0);
+    if constexpr (Dim == 2) {
+      if (!(besides(0, 0) > 0)) return largest_initial_friction(k0);
+      return vertical(depth) > 0 ? largest_initial_friction(k0 + besides(0, 0) / vertical(depth))
+                                 : 0.5 * std::numbers::pi;
+    }
     Stress<3> s = stress<3>(depth);
     if (!(s.squaredNorm() > 0)) s = stress<3>(depth + 1);  // on the bare surface
     const Vec3 principal = principal_axes(s).moments;

@@ -17,6 +17,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/joint.hpp>
+#include <voussoir/rockmass/spacing_law.hpp>
 
 namespace voussoir {
 
@@ -33,6 +34,9 @@ struct JointSet {
   double intensity = 0;
   double spacing = 0;  ///< normal spacing [m]; 0: use `intensity`
   double extent = std::numeric_limits<double>::infinity();  ///< full length of a trace [m], > 0
+  SpacingLaw spacing_law = SpacingLaw::fixed;  ///< of joints without end, by their spacing
+  double spacing_deviation =
+      0;  ///< lognormal: standard deviation of the spacing over `spacing` [-]
 
   /// @throws InvalidInput  a value out of range, not exactly one of intensity and spacing, or an
   ///                       intensity of endless joints
@@ -52,6 +56,8 @@ struct JointSet {
           message({of, "intensity = ", intensity, " /m^2 and spacing = ", spacing,
                    " m: ", is_one ? "must be finite" : "one of the two must be > 0, the other 0"}));
     if (!(extent > 0)) throw InvalidInput(message({of, "extent = ", extent, " m: must be > 0"}));
+    detail::check_spacing_law(spacing_law, spacing_deviation, spacing > 0 && std::isinf(extent),
+                              of);
     // Of endless joints more reach into a large domain than into a small one.
     if (intensity > 0 && std::isinf(extent))
       throw InvalidInput(message({of, "intensity = ", intensity,
@@ -91,7 +97,7 @@ template <class Set, int Dim>
 ///
 /// With an intensity (or a spacing and a finite extent, which amounts to 1/(spacing * extent)
 /// centres per area) centres are uniform over the domain and their number is the expected one,
-/// rounded. With a spacing and no end the joints are equidistant, with a random first one.
+/// rounded. With a spacing and no end the joints are as far apart as `spacing_law` says.
 [[nodiscard]] VOUSSOIR_INLINE std::vector<Joint> generate(const JointSet& set, int index,
                                                           const Domain<2>& domain,
                                                           std::uint64_t seed,
@@ -131,9 +137,9 @@ VOUSSOIR_INLINE std::vector<Joint> generate(const JointSet& set, int index, cons
     const Vec2 centre = 0.5 * (domain.low + domain.high);
     const Vec2 normal = perpendicular(detail::dip_vector(set.dip, set.dip_direction));
     const double reach = 0.5 * domain.diameter();
-    const double first = -reach + product(random.uniform(), set.spacing);
-    const auto count = static_cast<int>(std::floor((reach - first) / set.spacing)) + 1;
-    for (int k = 0; k < count; ++k) add(along<2>(centre, first + product(k, set.spacing), normal));
+    for (const double place :
+         detail::joint_places(set.spacing_law, set.spacing, set.spacing_deviation, reach, random))
+      add(along<2>(centre, place, normal));
     return joints;
   }
   const double intensity = set.intensity > 0 ? set.intensity : 1.0 / (set.spacing * set.extent);

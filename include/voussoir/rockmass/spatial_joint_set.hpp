@@ -20,6 +20,7 @@
 #include <voussoir/rockmass/joint.hpp>
 #include <voussoir/rockmass/joint_set.hpp>
 #include <voussoir/rockmass/orientation.hpp>
+#include <voussoir/rockmass/spacing_law.hpp>
 
 namespace voussoir {
 
@@ -53,6 +54,9 @@ struct SpatialJointSet {
   double count_per_volume = 0;  ///< P30, joint centres per volume [1/m^3], > 0; not if persistent
 
   JointShape shape = PersistentJoints{};
+  SpacingLaw spacing_law = SpacingLaw::fixed;  ///< of persistent joints, by their spacing
+  double spacing_deviation =
+      0;  ///< lognormal: standard deviation of the spacing over `spacing` [-]
 
   /// @throws InvalidInput  naming the set, the value and the rule
   void check() const;
@@ -108,7 +112,7 @@ struct PlaneFrame {
 /// alone would leave too little. Their number is the expected one, rounded; a spacing s and a joint
 /// area A amount to 1 / (s A) centres per volume, P32 to P32 / A.
 ///
-/// Fully persistent joints are equidistant with a random first one if a spacing is given, and
+/// Fully persistent joints are as far apart as `spacing_law` says if a spacing is given, and
 /// placed independently of each other (uniform along the mean normal) if P32 is.
 ///
 /// @param index  of the set: its stream of random numbers, and the label of its joints
@@ -252,6 +256,9 @@ VOUSSOIR_INLINE void SpatialJointSet::check() const {
     length("strike_length", sides->strike_length);
     length("dip_length", sides->dip_length);
   }
+  detail::check_spacing_law(spacing_law, spacing_deviation,
+                            spacing > 0 && std::holds_alternative<PersistentJoints>(shape),
+                            "joint set " + name + ": ");
   if (std::holds_alternative<PersistentJoints>(shape))
     rule(!(count_per_volume > 0), "count_per_volume", count_per_volume,
          "0 for fully persistent joints, which have no centre: give spacing or area_per_volume");
@@ -275,11 +282,9 @@ VOUSSOIR_INLINE std::vector<SpatialJoint> generate(const SpatialJointSet& set, i
     const double reach = 0.5 * domain.diameter();
     if (set.spacing > 0) {
       const Vec3 normal = upward_normal({set.dip, set.dip_direction});
-      const double first = -reach + product(random.uniform(), set.spacing);
-      const auto count = static_cast<int>(std::floor((reach - first) / set.spacing)) + 1;
-      for (int k = 0; k < count; ++k)
-        add(along<3>(centre, first + product(k, set.spacing), normal),
-            detail::random_frame(set, random));
+      for (const double place :
+           detail::joint_places(set.spacing_law, set.spacing, set.spacing_deviation, reach, random))
+        add(along<3>(centre, place, normal), detail::random_frame(set, random));
     } else {
       // A plane at a uniform offset within the reach has on average the area volume / (2 reach),
       // whatever its orientation.

@@ -190,9 +190,7 @@ class ComposedSolver {
   /// @param time  [s]
   template <class Law = JointLaw>  // a template: clang++ 14 instantiates the others unasked
   requires CreepingLaw<Law, dim>
-  void creep_joints(double time) {
-    system_.joints.template creep<Law>(system_.displacement.data(), time);
-  }
+  void creep_joints(double time) { system_.joints.creep(system_.displacement.data(), time); }
 
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const LawsBySet<JointLaw>& joint_laws() const { return joint_laws_; }

@@ -37,7 +37,8 @@ class DisplacementScale {
         values.push_back(block.displacement);
       }
     }
-    if (values.empty()) return;
+    is_empty_ = values.empty();
+    if (is_empty_) return;
     std::sort(values.begin(), values.end());
     const double typical =
         values[static_cast<std::size_t>(0.98 * static_cast<double>(values.size() - 1))];
@@ -49,6 +50,8 @@ class DisplacementScale {
 
   [[nodiscard]] double top() const { return top_; }  ///< [m]
   [[nodiscard]] bool is_cut() const { return is_cut_; }
+  /// No block has a displacement: nothing has been computed.
+  [[nodiscard]] bool is_empty() const { return is_empty_; }
   /// @return  0 to step_count - 1; step_count for NaN
   [[nodiscard]] int step(double displacement) const {
     if (!std::isfinite(displacement)) return step_count;
@@ -57,13 +60,13 @@ class DisplacementScale {
   }
   [[nodiscard]] std::string colour(int step) const {
     static const ColourMap map = ColourMap::straw_to_blue();
-    if (step >= step_count) return "#bdbdbd";
+    if (step >= step_count) return is_empty_ ? "#f1eee3" : "#bdbdbd";
     return map((step + 0.5) / step_count).hex();
   }
 
  private:
   double top_ = 1e-3;
-  bool is_cut_ = false;
+  bool is_cut_ = false, is_empty_ = false;
 };
 
 inline bool is_drawable(const PictureBlock& block) {

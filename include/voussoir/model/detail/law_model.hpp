@@ -56,6 +56,10 @@ class LawModelOf final : public LawModel<Dim> {
                                        const void* state) const override {
     return detail::tangent_at<Dim>(law_, load, as_state(state));
   }
+  void creep([[maybe_unused]] const PointLoad<Dim>& load, [[maybe_unused]] void* state,
+             [[maybe_unused]] double time) const override {
+    if constexpr (CreepingLaw<Law, Dim>) law_.creep(load, *static_cast<State*>(state), time);
+  }
   void add_forces(const ForceTask<Dim>& task) const override {
     detail::add_forces<Dim, Law>(
         task, [&](std::size_t law) -> const Law& { return of_type(task.laws[law]); });
@@ -83,9 +87,17 @@ class LawModelOf final : public LawModel<Dim> {
   Law law_;
 };
 
-/// Laws known at run time.
+/// Laws known at run time. Those of an `AnyJoint` are as their own type where that is one for all.
 template <int Dim, class Law>
 [[nodiscard]] std::vector<AnyLaw<Dim>> any_laws(const std::vector<Law>& laws) {
+  if constexpr (requires(const Law& law) { law.type(); }) {
+    const auto is_as_first = [&](const Law& law) { return law.type() == laws.front().type(); };
+    if (std::all_of(laws.begin(), laws.end(), is_as_first)) {
+      std::vector<AnyLaw<Dim>> own;
+      for (const Law& law : laws) law.visit([&](const auto& typed) { own.emplace_back(typed); });
+      return own;
+    }
+  }
   return {laws.begin(), laws.end()};
 }
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "check.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+#include <voussoir/core/units.hpp>
+#include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/blocks_picture.hpp>
+#include <voussoir/io/mass_picture.hpp>
+#include <voussoir/io/solved_picture.hpp>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/tunnel/bolt_pattern.hpp>
+
+#include "boundary.hpp"
+#include "construction_plan.hpp"
+#include "joint_laws.hpp"
+#include "mapped_rock.hpp"
+#include "output_parts.hpp"
+#include "plausibility.hpp"
+#include "spatial_analysis.hpp"
+#include "survey.hpp"
+
+namespace voussoir::program {
+
+namespace {
+
+std::string metres(double value) { return significant_text(value, 4) + " m"; }
+
+/// Bolts of the whole tunnel where the rock is now.
+template <class Solver, class Bars>
+void install_bolts(Solver& tunnel, const Input& input, const Bars& bars, CheckedModel& model) {
+  for (const auto& bar : bars) {
+    model.joints_crossed += tunnel.install_bolt(bar, bolt_of(*input.bolts),
+                                                Solver::dim == 2 ? input.bolts->out_of_plane : 1.0,
+                                                anchors_of(*input.bolts));
+    ++model.bolts;
+  }
+}
+
+template <class Solver>
+std::string rock_line(const Solver& tunnel, const char* unit, double seconds) {
+  const BlockSizes sizes = block_sizes(tunnel.mass());
+  return "rock     " + counted(sizes.count, "block") + " of " +
+         significant_text(sizes.smallest, 3) + " to " + significant_text(sizes.largest, 3) + " " +
+         unit + ", mean " + significant_text(sizes.mean, 3) + ", " +
+         counted(tunnel.system().joints.contacts().size(), "contact") + "; made in " +
+         fixed_text(seconds, 2) + " s\n";
+}
+
+std::string tunnel_line(const Input& input) {
+  const TunnelInput& t = input.tunnel;
+  const char* const shapes[] = {"circle", "horseshoe", "outline"};
+  std::string text = std::string("tunnel   ") + shapes[static_cast<int>(t.shape)] + " " +
+                     metres(2 * t.half_width()) + " wide, " + metres(t.crown() - t.invert()) +
+                     " high, " + metres(t.cover) + " under the surface of the model\n";
+  text += "model    " + metres(input.model.width) + " wide, " +
+          metres(input.domain_top() - input.domain_bottom()) + " high";
+  if (input.is_spatial()) {
+    text += ", " + metres(input.model.length) + " long, of which " +
+            metres(input.round_count() * input.stretch()) + " are driven in " +
+            counted(static_cast<std::size_t>(input.round_count()), "round") + " of " +
+            metres(input.stretch());
+  }
+  return text + "\n";
+}
+
+std::string stress_line(const Input& input) {
+  const Stress<3> at_centre = in_situ_of(input).stress<3>(input.domain_top());
+  const auto stress = [](double value) { return format_quantity(value, dimension::pressure); };
+  std::string text =
+      "stress   " + stress(at_centre(2, 2)) + " upright, " + stress(at_centre(0, 0)) + " across";
+  if (input.is_spatial()) text += ", " + stress(at_centre(1, 1)) + " along";
+  if (input.is_spatial() && input.stress.K0_minor)
+    text += ", " + stress(std::abs(at_centre(0, 1))) + " of shear between these";
+  return text + ": in situ, at the centre of the tunnel\n";
+}
+
+std::string stage_plan(const Input& input) {
+  std::string out;
+  const double area = opening_of(input).area();
+  for (const StageInput& stage : input.stages) {
+    out += "stage    " + stage.name + ": ";
+    std::vector<std::string> does;
+    if (stage.part) {
+      const double part = outline_of_part(opening_of(input), *stage.part)->area();
+      does.push_back("excavates " + significant_text(part, 3) + " m2" +
+                     (part < area * (1 - 1e-9) ? " of " + significant_text(area, 3) : ""));
+    }
+    if (stage.install_bolts) does.emplace_back("installs bolts");
+    if (stage.install_lining) does.emplace_back("installs the lining");
+    if (input.is_spatial() && input.tunnel.round_length)
+      does.push_back(stage.behind == 0 ? std::string("at the face")
+                                       : counted(static_cast<std::size_t>(stage.behind), "round") +
+                                             " behind the face");
+    else
+      does.push_back("to " + significant_text(100 * stage.wall_traction, 3) +
+                     " % of the wall traction");
+    for (const std::string& what : does) out += (&what == &does.front() ? "" : ", ") + what;
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+CheckedModel checked_model(const Input& input, const Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  if (input.bolts) check_bolts(input, {input.bolts->spacing});
+  CheckedModel model{excavated_rock(input, false, report)};
+  if (input.bolts && !input.has_rounds) {
+    const BoltPattern pattern = pattern_of(*input.bolts, input.bolts->spacing);
+    if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel))
+      install_bolts(*section, input, bolt_bars(pattern, model.rock.opening), model);
+  }
+  model.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  model.warnings = model.rock.warnings;
+  for (std::string& text : unusual_values(input)) model.warnings.push_back(std::move(text));
+  if (!input.unused.empty()) model.warnings.push_back(input.unused_text());
+  if (input.survey && !input.survey->left_out.empty())
+    model.warnings.push_back(left_out_text(*input.survey));
+  return model;
+}
+
+std::string check_text(const Input& input, const CheckedModel& model) {
+  std::string out = "models   " + composition_of(input) + "\n" + tunnel_line(input);
+  if (!input.tunnel.drawn.empty()) out += "outline  " + input.tunnel.drawn + "\n";
+  out += survey_lines(input);
+  if (!model.rock.joints_read.empty()) out += "traces   " + model.rock.joints_read + "\n";
+  out += joint_lines(model.rock.joints);
+  for (const std::string& line : model.rock.in_section) out += "section  " + line + "\n";
+  out += stress_line(input);
+  if (const auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
+    out += rock_line(*section, "m2", model.seconds);
+    out += "boundary " + boundary_text(model.rock.boundary) + "\n";
+  } else {
+    out += rock_line(std::get<SpatialTunnel>(model.rock.tunnel), "m3", model.seconds);
+    out += std::string("boundary ") + spatial_boundary_text + "\n";
+  }
+  if (model.bolts > 0)
+    out += "bolts    " + std::to_string(model.bolts) + ", which cross " +
+           counted(static_cast<std::size_t>(model.joints_crossed), "joint") + "\n";
+  out += stage_plan(input);
+  for (const std::string& warning : model.warnings) out += "warning  " + warning + "\n";
+  return out + "checked  the file can be run\n";
+}
+
+std::string check_svg(const Input& input, const CheckedModel& model) {
+  const std::string title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
+  const std::string line = "The rock as it is before anything moves: no verdict, no forces.";
+  const SimplePolygon outline = opening_of(input);
+  if (const auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
+    Tunnel whole = *section;  // with all that the rounds take out
+    if (input.has_rounds) whole.excavate(outline, input.blocks.min_wall_area);
+    if (input.has_rounds && input.bolts)
+      for (const Segment& bar : bolt_bars(pattern_of(*input.bolts, input.bolts->spacing), outline))
+        (void)whole.install_bolt(bar, bolt_of(*input.bolts), input.bolts->out_of_plane,
+                                 anchors_of(*input.bolts));
+    BlocksPicture picture = picture_of(state_of(whole), whole.mass(), bars_of(whole), 0.0);
+    for (PictureBlock& block : picture.blocks)
+      block.displacement = std::numeric_limits<double>::quiet_NaN();
+    picture.header.title = title;
+    picture.header.lines = {line};
+    return draw_blocks_picture(picture);
+  }
+  const auto& tunnel = std::get<SpatialTunnel>(model.rock.tunnel);
+  MassPicture picture;
+  picture.header.title = title;
+  picture.header.lines = {line};
+  for (const JointSetInput& set : input.joint_sets) picture.set_names.push_back(set.name);
+  if (!input.has_rounds) return draw_mass_picture(tunnel.mass(), picture);
+  const double smallest = input.blocks.min_wall_area * std::sqrt(input.blocks.min_wall_area);
+  return draw_mass_picture(carve(tunnel.mass(), driven_opening(input, outline), smallest), picture);
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "analysis.hpp"
+
+/// What can be known of an input before equilibrium is sought: `voussoir check`.
+namespace voussoir::program {
+
+/// The rock of an input and its supports in it, nothing moved.
+struct CheckedModel {
+  ExcavatedRock rock;
+  int bolts = 0;           ///< that are installed
+  int joints_crossed = 0;  ///< by all of them
+  double seconds = 0;      ///< that it took
+  std::vector<std::string> warnings = {};
+};
+
+/// @throws as `run_tunnel`, but for what only a search finds
+/// @pre  the input has a tunnel
+[[nodiscard]] CheckedModel checked_model(const Input& input, const Report& report);
+
+/// For a terminal, in the units of an engineer.
+[[nodiscard]] std::string check_text(const Input& input, const CheckedModel& model);
+/// The rock with its joints, and in 2-D the bolts and the limits of the rounds.
+[[nodiscard]] std::string check_svg(const Input& input, const CheckedModel& model);
+
+}  // namespace voussoir::program

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+namespace voussoir::program {
+
+/// Opens a file that an input names.
+/// @return  why it cannot be read; empty if it can. A device or a pipe may never end, and to open
+///          one may take for ever.
+[[nodiscard]] inline std::string open_regular(const std::filesystem::path& path,
+                                              std::ifstream& file) {
+  std::error_code error;
+  const auto kind = std::filesystem::status(path, error).type();
+  if (kind == std::filesystem::file_type::not_found) return "cannot be read: there is no such file";
+  if (kind == std::filesystem::file_type::directory) return "cannot be read: it is a folder";
+  if (kind != std::filesystem::file_type::regular)
+    return "cannot be read: it is not a regular file";
+  file.open(path, std::ios::binary);
+  return file ? "" : "cannot be read: it cannot be opened";
+}
+
+}  // namespace voussoir::program

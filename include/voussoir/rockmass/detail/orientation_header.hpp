@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/rockmass/detail/bounded_lines.hpp>
+#include <voussoir/rockmass/detail/orientation_table.hpp>
+#include <voussoir/rockmass/detail/trace_table.hpp>
+
+namespace voussoir::detail {
+
+/// The layout of a table by its first lines; those before the header are skipped.
+/// @param right_handed  a strike without a rule has the dip to its right
+/// @param data          gets the index of the first line that may be data
+/// @throws InvalidInput  the header names no plane, one thing twice, or units that do not fit
+[[nodiscard]] VOUSSOIR_INLINE OrientationLayout
+orientation_layout(const std::vector<std::string>& lines, bool right_handed, TraceFaults& faults,
+                   std::size_t& data);
+
+#if VOUSSOIR_BODIES
+
+[[nodiscard]] VOUSSOIR_INLINE bool is_angle(OrientationColumn column) {
+  return column == OrientationColumn::dip || column == OrientationColumn::direction ||
+         column == OrientationColumn::right_strike;
+}
+
+/// The unit that a field of a line of units has, "deg" of "[deg]", "(deg)" or "deg"; or empty.
+[[nodiscard]] VOUSSOIR_INLINE std::string unit_in(const std::string& field) {
+  const HeaderWord word = header_word("angle " + field);
+  return word.remarks.empty() ? "" : word.remarks.back();
+}
+
+/// Whether a line below the header has units for all angles, as some programs write them there.
+[[nodiscard]] VOUSSOIR_INLINE bool is_line_of_units(const OrientationLayout& layout,
+                                                    const std::vector<TraceField>& fields) {
+  if (fields.size() > layout.columns.size()) return false;
+  for (std::size_t k = 0; k < layout.columns.size(); ++k)
+    if (is_angle(layout.columns[k]) && (k >= fields.size() || unit_in(fields[k].text).empty()))
+      return false;
+  return true;
+}
+
+/// One unit for all angles, by what stands beside their names or in a line of units below.
+VOUSSOIR_INLINE void read_angle_units(OrientationLayout& layout, const std::string& header,
+                                      const std::vector<TraceField>& units, std::size_t number,
+                                      TraceFaults& faults) {
+  std::string unit_before;
+  for (std::size_t k = 0; k < layout.columns.size(); ++k) {
+    if (!is_angle(layout.columns[k])) continue;
+    std::vector<std::string> remarks = header_word(layout.names[k]).remarks;
+    if (k < units.size()) remarks.push_back(unit_in(units[k].text));
+    for (const std::string& remark : remarks) {
+      if (remark.empty()) continue;
+      const auto [turn, unit] = turn_of(remark);
+      if (turn != 0) {
+        if (!unit_before.empty() && turn != layout.turn)
+          faults.add(number, "units are mixed, " + unit_before + " and " + unit, header,
+                     "one unit for all angles of a file");
+        unit_before = layout.unit = unit;
+        layout.turn = turn;
+        continue;
+      }
+      const std::string word = " " + letters_of(remark) + " ";
+      const auto is_one_of = [&](std::string_view known) {
+        return word.size() > 2 && known.find(word) != std::string_view::npos;
+      };
+      if (is_one_of(" true truenorth tn grid gridnorth ")) continue;
+      if (layout.columns[k] == OrientationColumn::right_strike && is_one_of(right_hand_rules))
+        continue;
+      if (is_one_of(" magnetic mag magneticnorth mn "))
+        layout.notes.push_back(shown(layout.names[k]) +
+                               ": taken as it stands, no magnetic declination is added");
+      else
+        faults.add(number, "the unit \"" + shown(remark) + "\" of an angle is not known", header,
+                   "deg, rad or gon (400 to the turn), in brackets");
+    }
+  }
+}
+
+/// Refuses what a header lacks and what it has twice; leaves the columns that make a plane.
+VOUSSOIR_INLINE void check_orientation_columns(OrientationLayout& layout, bool right_handed,
+                                               const std::string& header, std::size_t number,
+                                               TraceFaults& faults) {
+  using enum OrientationColumn;
+  const auto turn_into = [&](OrientationColumn from, OrientationColumn to) {
+    for (OrientationColumn& column : layout.columns)
+      if (column == from) column = to;
+  };
+  // Programs write the strike beside the dip direction: one of them is enough.
+  if (layout.count(direction) > 0) turn_into(right_strike, other);
+  if (layout.count(direction) > 0 || layout.count(right_strike) > 0) turn_into(strike, other);
+  if (right_handed) turn_into(strike, right_strike);
+  const bool has_direction = layout.count(direction) + layout.count(right_strike) > 0;
+  if (layout.count(strike) > 0)
+    faults.add(number, "strike without rule", header,
+               "a column named strike (RHR), with the dip to the right of the strike, or a dip "
+               "direction");
+  else if (!has_direction)
+    faults.add(number, "a dip without a direction", header, orientation_names);
+  if (layout.count(dip) == 0)
+    faults.add(number, "a direction without a dip", header, orientation_names);
+  for (std::size_t k = 0; k < layout.columns.size(); ++k) {
+    const OrientationColumn column = layout.columns[k];
+    if (column != other && column != strike && layout.count(column) > 1)
+      faults.add(number, "two columns mean the same, \"" + shown(layout.names[k]) + "\"", header,
+                 orientation_names);
+  }
+  faults.finish();
+}
+
+VOUSSOIR_INLINE OrientationLayout orientation_layout(const std::vector<std::string>& lines,
+                                                     bool right_handed, TraceFaults& faults,
+                                                     std::size_t& data) {
+  using enum OrientationColumn;
+  char told = 0;  // "sep=;", as spreadsheets write and read it
+  std::optional<std::size_t> first, half;
+  OrientationLayout layout, half_layout;
+  std::vector<std::string> skipped;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::string low = lower(trimmed(lines[k]));
+    if (low.starts_with("sep=") && low.size() == 5) {
+      told = low[4];
+      continue;
+    }
+    if (is_orientation_comment(lines[k])) continue;
+    if (!first) first = k;
+    std::size_t below = k + 1;
+    while (below < lines.size() && is_orientation_comment(lines[below])) ++below;
+    OrientationLayout tried =
+        header_of(lines[k], told, below < lines.size() ? lines[below] : std::string());
+    const std::size_t directions =
+        tried.count(direction) + tried.count(strike) + tried.count(right_strike);
+    if (tried.count(dip) > 0 && directions > 0) {
+      layout = std::move(tried);
+      layout.has_header = true;
+      data = k + 1;
+      break;
+    }
+    if (tried.count(dip) + directions > 0) {
+      half = k;
+      half_layout = std::move(tried);
+    }
+    skipped.push_back(lines[k]);
+  }
+  if (!layout.has_header) {
+    data = first.value_or(lines.size());
+    if (half) check_orientation_columns(half_layout, right_handed, lines[*half], *half + 1, faults);
+    if (!first) return layout;
+    layout.separator = told != 0 ? told : orientation_separator(lines[*first]);
+    layout.columns = {dip, direction};
+    return layout;
+  }
+  if (!skipped.empty())
+    layout.notes.push_back(std::to_string(skipped.size()) +
+                           " lines before the header are skipped, from \"" +
+                           shown(skipped.front()) + "\" on");
+  const std::string header = lines[data - 1];
+  const std::size_t number = data;
+  check_orientation_columns(layout, right_handed, header, number, faults);
+  std::vector<TraceField> units;
+  if (data < lines.size()) units = fields_of(lines[data], layout.separator);
+  if (!is_line_of_units(layout, units))
+    units.clear();
+  else
+    ++data;
+  read_angle_units(layout, header, units, number, faults);
+  faults.finish();
+  return layout;
+}
+
+#endif
+
+}  // namespace voussoir::detail

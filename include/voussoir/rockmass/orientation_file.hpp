@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <istream>
+#include <string>
+#include <voussoir/core/bodies.hpp>
+#include <voussoir/core/progress.hpp>
+#include <voussoir/rockmass/detail/orientation_reader.hpp>
+
+namespace voussoir {
+
+/// Reads joints that were measured with a compass from a table of text: a row for each plane, with
+/// its dip and dip direction, or its strike by the right-hand rule, and optionally a set and a
+/// weight. As Dips, Stereonet, FieldMove and spreadsheets export it.
+///
+/// A header in any case and order chooses the columns; columns that it does not know, and what
+/// stands before it, are skipped and told in the notes. A strike without a rule is refused: half of
+/// the trade has the dip to its left. Without a header there are two columns, and the one with
+/// values above 90 is the dip direction. Angles are in degrees, or in the unit that the header says
+/// (deg, rad, gon); "grad" is refused, which is a degree in German and a gon in English. Azimuths
+/// are taken as they stand: no declination is added.
+///
+/// Fields are separated by tabs, semicolons, commas, | or blanks, may be quoted, and numbers may
+/// have a decimal comma where fields are not separated by commas. Empty lines and those that start
+/// with #, //, %, !, * or -- are skipped. UTF-8 or UTF-16; lines end in LF, CR LF or CR. A set is a
+/// name or a number; an empty field, "-", "none" or -1 is none.
+///
+/// @param name      of the source, for messages
+/// @param progress  asked now and then whether to go on
+/// @throws InvalidInput  the first five faults at once, each with line, value and what is accepted:
+///                       wrong number of fields, no finite number, a dip outside 0 to 90 degrees, a
+///                       direction outside 0 to 360, a weight that is not > 0; a header that does
+///                       not name a plane or names a thing twice; no plane at all, more than
+///                       `limits`; a format that is not read, by its name
+/// @throws Stopped
+[[nodiscard]] VOUSSOIR_INLINE OrientationFile
+read_orientations(std::istream& in, const std::string& name,
+                  const OrientationFileLimits& limits = {}, const Progress& progress = {});
+
+#if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE OrientationFile read_orientations(std::istream& in, const std::string& name,
+                                                  const OrientationFileLimits& limits,
+                                                  const Progress& progress) {
+  StopCheck stop(progress);
+  return detail::OrientationReader(in, name, limits, stop).read();
+}
+
+#endif
+
+}  // namespace voussoir
