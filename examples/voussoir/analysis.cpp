@@ -199,22 +199,26 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
 }
 
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
-  if (!input.bolts) return;
   // Along the tunnel the rows lie inside; the section says the rest.
   const Domain<2> domain = domain_of(input);
   const SimplePolygon opening = opening_of(input);
-  for (const auto& spacing : spacings) {
-    if (!spacing) continue;
-    for (const Segment& bar : bolt_bars(pattern_of(*input.bolts, *spacing), opening))
-      if ((bar.end.array() < domain.low.array()).any() ||
-          (bar.end.array() > domain.high.array()).any())
-        throw InvalidInput("support.bolts.length = " + number(input.bolts->length) +
-                           " m: a bolt would end at " + text_of<2>(bar.end) +
-                           " m, outside the rock" +
-                           unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
-                           "\n   = accepted: bolts that end within " + text_of<2>(domain.low) +
-                           " and " + text_of<2>(domain.high) + " m");
-  }
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const auto check = [&](std::size_t k, const BoltSpacing& spacing) {
+    for (const Segment& bar : bars_of_pattern(*patterns[k], spacing, opening))
+      for (const Vec2& end : {bar.start, bar.end})
+        if ((end.array() < domain.low.array()).any() || (end.array() > domain.high.array()).any())
+          throw InvalidInput(input.bolts_key(k) +
+                             (patterns[k]->bars.empty()
+                                  ? ".length = " + number(patterns[k]->length) + " m"
+                                  : ".bars") +
+                             ": a bolt would end at " + text_of<2>(end) + " m, outside the rock" +
+                             unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
+                             "\n   = accepted: bolts that end within " + text_of<2>(domain.low) +
+                             " and " + text_of<2>(domain.high) + " m");
+  };
+  for (const auto& spacing : spacings)
+    if (spacing && input.bolts) check(0, *spacing);
+  for (std::size_t k = 1; k < patterns.size(); ++k) check(k, patterns[k]->spacing);
 }
 
 double bolt_strength(const BoltsInput& bolts) {
@@ -224,7 +228,10 @@ double bolt_strength(const BoltsInput& bolts) {
 
 std::vector<std::string> unchecked_supports(const Input& input) {
   std::vector<std::string> unchecked;
-  if (input.bolts && std::isinf(bolt_strength(*input.bolts))) unchecked.emplace_back("bolts");
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  if (std::any_of(patterns.begin(), patterns.end(),
+                  [](const BoltsInput* pattern) { return std::isinf(bolt_strength(*pattern)); }))
+    unchecked.emplace_back("bolts");
   if (input.lining) unchecked.emplace_back("lining");
   if (input.lining && input.lining->feet && !input.lining->feet->strength)
     unchecked.emplace_back("feet of the lining");
@@ -320,8 +327,7 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
     result.bolts_yielded = condition.yielded;
     result.bolts_ruptured = condition.ruptured;
     result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
-    if (input.bolts && std::isfinite(bolt_strength(*input.bolts)))
-      result.of_bolt_strength = result.demand.largest_bolt_force / bolt_strength(*input.bolts);
+    if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
     result.error_estimate = built.last().error_estimate;
     result.out_of_balance = built.last().unbalance_over_weight;
   };

@@ -11,6 +11,7 @@
 #include <vector>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
+#include <voussoir/tunnel/support_forces.hpp>
 
 #include "boundary.hpp"
 #include "construction_plan.hpp"
@@ -109,6 +110,25 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
 
 /// Of one bolt in tension [N], the lower of yield and rupture; infinite: none was given.
 [[nodiscard]] double bolt_strength(const BoltsInput& bolts);
+/// Of every bolt that was installed [N].
+template <class Solver>
+[[nodiscard]] std::vector<double> bolt_strengths(const Input& input, const Solver& tunnel) {
+  std::vector<double> strengths;
+  for (const BoltsInput* pattern : patterns_of_bars(input, bars_of(tunnel)))
+    strengths.push_back(bolt_strength(*pattern));
+  return strengths;
+}
+/// The largest force of a bolt over its strength [-]; none: no bolt has one.
+template <class Solver>
+[[nodiscard]] std::optional<double> most_of_bolt_strength(const Input& input,
+                                                          const Solver& tunnel) {
+  const std::vector<double> strengths = bolt_strengths(input, tunnel);
+  const std::vector<double> forces = largest_bolt_forces(tunnel);
+  std::optional<double> most;
+  for (std::size_t k = 0; k < strengths.size(); ++k)
+    if (std::isfinite(strengths[k])) most = std::max(most.value_or(0), forces[k] / strengths[k]);
+  return most;
+}
 /// Supports whose strength is not given, so that nothing says whether they bear what they carry:
 /// "bolts", "lining", "feet of the lining".
 [[nodiscard]] std::vector<std::string> unchecked_supports(const Input& input);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -33,15 +34,17 @@ namespace {
 
 std::string metres(double value) { return significant_text(value, 4) + " m"; }
 
-/// Bolts of the whole tunnel where the rock is now.
-template <class Solver, class Bars>
-void install_bolts(Solver& tunnel, const Input& input, const Bars& bars, CheckedModel& model) {
-  for (const auto& bar : bars) {
-    model.joints_crossed += tunnel.install_bolt(bar, bolt_of(*input.bolts),
-                                                Solver::dim == 2 ? input.bolts->out_of_plane : 1.0,
-                                                anchors_of(*input.bolts));
-    ++model.bolts;
-  }
+/// Installs all bolts of the section where the rock is now.
+/// @return  how many, and joints that they cross
+std::pair<int, int> install_bolts(Tunnel& tunnel, const Input& input) {
+  std::pair<int, int> made{0, 0};
+  for (const BoltsInput* pattern : input.bolt_patterns())
+    for (const Segment& bar : bars_of_pattern(*pattern, pattern->spacing, opening_of(input))) {
+      made.second +=
+          tunnel.install_bolt(bar, bolt_of(*pattern), pattern->out_of_plane, anchors_of(*pattern));
+      ++made.first;
+    }
+  return made;
 }
 
 template <class Solver>
@@ -93,7 +96,10 @@ std::string stage_plan(const Input& input) {
       does.push_back("excavates " + significant_text(part, 3) + " m2" +
                      (part < area * (1 - 1e-9) ? " of " + significant_text(area, 3) : ""));
     }
-    if (stage.install_bolts) does.emplace_back("installs bolts");
+    const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+    for (const std::size_t k : stage.bolts)
+      does.push_back("installs " +
+                     (patterns.size() > 1 ? patterns[k]->name : std::string("bolts")));
     if (stage.install_lining) does.emplace_back("installs the lining");
     if (input.is_spatial() && input.tunnel.round_length)
       does.push_back(stage.behind == 0 ? std::string("at the face")
@@ -114,11 +120,9 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   CheckedModel model{excavated_rock(input, false, report)};
-  if (input.bolts && !input.has_rounds) {
-    const BoltPattern pattern = pattern_of(*input.bolts, input.bolts->spacing);
-    if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel))
-      install_bolts(*section, input, bolt_bars(pattern, model.rock.opening), model);
-  }
+  if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel))
+    if (!input.has_rounds)
+      std::tie(model.bolts, model.joints_crossed) = install_bolts(*section, input);
   model.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   model.warnings = model.rock.warnings;
   for (std::string& text : unusual_values(input)) model.warnings.push_back(std::move(text));
@@ -158,13 +162,11 @@ std::string check_svg(const Input& input, const CheckedModel& model) {
   if (const auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
     Tunnel whole = *section;  // with all that the rounds take out
     if (input.has_rounds) whole.excavate(outline, input.blocks.min_wall_area);
-    if (input.has_rounds && input.bolts)
-      for (const Segment& bar : bolt_bars(pattern_of(*input.bolts, input.bolts->spacing), outline))
-        (void)whole.install_bolt(bar, bolt_of(*input.bolts), input.bolts->out_of_plane,
-                                 anchors_of(*input.bolts));
+    if (input.has_rounds) (void)install_bolts(whole, input);
     BlocksPicture picture = picture_of(state_of(whole), whole.mass(), bars_of(whole), 0.0);
     for (PictureBlock& block : picture.blocks)
       block.displacement = std::numeric_limits<double>::quiet_NaN();
+    for (PictureBolt& bolt : picture.bolts) bolt.crossings.clear();  // nothing pulls yet
     picture.header.title = title;
     picture.header.lines = {line};
     return draw_blocks_picture(picture);
@@ -173,6 +175,8 @@ std::string check_svg(const Input& input, const CheckedModel& model) {
   MassPicture picture;
   picture.header.title = title;
   picture.header.lines = {line};
+  picture.axes = {"right", "along", "up"};
+  picture.y_azimuth = input.tunnel.trend.value_or(0);
   for (const JointSetInput& set : input.joint_sets) picture.set_names.push_back(set.name);
   if (!input.has_rounds) return draw_mass_picture(tunnel.mass(), picture);
   const double smallest = input.blocks.min_wall_area * std::sqrt(input.blocks.min_wall_area);

@@ -29,6 +29,72 @@ BoltPattern pattern_of(const BoltsInput& bolts, const BoltSpacing& spacing) {
           .to = bolts.arc.to};
 }
 
+std::vector<Segment> bars_of_pattern(const BoltsInput& bolts, const BoltSpacing& spacing,
+                                     const SimplePolygon& opening) {
+  if (bolts.bars.empty()) return bolt_bars(pattern_of(bolts, spacing), opening);
+  std::vector<Segment> bars;
+  for (const auto& [head, tip] : bolts.bars)
+    bars.push_back({Vec2(head[0], head[1]), Vec2(tip[0], tip[1])});
+  return bars;
+}
+
+std::vector<SpatialLine> bars_of_pattern(const Input& input, const BoltsInput& bolts,
+                                         const BoltSpacing& spacing,
+                                         const PrismaticOpening& opening) {
+  const double driven = input.round_count() * input.stretch();
+  if (bolts.bars.empty())
+    return bolt_bars(pattern_of(bolts, spacing), opening, bolts.out_of_plane, 0, driven);
+  std::vector<SpatialLine> bars;
+  const auto rows = static_cast<int>(std::floor(driven / bolts.out_of_plane + 1e-9));
+  for (int k = 0; k < rows; ++k)
+    for (const Segment& bar : bars_of_pattern(bolts, spacing, opening.section())) {
+      const double y = (k + 0.5) * bolts.out_of_plane;
+      bars.push_back({opening.in_space(bar.start, y), opening.in_space(bar.end, y)});
+    }
+  return bars;
+}
+
+namespace {
+
+/// Two patterns with a bar in common are told apart by their order: the first has it.
+template <class Bars, class BarsOf>
+std::vector<const BoltsInput*> patterns_of(const Input& input, const Bars& bars,
+                                           const BarsOf& bars_of) {
+  std::vector<const BoltsInput*> found(bars.size(), nullptr);
+  for (const BoltsInput* pattern : input.bolt_patterns()) {
+    const Bars own = bars_of(*pattern);
+    for (std::size_t k = 0; k < bars.size(); ++k)
+      for (std::size_t i = 0; i < own.size() && found[k] == nullptr; ++i)
+        if (own[i].start == bars[k].start && own[i].end == bars[k].end) found[k] = pattern;
+  }
+  // Those of another spacing, in a diagram, are of the first pattern.
+  for (const BoltsInput*& pattern : found)
+    if (pattern == nullptr) pattern = &*input.bolts;
+  return found;
+}
+
+/// That of the file, or for the first pattern what is chosen; none: it is left out.
+std::optional<BoltSpacing> spacing_of(const BoltsInput& pattern, std::size_t number,
+                                      const SupportChoice& supports) {
+  return number == 0 ? supports.spacing : std::optional(pattern.spacing);
+}
+
+}  // namespace
+
+std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
+                                                const std::vector<Segment>& bars) {
+  return patterns_of(input, bars, [&](const BoltsInput& pattern) {
+    return bars_of_pattern(pattern, pattern.spacing, opening_of(input));
+  });
+}
+std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
+                                                const std::vector<SpatialLine>& bars) {
+  return patterns_of(input, bars, [&](const BoltsInput& pattern) {
+    return bars_of_pattern(input, pattern, pattern.spacing,
+                           driven_opening(input, opening_of(input)));
+  });
+}
+
 int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening,
                  double thickness) {
   const LiningInput& lining = *input.lining;
@@ -94,10 +160,11 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, b
     auto& made = construction.add_stage(stage.name, stage.wall_traction);
     if (stage.part && !is_excavated)
       made.excavate(*outline_of_part(opening, *stage.part), input.blocks.min_wall_area);
-    if (stage.install_bolts && supports.spacing)
-      made.install_bolts({bolt_bars(pattern_of(*input.bolts, *supports.spacing), opening),
-                          bolt_of(*input.bolts), input.bolts->out_of_plane,
-                          anchors_of(*input.bolts)});
+    const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+    for (const std::size_t k : stage.bolts)
+      if (const auto spacing = spacing_of(*patterns[k], k, supports))
+        made.install_bolts({bars_of_pattern(*patterns[k], *spacing, opening), bolt_of(*patterns[k]),
+                            patterns[k]->out_of_plane, anchors_of(*patterns[k])});
     if (stage.install_lining && supports.thickness > 0) {
       const int nodes = lining_nodes(input, tunnel.mass(), opening, supports.thickness);
       LiningInstallation<Tunnel> lining{ring_of(*input.lining, nodes),
@@ -117,10 +184,15 @@ namespace {
 class StretchWork {
  public:
   StretchWork(const Input& input, const SimplePolygon& section, const SupportChoice& supports)
-      : input_(input), whole_(driven_opening(input, section)), supports_(supports) {
-    if (input.bolts && supports.spacing)
-      bars_ = bolt_bars(pattern_of(*input.bolts, *supports.spacing), whole_,
-                        input.bolts->out_of_plane, 0, input.round_count() * input.stretch());
+      : input_(input),
+        whole_(driven_opening(input, section)),
+        supports_(supports),
+        patterns_(input.bolt_patterns()) {
+    for (std::size_t k = 0; k < patterns_.size(); ++k) {
+      const auto spacing = spacing_of(*patterns_[k], k, supports);
+      bars_.push_back(spacing ? bars_of_pattern(input, *patterns_[k], *spacing, whole_)
+                              : std::vector<SpatialLine>{});
+    }
   }
 
   /// @param k  number of the stretch, from 0
@@ -131,10 +203,10 @@ class StretchWork {
       stage.excavate(PrismaticOpening(*outline_of_part(whole_.section(), *entry.part),
                                       k == 0 ? whole_.from() : from, k == last ? whole_.to() : to),
                      input_.blocks.min_wall_area * std::sqrt(input_.blocks.min_wall_area));
-    if (entry.install_bolts && supports_.spacing) {
+    for (const std::size_t pattern : entry.bolts) {
       BoltInstallation<SpatialTunnel> bolts{
-          {}, bolt_of(*input_.bolts), 1, anchors_of(*input_.bolts)};
-      for (const SpatialLine& bar : bars_) {
+          {}, bolt_of(*patterns_[pattern]), 1, anchors_of(*patterns_[pattern])};
+      for (const SpatialLine& bar : bars_[pattern]) {
         const double y = whole_.along(bar.start);
         if (y >= from && y < to) bolts.bars.push_back(bar);
       }
@@ -165,7 +237,8 @@ class StretchWork {
   const Input& input_;
   PrismaticOpening whole_;
   SupportChoice supports_;
-  std::vector<SpatialLine> bars_;
+  std::vector<const BoltsInput*> patterns_;
+  std::vector<std::vector<SpatialLine>> bars_;  ///< of each pattern
 };
 
 }  // namespace

@@ -28,6 +28,19 @@ struct SupportChoice {
 [[nodiscard]] LawsBySet<AnyJoint> laws_of(const Input& input);
 [[nodiscard]] Acceptance acceptance_of(const Input& input, const SimplePolygon& opening);
 /// One row around the section.
+/// The bars of a pattern in the section; in 3-D in rows along what is driven.
+[[nodiscard]] std::vector<Segment> bars_of_pattern(const BoltsInput& bolts,
+                                                   const BoltSpacing& spacing,
+                                                   const SimplePolygon& opening);
+[[nodiscard]] std::vector<SpatialLine> bars_of_pattern(const Input& input, const BoltsInput& bolts,
+                                                       const BoltSpacing& spacing,
+                                                       const PrismaticOpening& opening);
+/// Of every bar the pattern that it is of. @pre the bars are those of the patterns of the file
+[[nodiscard]] std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
+                                                              const std::vector<Segment>& bars);
+[[nodiscard]] std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
+                                                              const std::vector<SpatialLine>& bars);
+
 [[nodiscard]] BoltPattern pattern_of(const BoltsInput& bolts, const BoltSpacing& spacing);
 /// Nodes on the full ring of a section: as many as facets, or as many as it takes to be no farther
 /// apart than joints, for a block that falls between two nodes loads none, or than a bond needs.

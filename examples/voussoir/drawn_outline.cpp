@@ -31,16 +31,18 @@ std::string place_in(const std::string& message) {
   return " at " + message.substr(open, close - open + 1);
 }
 
+std::string ending_of(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
+
 std::string metres(double value) { return format_quantity(value, dimension::length); }
 
 }  // namespace
 
-bool is_drawing(const std::filesystem::path& file) {
-  std::string end = file.extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return end == ".dxf";
+bool is_drawing(const std::filesystem::path& file) { return ending_of(file) == ".dxf"; }
+
+bool is_geojson(const std::filesystem::path& file) {
+  return ending_of(file) == ".geojson" || ending_of(file) == ".json";
 }
 
 void read_drawing_unit(Section& s, double& unit) {

@@ -12,8 +12,9 @@
 /// What engineers have as a drawing: the outline of the opening, and mapped joints.
 namespace voussoir::program {
 
-/// Whether a file is a drawing, by the end of its name.
+/// Whether a file is a drawing (.dxf), or a map (.geojson, .json), by the end of its name.
 [[nodiscard]] bool is_drawing(const std::filesystem::path& file);
+[[nodiscard]] bool is_geojson(const std::filesystem::path& file);
 
 /// Reads the key `unit` beside a file that is a drawing.
 /// @param unit  of the drawing [m]; 0: as it says itself

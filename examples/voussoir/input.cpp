@@ -363,13 +363,35 @@ void read_lined_arc(Section& s, LiningInput& lining) {
     lining.part = parts[*word];
 }
 
+/// Bars one by one: head and tip of each.
+void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
+  const std::string form =
+      R"(1 to 1000 pairs of points, head and tip of each bar, such as [[["0 m", "4 m"], ["0 m", "8 m"]]])";
+  const auto entries = value.as_list(1, 1000, form);
+  for (std::size_t k = 0; entries && k < entries->size(); ++k) {
+    const auto ends = entries->at(k).as_list(2, 2, form);
+    if (!ends) continue;
+    const auto head = ends->at(0).as_point(), tip = ends->at(1).as_point();
+    if (!head || !tip) continue;
+    if (*head == *tip)
+      entries->at(k).refuse("has no length", form);
+    else
+      bars.push_back({*head, *tip});
+  }
+}
+
 void read_bolts(Section& s, BoltsInput& bolts) {
-  s.quantity("length", bolts.length, dimension::length, above(0), Need::required);
-  if (const auto value = s.find("spacing", Need::required, spacing_form))
-    bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
+  s.text("name", bolts.name);
+  const bool has_bars = s.has("bars");
+  if (const auto value = s.find("bars", Need::optional)) read_bars(*value, bolts.bars);
   bolts.arc = {0, degrees(180)};
-  if (const auto value = s.find("arc", Need::optional))
-    bolts.arc = read_arc(*value).value_or(bolts.arc);
+  s.only_with(!has_bars, "length and spacing, without bars,", [&] {
+    s.quantity("length", bolts.length, dimension::length, above(0), Need::required);
+    if (const auto value = s.find("spacing", Need::required, spacing_form))
+      bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
+    if (const auto value = s.find("arc", Need::optional))
+      bolts.arc = read_arc(*value).value_or(bolts.arc);
+  });
   s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
              Need::optional);
   s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
@@ -503,14 +525,21 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
   }
   const auto value = s.find("install", Need::optional);
   if (!value) return;
-  const auto items = value->as_list(0, 2, R"(a list of "bolts", "lining")");
+  std::vector<std::string> words{"bolts", "lining"};  // all patterns, or one by its name
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (const BoltsInput* pattern : patterns) words.push_back(pattern->name);
+  const auto items = value->as_list(0, words.size(), R"(a list of "bolts", "lining")");
   if (!items) return;
+  std::vector<bool> seen(words.size(), false);
   for (const Value& item : *items) {
-    const auto word = item.as_word({"bolts", "lining"});
+    const auto word = item.as_word(words);
     if (!word) continue;
-    bool& installed = *word == 0 ? stage.install_bolts : stage.install_lining;
-    if (installed) item.refuse("is in the list twice", "each support once");
-    installed = true;
+    if (seen[*word]) item.refuse("is in the list twice", "each support once");
+    seen[*word] = true;
+    if (*word == 1) stage.install_lining = true;
+    if (*word >= 2) stage.bolts.push_back(*word - 2);
+    for (std::size_t k = 0; *word == 0 && k < std::max<std::size_t>(patterns.size(), 1); ++k)
+      stage.bolts.push_back(k);
   }
 }
 
@@ -636,7 +665,12 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
                     R"(tunnel.trend = "0 deg", clockwise from North, looking along the tunnel)");
   file.table("blocks", [&](Section& s) { read_blocks(s, input.blocks); });
   file.table("support", [&](Section& support) {
-    support.optional_table("bolts", [&](Section& s) { read_bolts(s, input.bolts.emplace()); });
+    input.lists_bolts = support.has_list("bolts");
+    support.table_or_tables("bolts", [&](Section& s, std::size_t k) {
+      BoltsInput& pattern = k == 0 ? input.bolts.emplace() : input.further_bolts.emplace_back();
+      pattern.name = "bolts " + std::to_string(k + 1);
+      read_bolts(s, pattern);
+    });
     support.optional_table("lining", [&](Section& s) { read_lining(s, input); });
   });
   input.has_rounds = file.has("round");
@@ -693,6 +727,18 @@ int Input::round_count() const {
   if (!tunnel.round_length) return 1;
   return tunnel.rounds.value_or(
       std::max(1, static_cast<int>(std::floor(model.length / *tunnel.round_length * (1 + 1e-9)))));
+}
+
+std::vector<const BoltsInput*> Input::bolt_patterns() const {
+  std::vector<const BoltsInput*> patterns;
+  if (bolts) patterns.push_back(&*bolts);
+  for (const BoltsInput& pattern : further_bolts) patterns.push_back(&pattern);
+  return patterns;
+}
+
+std::string Input::bolts_key(std::size_t pattern) const {
+  const std::string key = "support.bolts";
+  return !lists_bolts ? key : key + "[" + std::to_string(pattern) + "]";
 }
 
 double Input::K0_across() const {

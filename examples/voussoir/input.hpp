@@ -227,8 +227,11 @@ struct ArcInput {
   double to = 0;  ///< > from, <= from + 2 pi
 };
 
-/// [support.bolts]
+/// [support.bolts], or one of [[support.bolts]].
 struct BoltsInput {
+  std::string name;  ///< default "bolts 1", "bolts 2", ...
+  /// Head and tip of each bar of the section, in place of length, spacing and arc [m].
+  std::vector<std::array<Point, 2>> bars = {};
   double length = 0;  ///< [m], > 0
   BoltSpacing spacing;
   ArcInput arc;             ///< default 0 to pi: the roof
@@ -294,9 +297,9 @@ struct StageInput {
   std::optional<SectionPart> part;
   /// 3-D, with tunnel.round_length: so many rounds behind the face, 0 to 1000.
   int behind = 0;
-  double wall_traction = 0;     ///< left on the wall at the end / in-situ traction [-], 0 to 1
-  bool install_bolts = false;   ///< at the start of the stage
-  bool install_lining = false;  ///< at the start of the stage
+  double wall_traction = 0;  ///< left on the wall at the end / in-situ traction [-], 0 to 1
+  std::vector<std::size_t> bolts = {};  ///< patterns installed at the start of the stage
+  bool install_lining = false;          ///< at the start of the stage
 };
 
 /// [run] How equilibrium is sought.
@@ -333,7 +336,9 @@ struct Input {
   std::optional<SurveyInput> survey;
   JointLawInput joint;
   BlocksInput blocks;
-  std::optional<BoltsInput> bolts;
+  std::optional<BoltsInput> bolts;        ///< the first pattern, which a diagram varies
+  std::vector<BoltsInput> further_bolts;  ///< patterns behind it
+  bool lists_bolts = false;               ///< as [[support.bolts]]
   std::optional<LiningInput> lining;
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   bool has_rounds = false;         ///< stages are given as [[round]]
@@ -349,6 +354,10 @@ struct Input {
   std::vector<std::string> content;
 
   [[nodiscard]] bool is_spatial() const { return model.dimension == 3; }
+  /// All patterns of bolts, the first one first.
+  [[nodiscard]] std::vector<const BoltsInput*> bolt_patterns() const;
+  /// The table of a pattern: "support.bolts", or "support.bolts[1]" of several.
+  [[nodiscard]] std::string bolts_key(std::size_t pattern) const;
   /// Horizontal over vertical stress across the tunnel, without the constant part [-].
   [[nodiscard]] double K0_across() const;
   /// 3-D: what is excavated at a time along the tunnel [m].

@@ -173,9 +173,11 @@ void check_spatial(Checker& checker, const Input& input) {
                         static_cast<int>(std::floor(input.model.length / *round * (1 + 1e-9)))));
   }
   const double driven = input.round_count() * input.stretch();
-  if (input.bolts && !checker.faulty("support.bolts") && input.bolts->out_of_plane > driven)
-    checker.report("support.bolts.out_of_plane", "leaves no row of bolts in the tunnel",
-                   "at most " + format_quantity(driven, dimension::length) + ", what is driven");
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (std::size_t k = 0; k < patterns.size() && !checker.faulty("support.bolts"); ++k)
+    if (patterns[k]->out_of_plane > driven)
+      checker.report(input.bolts_key(k) + ".out_of_plane", "leaves no row of bolts in the tunnel",
+                     "at most " + format_quantity(driven, dimension::length) + ", what is driven");
   if (input.lining && input.lining->rib_spacing && *input.lining->rib_spacing > input.stretch())
     checker.report("support.lining.rib_spacing",
                    "is longer than what is lined at a time, tunnel.round_length or model.length",
@@ -273,18 +275,28 @@ void check_size(Checker& checker, const Input& input) {
                    "blocks.min_inscribed_radius");
 }
 
-void check_bolts(Checker& checker, const BoltsInput& bolts) {
+void check_bolts(Checker& checker, const Input& input) {
   if (checker.faulty("support.bolts")) return;
-  const auto below = [&](const std::string& key, double value, const char* limit_key,
-                         const std::optional<double>& limit) {
-    if (!limit || value < *limit) return;
-    checker.report("support.bolts." + key, std::string("is not below ") + limit_key,
-                   "below " + format_quantity(*limit, dimension::force));
-  };
-  below("pretension", bolts.pretension, "yield_force", bolts.yield_force);
-  below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
-  if (bolts.yield_force)
-    below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    const BoltsInput& bolts = *patterns[k];
+    const std::string table = input.bolts_key(k) + ".";
+    const auto below = [&](const std::string& key, double value, const char* limit_key,
+                           const std::optional<double>& limit) {
+      if (!limit || value < *limit) return;
+      checker.report(table + key, std::string("is not below ") + limit_key,
+                     "below " + format_quantity(*limit, dimension::force));
+    };
+    below("pretension", bolts.pretension, "yield_force", bolts.yield_force);
+    below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
+    if (bolts.yield_force)
+      below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
+    if (bolts.name == "bolts" || bolts.name == "lining")
+      checker.report(table + "name", "is what a stage installs all of", "another name");
+    for (std::size_t other = 0; other < k; ++other)
+      if (patterns[other]->name == bolts.name)
+        checker.report(table + "name", "is that of another pattern", "a name of its own");
+  }
 }
 
 void check_stages(Checker& checker, Input& input) {
@@ -292,8 +304,9 @@ void check_stages(Checker& checker, Input& input) {
     if (checker.faulty("stage") || checker.faulty("round")) return;  // meant to have some
     input.stages.push_back({.name = "excavation and support",
                             .part = SectionPart{},
-                            .install_bolts = input.bolts.has_value(),
                             .install_lining = input.lining.has_value()});
+    for (std::size_t k = 0; k < input.bolt_patterns().size(); ++k)
+      input.stages.back().bolts.push_back(k);
     return;
   }
   const std::string table = input.has_rounds ? "round" : "stage";
@@ -311,23 +324,32 @@ void check_stages(Checker& checker, Input& input) {
     checker.report(key(input.stages.size() - 1) + ".wall_traction",
                    "leaves traction on the wall at the end", "\"0 %\" in the last " + table);
 
-  const auto check_support = [&](const std::string& word, bool StageInput::*install, bool exists) {
+  // Each support once, whatever a stage calls it.
+  const auto check_support = [&](const std::string& called, const std::string& table_key,
+                                 bool exists, const auto& is_installed_in) {
     bool installed = false;
     for (std::size_t i = 0; i < input.stages.size(); ++i) {
-      if (!(input.stages[i].*install)) continue;
+      if (!is_installed_in(input.stages[i])) continue;
       const std::string place = key(i) + ".install";
       if (!exists && !checker.faulty("support"))
-        checker.report(place, "names " + word + ", which the file does not describe",
-                       "a table [support." + word + "]");
-      if (installed) checker.report(place, "names " + word + " again", "each support once");
+        checker.report(place, "names " + called + ", which the file does not describe",
+                       "a table [" + table_key + "]");
+      if (installed) checker.report(place, "names " + called + " again", "each support once");
       installed = true;
     }
     if (exists && !installed)
-      checker.report("support." + word, "is in no stage",
-                     "install = [\"" + word + "\"] in one [[" + table + "]]");
+      checker.report(table_key, "is in no stage",
+                     "install = [\"" + called + "\"] in one [[" + table + "]]");
   };
-  check_support("bolts", &StageInput::install_bolts, input.bolts.has_value());
-  check_support("lining", &StageInput::install_lining, input.lining.has_value());
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (std::size_t k = 0; k < std::max<std::size_t>(patterns.size(), 1); ++k)
+    check_support(patterns.size() > 1 ? patterns[k]->name : "bolts", input.bolts_key(k),
+                  !patterns.empty(), [&](const StageInput& stage) {
+                    return std::find(stage.bolts.begin(), stage.bolts.end(), k) !=
+                           stage.bolts.end();
+                  });
+  check_support("lining", "support.lining", input.lining.has_value(),
+                [](const StageInput& stage) { return stage.install_lining; });
 }
 
 void check_diagram(Checker& checker, const Input& input) {
@@ -335,6 +357,9 @@ void check_diagram(Checker& checker, const Input& input) {
   if (!input.bolts && input.diagram->spacing.front() && !checker.faulty("support"))
     checker.report("diagram.spacing", "varies bolts, which the file does not describe",
                    "a table [support.bolts]");
+  if (input.bolts && !input.bolts->bars.empty() && input.diagram->spacing.front())
+    checker.report("diagram.spacing", "varies bolts that are given one by one",
+                   "a first [[support.bolts]] with a spacing");
   if (!input.lining && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
     checker.report("diagram.thickness", "varies a lining, which the file does not describe",
                    "a table [support.lining]");
@@ -351,7 +376,7 @@ void check_together(Checker& checker, Input& input) {
   check_spatial(checker, input);
   check_rounds(checker, input);
   check_size(checker, input);
-  if (input.bolts) check_bolts(checker, *input.bolts);
+  check_bolts(checker, input);
   check_stages(checker, input);
   check_diagram(checker, input);
 }

@@ -441,6 +441,12 @@ std::string all_texts(const std::vector<InputError>& errors, std::size_t more) {
 InputErrors::InputErrors(std::vector<InputError> errors, std::size_t more)
     : std::runtime_error(all_texts(errors, more)), errors_(std::move(errors)), more_(more) {}
 
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   for (const char c : text) {

@@ -73,6 +73,9 @@ struct Document {
 /// `text` with control characters shown as `?`, cut behind 80 bytes.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// With its letters of ASCII in lower case.
+[[nodiscard]] std::string lower_case(std::string text);
+
 /// The candidate that `word` is probably meant to be: the only one of several words of which it is
 /// one, or at most one slip in three letters.
 /// @return  empty if none is near

@@ -437,6 +437,12 @@ void Section::tables(std::string_view key, const std::function<void(Section&, st
   }
 }
 
+void Section::table_or_tables(std::string_view key,
+                              const std::function<void(Section&, std::size_t)>& read) {
+  if (has_list(key)) return tables(key, read);
+  optional_table(key, [&](Section& s) { read(s, 0); });
+}
+
 void Section::finish() {
   if (node_ == nullptr) {
     if (!missing_.empty()) {

@@ -204,6 +204,15 @@ class Section {
   /// The [[tables]] of that name, in order.
   void tables(std::string_view key, const std::function<void(Section&, std::size_t)>& read);
 
+  /// Whether the file has a list of that name (no declaration).
+  [[nodiscard]] bool has_list(std::string_view key) const {
+    const Node* const node = node_ != nullptr ? node_->find(key) : nullptr;
+    return node != nullptr && node->kind == Node::Kind::array;
+  }
+  /// One table of that name, or [[tables]].
+  void table_or_tables(std::string_view key,
+                       const std::function<void(Section&, std::size_t)>& read);
+
   /// Reports what is missing and leaves the unknown keys with the checker. Once, after reading.
   void finish();
 

@@ -14,6 +14,7 @@
 #include <voussoir/rockmass/trace_file.hpp>
 
 #include "drawn_outline.hpp"
+#include "geojson_traces.hpp"
 #include "joint_laws.hpp"
 
 namespace voussoir::program {
@@ -61,7 +62,12 @@ TraceFile drawn_traces(std::istream& in, const std::string& name, const Input& i
                        const Vec2& origin, const Progress& progress) {
   DxfLimits limits;
   limits.metres = input.mapped.unit;
-  const DxfFile drawing = read_dxf(in, name, origin, limits, progress);
+  DxfFile drawing;
+  try {
+    drawing = read_dxf(in, name, origin, limits, progress);
+  } catch (const InvalidInput& fault) {
+    throw InvalidInput(std::string("joints.file: ") + fault.what());
+  }
   std::vector<std::string> names;
   std::vector<int> sets;
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
@@ -74,7 +80,12 @@ TraceFile drawn_traces(std::istream& in, const std::string& name, const Input& i
   if (names.empty() && !input.joint_sets.empty())
     throw InvalidInput("joints.file: " + name + ": no layer has the name of a joint set; layers: " +
                        detail::dxf_layer_list(drawing));
-  DxfTraces drawn = traces_of(drawing, names);
+  DxfTraces drawn;
+  try {
+    drawn = traces_of(drawing, names);
+  } catch (const InvalidInput& fault) {
+    throw InvalidInput(std::string("joints.file: ") + fault.what());
+  }
   TraceFile read{std::move(drawn.traces), "lines of a drawing in " + drawing.unit, drawing.notes};
   for (MappedTrace& trace : read.traces)
     if (trace.set >= 0) trace.set = sets[static_cast<std::size_t>(trace.set)];
@@ -115,6 +126,8 @@ std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>&
   limits.first_set_key = "joints.first_set";
   TraceFile read = is_drawing(input.joints_file)
                        ? drawn_traces(file, name, input, domain.site_origin, progress)
+                   : is_geojson(input.joints_file)
+                       ? geojson_traces(file, name, domain.site_origin, limits)
                        : read_traces(file, name, domain.site_origin, limits, progress);
   rock.joints_read = name + ": " + counted(read.traces.size(), "trace") + ", " + read.layout;
   for (const std::string& note : read.notes) rock.joints_read += "; " + note;

@@ -90,10 +90,11 @@ std::string composition_of(const Input& input) {
       std::string(input.is_spatial() ? Spatial::name : Planar::name) + ", " + CutContacts::name;
   for (const JointLawInput* law : laws_in_use(input)) {
     const std::string name = joint_of(*law).type_name();
-    if (text.find(name) == std::string::npos) text.append(", ").append(name);
+    if (text.find(", " + name) == std::string::npos) text.append(", ").append(name);
   }
-  if (input.bolts) {
-    switch (input.bolts->anchors) {
+  for (const BoltsInput* bolts : input.bolt_patterns()) {
+    const std::string before = text;
+    switch (bolts->anchors) {
       case BoltAnchors::lorig:
         text.append(", ").append(LorigAnchors::name);
         break;
@@ -104,8 +105,9 @@ std::string composition_of(const Input& input) {
         text.append(", ").append(JointFaceAnchors::name);
         break;
     }
-    text.append(", ").append(input.bolts->law == BoltLaw::axial ? AxialBolt::name
-                                                                : AxialShearBolt::name);
+    text.append(", ").append(bolts->law == BoltLaw::axial ? AxialBolt::name : AxialShearBolt::name);
+    // Patterns that are alike are named once.
+    if (before.ends_with(text.substr(before.size()))) text = before;
   }
   if (input.lining)
     text.append(", ")

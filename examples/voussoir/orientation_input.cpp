@@ -37,13 +37,6 @@ std::string quoted_degrees(double angle) {
 
 std::string degrees_text(double angle) { return significant_text(angle / degree, 4) + " deg"; }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
-
 /// A number with `deg`, `rad`, or no unit at all, which then are degrees [rad].
 std::optional<double> angle_of(const std::string& text) {
   double number = 0;
@@ -66,13 +59,13 @@ std::optional<double> azimuth_of(const std::string& text) {
 
 /// What a word of another language, or in small letters, means; empty: nothing that is known.
 std::string meant_by(const std::string& text) {
-  const std::string word = lower(text);
+  const std::string word = lower_case(text);
   for (const char* const east : {"e", "east", "est", "este", "ost", "right"})
     if (word == east) return "is \"E\"";
   for (const char* const west : {"w", "west", "ouest", "oeste", "ovest", "left"})
     if (word == west) return "is \"W\"";
   for (const auto& [name, azimuth] : compass)
-    if (word == lower(name)) return std::string("is \"") + name + "\"";
+    if (word == lower_case(name)) return std::string("is \"") + name + "\"";
   if (word == "o")
     return "reads two ways: west in French, Spanish and Italian (Ouest, Oeste, Ovest), east in "
            "German (Ost)";

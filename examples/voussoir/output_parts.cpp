@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output_parts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -30,13 +31,13 @@ std::string with_superscripts(std::string text) {
   return text;
 }
 
-nlohmann::json strength_json(double strength) {
-  if (!std::isfinite(strength)) return not_checked;
-  return text("%.6g kN", 1e-3 * strength);
+nlohmann::json strength_json(const std::vector<double>& strengths) {
+  const auto least = std::min_element(strengths.begin(), strengths.end());
+  if (least == strengths.end() || !std::isfinite(*least)) return not_checked;
+  return text("%.6g kN", 1e-3 * *least);
 }
-nlohmann::json of_strength_json(double force, double strength) {
-  if (!std::isfinite(strength)) return nullptr;
-  return force / strength;
+nlohmann::json number_json(const std::optional<double>& number) {
+  return number ? nlohmann::json(*number) : nlohmann::json(nullptr);
 }
 
 nlohmann::json report_json(const EquilibriumReport& report, const std::string& measure) {

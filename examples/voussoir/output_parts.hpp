@@ -24,8 +24,10 @@ namespace voussoir::program {
 
 /// Strength of what has none.
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
-[[nodiscard]] nlohmann::json strength_json(double strength);
-[[nodiscard]] nlohmann::json of_strength_json(double force, double strength);
+/// The least of all; "not checked" where none has one [N].
+[[nodiscard]] nlohmann::json strength_json(const std::vector<double>& strengths);
+/// null: none
+[[nodiscard]] nlohmann::json number_json(const std::optional<double>& number);
 
 /// The numbers that decided one search.
 /// @param measure  what is lost of rock: "area_m2", "volume_m3"

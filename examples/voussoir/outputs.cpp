@@ -31,9 +31,21 @@ double beam_moment(const FeetInput& feet, double bearing) {
   return feet.on_beam().moment * bearing * feet.beam->spacing * feet.beam->spacing;
 }
 
-/// In a bar of the diameter that the anchors have [Pa].
-double bar_stress(const BoltsInput& bolts, const SupportDemand& demand) {
-  return demand.largest_bolt_force / (0.25 * std::numbers::pi * bolts.diameter * bolts.diameter);
+/// The bolt whose bar is stressed most, in a bar of the diameter that the anchors have.
+struct BarStress {
+  double stress = 0;    ///< [Pa]
+  double diameter = 0;  ///< [m]
+};
+BarStress bar_stress(const Input& input, const RunResult& run) {
+  const std::vector<double> forces = largest_bolt_forces(run.tunnel);
+  const auto patterns = patterns_of_bars(input, bars_of(run.tunnel));
+  BarStress most;
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    const double diameter = patterns[k]->diameter,
+                 stress = forces[k] / (0.25 * std::numbers::pi * diameter * diameter);
+    if (most.diameter == 0 || stress > most.stress) most = {stress, diameter};
+  }
+  return most;
 }
 /// N / t + 6 |M| / t^2 of thrust and moment, the largest of all linings [Pa].
 double lining_stress(const RunResult& run, const LiningInput& lining) {
@@ -44,7 +56,7 @@ double lining_stress(const RunResult& run, const LiningInput& lining) {
   return most;
 }
 /// Which supports nothing says of whether they bear what they carry; empty: none.
-std::string strength_line(const Input& input, const RunResult& run, const SupportDemand& demand) {
+std::string strength_line(const Input& input, const RunResult& run) {
   std::string names;
   for (const std::string& name : unchecked_supports(input)) {
     const bool is_there =
@@ -52,8 +64,8 @@ std::string strength_line(const Input& input, const RunResult& run, const Suppor
     if (!is_there) continue;
     names += (names.empty() ? "" : ", ") + name;
     if (name == "bolts")
-      names += text(" (up to %.3g MPa", 1e-6 * bar_stress(*input.bolts, demand)) +
-               text(" in a bar of %.3g mm)", 1e3 * input.bolts->diameter);
+      names += text(" (up to %.3g MPa", 1e-6 * bar_stress(input, run).stress) +
+               text(" in a bar of %.3g mm)", 1e3 * bar_stress(input, run).diameter);
     if (name == "lining")
       names += text(" (up to %.3g MPa)", 1e-6 * lining_stress(run, *input.lining));
   }
@@ -200,18 +212,17 @@ std::string run_json(const Input& input, const RunResult& run) {
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
   if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
-  const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
-    json["bolts"] = {{"strength", strength_json(strength)},
-                     {"of_its_strength", of_strength_json(e.largest_bolt_force, strength)},
-                     {"largest_stress_in_bar_MPa", 1e-6 * bar_stress(*input.bolts, e)},
+    json["bolts"] = {{"strength", strength_json(bolt_strengths(input, run.tunnel))},
+                     {"of_its_strength", number_json(most_of_bolt_strength(input, run.tunnel))},
+                     {"largest_stress_in_bar_MPa", 1e-6 * bar_stress(input, run).stress},
                      {"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
                      {"mean_over_p0_D_and_spacing",
                       e.mean_bolt_force / (centre_stress * diameter * input.bolts->out_of_plane)}};
   if (run.tunnel.first_lining_node() >= 0)
-    json["lining"] = {{"strength", strength_json(unlimited)},
+    json["lining"] = {{"strength", not_checked},
                       {"of_its_strength", nullptr},
                       {"largest_stress_MPa", 1e-6 * lining_stress(run, *input.lining)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
@@ -236,7 +247,7 @@ std::string run_json(const Input& input, const RunResult& run) {
 
 std::string bolts_csv(const Input& input, const RunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    input.bolts ? bolt_strength(*input.bolts) : unlimited);
+                    bolt_strengths(input, run.tunnel));
 }
 
 std::string lining_csv(const RunResult& run) { return lining_table(lining_forces(run.tunnel)); }
@@ -317,7 +328,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
     }
     out += "\n";
   }
-  out += strength_line(input, run, e);
+  out += strength_line(input, run);
   for (const std::string& warning : run.warnings) out += "warning  " + warning + "\n";
   return out;
 }

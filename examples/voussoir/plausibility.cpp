@@ -196,9 +196,11 @@ void look_at_joints(const Input& input, Look& look) {
   }
 }
 
-void look_at_bolts(const BoltsInput& bolts, Look& look) {
-  const std::string table = "support.bolts.";
-  look.at(table + "length", bolts.length, {0.5, 40}, dimension::length);
+void look_at_bolts(const std::string& table, const BoltsInput& bolts, Look& look) {
+  for (const auto& [head, tip] : bolts.bars)
+    look.at(table + "bars (the length of one)",
+            elementary::length(tip[0] - head[0], tip[1] - head[1]), {0.5, 40}, dimension::length);
+  if (bolts.bars.empty()) look.at(table + "length", bolts.length, {0.5, 40}, dimension::length);
   look.at(table + "out_of_plane", bolts.out_of_plane, {0.2, 10}, dimension::length);
   look.at(table + "diameter", bolts.diameter, {0.008, 0.08}, dimension::length);
   look.at(table + "arc (its angle)", bolts.arc.to - bolts.arc.from, {2 * degree, 360 * degree},
@@ -277,9 +279,11 @@ std::vector<std::string> unusual_values(const Input& input) {
   look.at("rock.density", input.rock.density, density, dimension::density);
   if (!input.laid) look_at_model(input, look);
   look_at_joints(input, look);
-  if (input.bolts) {
-    look_at_bolts(*input.bolts, look);
-    look_at_spacing("support.bolts.spacing", input.bolts->spacing, look);
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    const std::string table = input.bolts_key(k) + ".";
+    look_at_bolts(table, *patterns[k], look);
+    if (patterns[k]->bars.empty()) look_at_spacing(table + "spacing", patterns[k]->spacing, look);
   }
   if (input.lining) look_at_lining(*input.lining, look);
   for (std::size_t k = 0; k < input.stages.size(); ++k)

@@ -104,10 +104,9 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
   if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "volume_m3");
-  const double strength = input.bolts ? bolt_strength(*input.bolts) : unlimited;
   if (run.tunnel.bolt_count() > 0)
-    json["bolts"] = {{"strength", strength_json(strength)},
-                     {"of_its_strength", of_strength_json(e.largest_bolt_force, strength)},
+    json["bolts"] = {{"strength", strength_json(bolt_strengths(input, run.tunnel))},
+                     {"of_its_strength", number_json(most_of_bolt_strength(input, run.tunnel))},
                      {"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force}};
@@ -131,7 +130,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
 
 std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    input.bolts ? bolt_strength(*input.bolts) : unlimited);
+                    bolt_strengths(input, run.tunnel));
 }
 
 std::string lining_csv(const SpatialRunResult& run) {

@@ -16,6 +16,7 @@
 #include <voussoir/rockmass/orientation_file.hpp>
 #include <voussoir/rockmass/orientation_sets.hpp>
 
+#include "input_document.hpp"
 #include "regular_file.hpp"
 
 namespace voussoir::program {
@@ -29,12 +30,6 @@ std::string degrees(double angle, int digits = 3) {
   return significant_text(angle / degree, digits) + " deg";
 }
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 std::string names_of(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -44,8 +39,8 @@ std::string names_of(const std::vector<std::string>& names) {
 /// The set of the survey that a joint set means: by its name, or "set 2" by the number 2.
 std::optional<std::size_t> set_named(const SurveyInput& survey, const std::string& name) {
   for (std::size_t k = 0; k < survey.fits.size(); ++k) {
-    const std::string own = lower(survey.fits[k].name);
-    if (lower(name) == own || lower(name) == "set " + own) return k;
+    const std::string own = lower_case(survey.fits[k].name);
+    if (lower_case(name) == own || lower_case(name) == "set " + own) return k;
   }
   return std::nullopt;
 }

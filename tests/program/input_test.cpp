@@ -246,7 +246,7 @@ TEST_SUITE("program/input") {
     REQUIRE(input.stages.size() == 1);
     CHECK(input.stages[0].name == "excavation and support");
     CHECK(input.stages[0].wall_traction == 0);
-    CHECK(input.stages[0].install_bolts);
+    CHECK(input.stages[0].bolts.size() == 1);
     CHECK(input.stages[0].install_lining);
     CHECK(input.run.method == RunMethod::two_level);
     CHECK(input.run.tolerance == 1e-3);
@@ -285,7 +285,7 @@ TEST_SUITE("program/input") {
     REQUIRE(input.stages.size() == 2);
     CHECK(input.stages[0].name == "stage 1");
     CHECK(input.stages[0].wall_traction == 0.4);
-    CHECK(input.stages[0].install_bolts);
+    CHECK(input.stages[0].bolts.size() == 1);
     CHECK_FALSE(input.stages[0].install_lining);
     CHECK(input.stages[1].install_lining);
     CHECK_FALSE(input.run.max_steps.has_value());
@@ -1044,7 +1044,7 @@ TEST_SUITE("program/input") {
     const Input added = read(bare, {"support.bolts.length=3 m", "support.bolts.spacing=1 m",
                                     "support.bolts.stiffness=0.1 GN/m"});
     CHECK(added.bolts.value().length == 3);
-    CHECK(added.stages.at(0).install_bolts);
+    CHECK(added.stages.at(0).bolts.size() == 1);
     CHECK_FALSE(added.stages.at(0).install_lining);
   }
 

@@ -268,6 +268,75 @@ TEST_SUITE("program/survey") {
     CHECK(on_site.outcome.out.find("outline  ") != std::string::npos);
   }
 
+  TEST_CASE("mapped joints are the same rock from CSV, DXF and GeoJSON") {
+    struct Trace {
+      double x1, y1, x2, y2;
+      const char* set;
+    };
+    const std::vector<Trace> traces{{-12, 1, 12, 3, "A"},     {-12, -3, 12, -1, "A"},
+                                    {-12, 5, 12, 7, "A"},     {-5, -12, -3, 12, "B"},
+                                    {0.5, -12, 2.5, 12, "B"}, {5, -12, 7, 12, "B"}};
+    std::string csv = "x1,y1,x2,y2,set\n", features, lines;
+    for (const Trace& t : traces) {
+      const auto n = [](double value) { return voussoir::shortest_text(value); };
+      csv += n(t.x1) + "," + n(t.y1) + "," + n(t.x2) + "," + n(t.y2) + "," + t.set + "\n";
+      lines += line(1000 * t.x1, 1000 * t.y1, 1000 * t.x2, 1000 * t.y2, t.set);
+      features += std::string(features.empty() ? "" : ",") +
+                  R"({"type":"Feature","properties":{"set":")" + t.set +
+                  R"("},"geometry":{"type":"LineString","coordinates":[[)" + n(t.x1) + "," +
+                  n(t.y1) + "],[" + n(t.x2) + "," + n(t.y2) + "]]}}";
+    }
+    const std::string grid = R"("crs":{"type":"name","properties":{"name":"EPSG:25832"}},)";
+    const auto geojson = [&](const std::string& crs, const std::string& of) {
+      return R"({"type":"FeatureCollection",)" + crs + R"("features":[)" + of + "]}";
+    };
+    const std::string drawing = dxf({{0, "SECTION"},
+                                     {2, "HEADER"},
+                                     {9, "$INSUNITS"},
+                                     {70, "4"},
+                                     {0, "ENDSEC"},
+                                     {0, "SECTION"},
+                                     {2, "ENTITIES"}}) +
+                                lines + line(0, 0, 500, 500, "NOTES") +
+                                dxf({{0, "ENDSEC"}, {0, "EOF"}});
+    const auto with = [&](const std::string& file) {
+      return model +
+             "[[joint_set]]\nname = \"A\"\n[[joint_set]]\nname = \"B\"\nkn = \"8 GPa/m\"\n" +
+             "[joints]\nfile = \"" + file + "\"\n";
+    };
+    const auto answer = [&](const std::string& file, const std::string& content) {
+      const Folder folder;
+      (void)write_file(folder / file, content);
+      const Outcome outcome = run_program(
+          {"run", write_file(folder / "case.toml", with(file)), "--out", folder / "out"});
+      if (outcome.status == 2) return outcome.err;
+      const auto json = nlohmann::json::parse(read_file(folder / "out/run.json"));
+      return json.at("convergence").dump() + json.at("rock").at("bodies").dump() +
+             json.at("rock").at("joints_by_source").dump();
+    };
+    const std::string expected = answer("joints.csv", csv);
+    CHECK(expected.find("crown_mm") != std::string::npos);
+    CHECK(answer("joints.dxf", drawing) == expected);
+    CHECK(answer("joints.geojson", geojson(grid, features)) == expected);
+    const auto refused = [&](const std::string& file, const std::string& content,
+                             std::initializer_list<const char*> words) {
+      const std::string said = answer(file, content);
+      CAPTURE(said);
+      for (const char* word : words) CHECK(said.find(word) != std::string::npos);
+    };
+    refused("j.json", geojson("", features), {"joints.file", "degrees"});
+    refused("j.json", geojson(R"("crs":"urn:ogc:def:crs:OGC:1.3:CRS84",)", features), {"degrees"});
+    refused("j.json", "{\"type\":", {"joints.file", "no JSON"});
+    refused("j.json", geojson(grid, ""), {"no line strings"});
+    refused("j.json", geojson(grid, replaced(features, "\"A\"", "\"C\"")), {"\"C\"", "A, B"});
+    refused("j.json", geojson(grid, replaced(features, "[-12,1]", "[\"x\",1]")), {"feature 1"});
+    refused("j.dxf", replaced(drawing, "\n8\nB\n", "\n0\nSPLINE\n8\nB\n"), {"joints.file"});
+    std::string other = drawing;
+    for (std::size_t at; (at = other.find("\n8\nB\n")) != std::string::npos;)
+      other.replace(at, 5, "\n8\nD\n");
+    refused("j.dxf", other, {"joints.file", "\"B\"", "layers"});
+  }
+
   TEST_CASE("an outline by points may be closed, or have a point twice") {
     const auto vertices = [](const std::string& points) {
       const std::string text = replaced(model, "shape = \"circle\"\ndiameter = \"4 m\"",

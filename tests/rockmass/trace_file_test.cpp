@@ -322,8 +322,10 @@ TEST_SUITE("rockmass/trace_file") {
     };
     for (const Form& form : {
              Form{"{\"type\":\"FeatureCollection\",\"features\":[]}", "GeoJSON", "export"},
-             Form{"  0\nSECTION\n  2\nENTITIES\n", "DXF", "export its lines as CSV"},
-             Form{"0\r\nSECTION\r\n2\r\nHEADER\r\n", "DXF", "export its lines as CSV"},
+             Form{"  0\nSECTION\n  2\nENTITIES\n", "DXF",
+                  "ends in .dxf, or export its lines as CSV"},
+             Form{"0\r\nSECTION\r\n2\r\nHEADER\r\n", "DXF",
+                  "ends in .dxf, or export its lines as CSV"},
              Form{"<?xml version=\"1.0\"?><kml/>", "XML (KML", "export"},
              Form{"PK\x03\x04 and more", "spreadsheet (.xlsx", "save it as CSV"},
              Form{"%PDF-1.4\n", "PDF", "digitise"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -28,6 +29,8 @@ struct MassPicture {
   double explosion = 0;  ///< blocks moved from the centre by this part of their distance, >= 0
   /// Blocks left out at the upper corner next to the viewer: the part of each side, 0 to 1.
   double corner_left_out = 0;
+  std::array<std::string, 3> axes = detail::compass;  ///< what they are called
+  double y_azimuth = 0;  ///< of the second axis, clockwise from North [rad], 0 to 2 pi
 };
 
 /// "75/010": dip and dip direction in degrees, as geologists write a plane.
@@ -102,7 +105,7 @@ VOUSSOIR_INLINE std::string draw_mass_picture(const RockMass<Spatial>& mass,
   if (picture.explosion == 0) draw_extent(canvas, mass.domain, picture.corner_left_out, view, map);
   canvas.end_layer();
   canvas.begin_layer("axes");
-  draw_axes(canvas, {frame.low.x() + 60, foot + 58}, 44, view, compass);
+  draw_axes(canvas, {frame.low.x() + 60, foot + 58}, 44, view, picture.axes);
   draw_scale_bar(canvas, {frame.low.x() + 150, foot + 52}, 130, map.scale());
   canvas.end_layer();
   legend.draw(canvas, {frame.low.x() + 330, foot + 30});
@@ -152,8 +155,9 @@ VOUSSOIR_INLINE std::vector<LegendItem> mass_legend(const RockMass<Spatial>& mas
     if (normals[set].empty()) continue;
     const std::string name =
         set < picture.set_names.size() ? picture.set_names[set] : "set " + std::to_string(set + 1);
-    items.push_back({name + ", " + orientation_text(mean_orientation(normals[set])),
-                     box(set_colour(static_cast<int>(set)))});
+    Orientation mean = mean_orientation(normals[set]);
+    mean.dip_direction += picture.y_azimuth;
+    items.push_back({name + ", " + orientation_text(mean), box(set_colour(static_cast<int>(set)))});
   }
   if (any_other) items.push_back({"other joints", box(set_colour(-1))});
   items.push_back({"side of the model", box(side_colour)});

@@ -60,13 +60,35 @@ template <class Bar>
 
 }  // namespace detail
 
+/// Strength of bolts in tension: one for all, or that of each.
+class BoltStrengths {
+ public:
+  BoltStrengths() = default;
+  /// @param of_all  [N]
+  BoltStrengths(double of_all) : of_all_(of_all) {}  // NOLINT(google-explicit-constructor)
+  /// @param of_each  in the order of their installation [N]
+  BoltStrengths(std::vector<double> of_each)  // NOLINT(google-explicit-constructor)
+      : of_each_(std::move(of_each)) {}
+
+  /// [N]; infinite: none was given
+  [[nodiscard]] double of(int bolt) const {
+    const auto k = static_cast<std::size_t>(bolt);
+    return k < of_each_.size() ? of_each_[k] : of_all_;
+  }
+
+ private:
+  double of_all_ = std::numeric_limits<double>::infinity();
+  std::vector<double> of_each_;
+};
+
 /// One row for every bolt and joint crossed.
 /// @param bars      in the order in which they were installed
-/// @param strength  in tension, of one bolt [N]; infinite: none was given, nothing is checked
+/// @param strength  in tension, of one bolt [N]; infinite: none was given, nothing is checked; or
+///                  those of all bolts, in their order
 /// @throws InvalidInput  a bar is missing
-[[nodiscard]] inline std::string bolt_table(
-    const std::vector<CrossingForce>& crossings, const std::vector<Segment>& bars,
-    double strength = std::numeric_limits<double>::infinity()) {
+[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
+                                            const std::vector<Segment>& bars,
+                                            const BoltStrengths& strength = {}) {
   CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
                   "axial_force_kN", "extension_mm", "state", "of_its_strength"},
                  8);
@@ -77,13 +99,13 @@ template <class Bar>
     const Vec2 p = bar.at(c.position / bar.length());
     table.add_row(c.bolt + 1, detail::angle_in_degrees(bar.end - bar.start), places[k].joint,
                   c.position, p.x(), p.y(), 1e-3 * c.report.axial, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength));
+                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
   }
   return table.text();
 }
-[[nodiscard]] inline std::string bolt_table(
-    const std::vector<CrossingForce>& crossings, const std::vector<SpatialLine>& bars,
-    double strength = std::numeric_limits<double>::infinity()) {
+[[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
+                                            const std::vector<SpatialLine>& bars,
+                                            const BoltStrengths& strength = {}) {
   CsvTable table({"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
                   "shear_force_kN", "extension_mm", "state", "of_its_strength"},
                  8);
@@ -94,7 +116,7 @@ template <class Bar>
     const Vec3 p = bar.start + c.position / bar.length() * (bar.end - bar.start);
     table.add_row(c.bolt + 1, places[k].joint, c.position, p.x(), p.y(), p.z(),
                   1e-3 * c.report.axial, 1e-3 * c.report.shear, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength));
+                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
   }
   return table.text();
 }

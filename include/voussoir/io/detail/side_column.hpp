@@ -89,7 +89,8 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     thrust.centre = moment.centre = centre_of(picture);
     draw_lining_diagram(canvas, next_frame(diagram_height - 9), picture.linings, thrust);
     draw_lining_diagram(canvas, next_frame(diagram_height + 9), picture.linings, moment);
-  } else if (!picture.bolts.empty()) {
+  } else if (std::any_of(picture.bolts.begin(), picture.bolts.end(),
+                         [](const PictureBolt& bolt) { return !bolt.crossings.empty(); })) {
     draw_bolt_chart(canvas, next_frame(1.25 * diagram_height), picture);
   }
   canvas.end_layer();

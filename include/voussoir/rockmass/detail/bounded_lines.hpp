@@ -119,7 +119,7 @@ VOUSSOIR_INLINE std::string foreign_format(std::string_view head) {
            Mark{"\x00\x00\x27\x0A"sv, "a shapefile: export the lines as CSV with WKT"},
            Mark{"AC10"sv, "a drawing (.dwg): export its lines as CSV"},
            Mark{"AutoCAD Binary DXF"sv,
-                "a binary DXF, which is not read yet: export its lines as "
+                "a binary DXF: save it as ASCII DXF (R12 to 2018), or export its lines as "
                 "CSV, x1,y1,x2,y2"},
            Mark{"\x1F\x8B"sv, "compressed (gzip): unpack it"},
            Mark{"\x89PNG"sv, "a picture: digitise the traces and save them as CSV"},
@@ -146,7 +146,7 @@ VOUSSOIR_INLINE std::string foreign_format(std::string_view head) {
   const std::string_view code = head.substr(0, end);
   if (end != std::string_view::npos && (code.starts_with("0") || code.starts_with("999")) &&
       head.find("SECTION") != std::string_view::npos && code.size() <= 4)
-    return "DXF, which is not read yet: export its lines as CSV, x1,y1,x2,y2, or with WKT";
+    return "DXF: give it a name that ends in .dxf, or export its lines as CSV, x1,y1,x2,y2";
   return "";
 }
 
