@@ -47,6 +47,13 @@ std::pair<int, int> install_bolts(Tunnel& tunnel, const Input& input) {
   return made;
 }
 
+/// With all taken out that the rounds take out.
+Tunnel whole_section(const Input& input, const Tunnel& in_situ) {
+  Tunnel whole = in_situ;
+  if (input.has_rounds) whole.excavate(opening_of(input), input.blocks.min_wall_area);
+  return whole;
+}
+
 template <class Solver>
 std::string rock_line(const Solver& tunnel, const char* unit, double seconds) {
   const BlockSizes sizes = block_sizes(tunnel.mass());
@@ -120,9 +127,16 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   CheckedModel model{excavated_rock(input, false, report)};
-  if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel))
-    if (!input.has_rounds)
-      std::tie(model.bolts, model.joints_crossed) = install_bolts(*section, input);
+  if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
+    Tunnel whole = whole_section(input, *section);
+    std::tie(model.bolts, model.joints_crossed) = install_bolts(whole, input);
+    model.section = std::move(whole);
+  } else {
+    for (const BoltsInput* pattern : input.bolt_patterns())
+      model.bolts += static_cast<int>(bars_of_pattern(input, *pattern, pattern->spacing,
+                                                      driven_opening(input, model.rock.opening))
+                                          .size());
+  }
   model.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   model.warnings = model.rock.warnings;
   for (std::string& text : unusual_values(input)) model.warnings.push_back(std::move(text));
@@ -148,8 +162,11 @@ std::string check_text(const Input& input, const CheckedModel& model) {
     out += std::string("boundary ") + spatial_boundary_text + "\n";
   }
   if (model.bolts > 0)
-    out += "bolts    " + std::to_string(model.bolts) + ", which cross " +
-           counted(static_cast<std::size_t>(model.joints_crossed), "joint") + "\n";
+    out += "bolts    " + std::to_string(model.bolts) +
+           (model.section ? ", which cross " +
+                                counted(static_cast<std::size_t>(model.joints_crossed), "joint")
+                          : " in all rows") +
+           "\n";
   out += stage_plan(input);
   for (const std::string& warning : model.warnings) out += "warning  " + warning + "\n";
   return out + "checked  the file can be run\n";
@@ -159,11 +176,9 @@ std::string check_svg(const Input& input, const CheckedModel& model) {
   const std::string title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
   const std::string line = "The rock as it is before anything moves: no verdict, no forces.";
   const SimplePolygon outline = opening_of(input);
-  if (const auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
-    Tunnel whole = *section;  // with all that the rounds take out
-    if (input.has_rounds) whole.excavate(outline, input.blocks.min_wall_area);
-    if (input.has_rounds) (void)install_bolts(whole, input);
-    BlocksPicture picture = picture_of(state_of(whole), whole.mass(), bars_of(whole), 0.0);
+  if (model.section) {
+    BlocksPicture picture =
+        picture_of(state_of(*model.section), model.section->mass(), bars_of(*model.section), 0.0);
     for (PictureBlock& block : picture.blocks)
       block.displacement = std::numeric_limits<double>::quiet_NaN();
     for (PictureBolt& bolt : picture.bolts) bolt.crossings.clear();  // nothing pulls yet

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis.hpp"
 
@@ -11,9 +13,10 @@ namespace voussoir::program {
 /// The rock of an input and its supports in it, nothing moved.
 struct CheckedModel {
   ExcavatedRock rock;
-  int bolts = 0;           ///< that are installed
-  int joints_crossed = 0;  ///< by all of them
-  double seconds = 0;      ///< that it took
+  std::optional<Tunnel> section = {};  ///< 2-D: all of it excavated, with its bolts
+  int bolts = 0;                       ///< that are installed
+  int joints_crossed = 0;              ///< by all of them
+  double seconds = 0;                  ///< that it took
   std::vector<std::string> warnings = {};
 };
 

@@ -31,8 +31,9 @@
 /// SI and radians throughout. Axes of the section: x right, y up, both from the tunnel centre,
 /// looking along the tunnel; angles anticlockwise from the right-hand springing. In 3-D the tunnel
 /// runs along the second axis, from the face of the domain where it begins. A member without a
-/// remark on its default must be given in the file. The keys of the file are declared in input.cpp,
-/// one line each.
+/// remark on its default must be given in the file.
+/// The keys of the file are declared in rock_input.cpp, support_input.cpp, joint_laws.cpp and
+/// input.cpp, one line each.
 namespace voussoir::program {
 
 /// x, y [m]

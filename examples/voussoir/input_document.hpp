@@ -10,7 +10,7 @@
 #include "input.hpp"
 
 /// An input file as a tree of values that remember where they were written. The TOML library is
-/// behind this header: what the keys mean (input.cpp) does not depend on it.
+/// behind this header: what the keys mean (rock_input.cpp, ...) does not depend on it.
 namespace voussoir::program {
 
 /// Where something was written: in the file, or in an override.

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,10 @@ struct Range {
   /// @param dimension  of the bounds; null: bare numbers
   [[nodiscard]] std::string text(const Dimension* dimension) const;
 };
+
+/// An angle as a quantity read from a text is rounded, so that "90 deg" equals its bound [rad].
+inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+inline Range angle_below_90() { return {.low = 0, .high = radians(90), .high_included = false}; }
 
 inline constexpr Range any_value{};
 inline constexpr Range gravity_range{.low = 1, .high = 1000};  // [m/s^2]; a centrifuge has 1000
@@ -228,5 +233,10 @@ class Section {
   Mode mode_ = Mode::active;
   std::string condition_;
 };
+
+/// Takes note of a key that is there, and has a meaning in the other dimension only.
+inline void note_unused(Input& input, const Section& s, std::string_view key) {
+  if (s.has(key)) input.unused.push_back(s.full(key));
+}
 
 }  // namespace voussoir::program

@@ -17,14 +17,11 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Rounded as a quantity read from a text is, so that "90 deg" equals its bound.
-double degrees(double angle) { return angle * std::numbers::pi / 180; }
-
 // Far outside of these ranges one spring drowns another in the 16 digits of a number. What is
 // common is by judgement, from values in use, for filled and for fresh joints.
 constexpr Range stiffness_range{.low = 1e3, .high = 1e12};  // [Pa/m]
 constexpr Range strength_range{.low = 0, .high = 1e9};      // [Pa]
-const Range friction_range{.low = 0, .high = degrees(90), .high_included = false};
+const Range friction_range = angle_below_90();
 
 const LawParameter kn{.key = "kn",
                       .dimension = dimension::stiffness_per_area,
@@ -180,7 +177,7 @@ std::vector<JointLawRow> made_rows() {
          .sentence = "strength of the joint's walls, of the sample"},
         {.key = "residual_friction",
          .dimension = angle,
-         .range = {.low = 0, .high = degrees(90), .low_included = false, .high_included = false},
+         .range = {.low = 0, .high = radians(90), .low_included = false, .high_included = false},
          .common_low = 5 * degree,
          .common_high = 45 * degree,
          .sentence = "from tilt tests on the weathered walls"},

@@ -13,6 +13,7 @@
 #include <voussoir/voussoir.hpp>
 
 #include "harness.hpp"
+#include "run_results.hpp"
 #include "support/near.hpp"
 #include "support/reference.hpp"
 
@@ -54,27 +55,6 @@ kh = "5 %"
 [loading]
 steps = 4
 )";
-
-struct Results {
-  Outcome outcome;
-  Json json;
-  std::map<std::string, std::string> files;
-};
-
-Results results_of(const std::string& text, std::vector<std::string> more = {}) {
-  const Folder folder;
-  const std::string out = folder / "out";
-  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out", out};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  Results results;
-  results.outcome = run_program(arguments);
-  INFO(results.outcome.err);
-  for (const auto& [path, content] : contents(out))
-    results.files[std::filesystem::path(path).filename().string()] = content;
-  REQUIRE(results.files.size() == 4);
-  results.json = Json::parse(results.files.at("run.json"));
-  return results;
-}
 
 /// The cells of the row of a table that begins with `first`.
 std::vector<std::string> row_of(const std::string& table, const std::string& first) {

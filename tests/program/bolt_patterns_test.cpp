@@ -14,6 +14,7 @@
 
 #include "harness.hpp"
 #include "input.hpp"
+#include "run_results.hpp"
 
 namespace bolt_patterns_test {
 
@@ -66,21 +67,10 @@ std::string part(const std::string& name, int from, int to, const std::string& o
          of_law;
 }
 
-struct Results {
-  nlohmann::json json;
-  std::string bolts;
-};
-Results results_of(const std::string& text, std::vector<std::string> more = {}) {
-  const Folder folder;
-  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out",
-                                     folder / "out"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const Outcome outcome = run_program(arguments);
-  INFO(outcome.out);
-  INFO(outcome.err);
-  REQUIRE(outcome.status == 0);
-  return {nlohmann::json::parse(read_file(folder / "out/run.json")),
-          read_file(folder / "out/bolts.csv")};
+Results standing(const std::string& text, const std::vector<std::string>& more = {}) {
+  Results results = results_of(text, more);
+  REQUIRE(results.outcome.status == 0);
+  return results;
 }
 void check_same(const Results& a, const Results& b, double tolerance) {
   const auto same = [&](double x, double y) { CHECK(std::abs(x - y) <= tolerance * std::abs(y)); };
@@ -105,8 +95,8 @@ TEST_SUITE("program/bolt_patterns") {
   TEST_CASE("a pattern cut in two is the pattern, in 2-D and 3-D") {
     const std::string two = part("right", 0, 60) + part("left", 90, 180);
     for (const char* dimension : {"model.dimension=2", "model.dimension=3"}) {
-      const Results one = results_of(rock + whole, {"--set", dimension}),
-                    cut = results_of(rock + two, {"--set", dimension});
+      const Results one = standing(rock + whole, {"--set", dimension}),
+                    cut = standing(rock + two, {"--set", dimension});
       CHECK(one.json.at("bolts").at("count").get<int>() % 7 == 0);
       // Springs are summed in another order; the search stops at its tolerance.
       check_same(cut, one, 1e-3);
@@ -125,16 +115,16 @@ TEST_SUITE("program/bolt_patterns") {
       bars += "[" + point(bar.start) + ", " + point(bar.end) + "], ";
     bars += "]\n" + law;
     for (const char* dimension : {"model.dimension=2", "model.dimension=3"})
-      check_same(results_of(rock + bars, {"--set", dimension}),
-                 results_of(rock + whole, {"--set", dimension}), 1e-9);
+      check_same(standing(rock + bars, {"--set", dimension}),
+                 standing(rock + whole, {"--set", dimension}), 1e-9);
   }
 
   TEST_CASE("each pattern has its strength, in the table and in the largest part of it") {
     const std::string weak = "stiffness = \"0.2 GN/m\"\nrupture_force = \"60 kN\"\n",
                       none = "stiffness = \"0.2 GN/m\"\n";
-    const Results run = results_of(rock + part("crown", 60, 120, weak) + part("wall", 0, 30) +
-                                   part("left", 150, 180, none));
-    std::istringstream table(run.bolts);
+    const Results run = standing(rock + part("crown", 60, 120, weak) + part("wall", 0, 30) +
+                                 part("left", 150, 180, none));
+    std::istringstream table(run.files.at("bolts.csv"));
     std::string line;
     std::getline(table, line);
     double most = 0;
@@ -164,8 +154,8 @@ TEST_SUITE("program/bolt_patterns") {
                       first = "[[stage]]\nwall_traction = \"40 %\"\ninstall = [\"crown\"]\n",
                       then = "[[stage]]\nwall_traction = \"0 %\"\ninstall = [\"walls\"]\n",
                       all = "[[stage]]\nwall_traction = \"0 %\"\ninstall = [\"bolts\"]\n";
-    const Results staged = results_of(rock + patterns + first + then),
-                  at_once = results_of(rock + patterns + all);
+    const Results staged = standing(rock + patterns + first + then),
+                  at_once = standing(rock + patterns + all);
     CHECK(staged.json.at("bolts").at("count") == 5);
     CHECK(at_once.json.at("bolts").at("count") == 5);
     // What comes when most of the wall has moved carries less.
@@ -189,6 +179,8 @@ TEST_SUITE("program/bolt_patterns") {
                 "[[stage]]\nwall_traction = 0.2\ninstall = [\"a\", \"b\"]\n"
                 "[[stage]]\nwall_traction = 0\ninstall = [\"bolts\"]\n",
             {"stage[1].install", "again"});
+    refused(two + "[[stage]]\nwall_traction = 0\ninstall = [\"bolts\", \"b\"]\n",
+            {"stage[0].install[1]", "twice"});
     refused(two + "[[stage]]\nwall_traction = 0\ninstall = [\"c\"]\n",
             {"stage[0].install", "\"a\""});
     refused(part("a", 0, 60) + "[[support.bolts]]\nlength = \"2 m\"\n",

@@ -14,6 +14,7 @@
 #include "harness.hpp"
 #include "input.hpp"
 #include "plausibility.hpp"
+#include "run_results.hpp"
 #include "support/degree.hpp"
 
 namespace joint_laws_test {
@@ -76,24 +77,6 @@ maximum_closure = "1 mm"
 std::string table_of(const JointLawRow& row) {
   if (row.word == "barton-bandis") return rough;
   return "law = \"" + std::string(row.word) + "\"\n" + coulomb;
-}
-
-struct Results {
-  Outcome outcome;
-  nlohmann::json json;
-};
-Results results_of(const std::string& text, std::vector<std::string> more = {}) {
-  const Folder folder;
-  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out",
-                                     folder / "out"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  Results results{run_program(arguments), {}};
-  INFO(results.outcome.out);
-  INFO(results.outcome.err);
-  REQUIRE(
-      (results.outcome.status == 0 || results.outcome.status == 6 || results.outcome.status == 7));
-  results.json = nlohmann::json::parse(read_file(folder / "out/run.json"));
-  return results;
 }
 
 double crown(const Results& results) {

@@ -16,6 +16,7 @@
 #include <voussoir/voussoir.hpp>
 
 #include "harness.hpp"
+#include "run_results.hpp"
 #include "support/near.hpp"
 #include "support/reference.hpp"
 
@@ -32,29 +33,14 @@ std::string without_run_id(const std::string& table) {
 using namespace voussoir_test;
 using Json = nlohmann::json;
 
-struct Results {
-  Outcome outcome;
-  Json json;
-  std::map<std::string, std::string> files;  ///< name -> content
-};
-
 /// Runs `text` into a folder of its own; every run must end well and leave the four files.
-Results results_of(const std::string& text, std::vector<std::string> more = {},
+Results ended_well(const std::string& text, const std::vector<std::string>& more = {},
                    const std::string& traces = "") {
-  const Folder folder;
-  const std::string out = folder / "out";
-  if (!traces.empty()) write_file(folder / "traces.csv", traces);
-  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out", out};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  Results results;
-  results.outcome = run_program(arguments);
-  INFO(results.outcome.out);
-  INFO(results.outcome.err);
+  std::map<std::string, std::string> beside;
+  if (!traces.empty()) beside["traces.csv"] = traces;
+  Results results = results_of(text, more, beside);
   REQUIRE((results.outcome.status == 0 || results.outcome.status == 6));
-  for (const auto& [path, content] : contents(out))
-    results.files[std::filesystem::path(path).filename().string()] = content;
   REQUIRE(results.files.size() == 4);  // and nothing half-written beside them
-  results.json = Json::parse(results.files.at("run.json"));
   const bool fell = results.json.at("detached_area_m2") > 0.0;
   CHECK(results.json.at("verdict") == (fell ? "stable after rockfall" : "stable"));
   CHECK(results.outcome.status == (fell ? 6 : 0));
@@ -93,11 +79,11 @@ const std::string bare = without_support().text();
 
 /// Of `supported` and of `bare`, run once for all test cases that only look at the results.
 const Results& supported_results() {
-  static const Results results = results_of(supported);
+  static const Results results = ended_well(supported);
   return results;
 }
 const Results& bare_results() {
-  static const Results results = results_of(bare);
+  static const Results results = ended_well(bare);
   return results;
 }
 
@@ -154,7 +140,7 @@ TEST_SUITE("program/run") {
   }
 
   TEST_CASE("a small force with its unit is not taken for one in another unit") {
-    CHECK(crown(results_of(supported, {"--set", "support.bolts.pretension=500 N"})) > 0);
+    CHECK(crown(ended_well(supported, {"--set", "support.bolts.pretension=500 N"})) > 0);
   }
 
   TEST_CASE("the program computes what the same calls in C++ compute") {
@@ -188,7 +174,7 @@ TEST_SUITE("program/run") {
       REQUIRE(tunnel.equilibrium().verdict == Verdict::stable);
 
       const Results r = automatic ? supported_results()
-                                  : results_of(supported, {"--set", "boundary.sides=rollers",
+                                  : ended_well(supported, {"--set", "boundary.sides=rollers",
                                                            "--set", "boundary.base=rollers"});
       CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
       const Convergence c = convergence(tunnel);
@@ -212,37 +198,37 @@ TEST_SUITE("program/run") {
   TEST_CASE("rock whose moduli cannot be measured keeps its rollers, and it is said") {
     InputText input;
     input.joints = "";
-    const Results r = results_of(input.text());
+    const Results r = ended_well(input.text());
     CHECK(r.json.at("boundary").at("base") == "rollers");
     CHECK(r.outcome.out.find("moduli of the rock cannot be measured") != std::string::npos);
-    const Results given = results_of(
+    const Results given = ended_well(
         input.text(), {"--set", "boundary.sides=elastic", "--set", "boundary.base=elastic", "--set",
                        "boundary.E=5 GPa", "--set", "boundary.nu=0.25"});
     CHECK(given.json.at("boundary").at("sides") == "elastic");
   }
 
   TEST_CASE("the same seed gives the same bytes, another seed another rock") {
-    Results a = supported_results(), b = results_of(supported);
+    Results a = supported_results(), b = ended_well(supported);
     a.json.erase("time_s");
     b.json.erase("time_s");
     CHECK(a.json == b.json);
     for (const char* name : {"bolts.csv", "lining.csv", "blocks.svg"})
       CHECK_MESSAGE(a.files.at(name) == b.files.at(name), name);
-    const Results other = results_of(supported, {"--set", "model.seed=4"});
+    const Results other = ended_well(supported, {"--set", "model.seed=4"});
     CHECK(other.json.at("seed") == 4);
     CHECK(other.files.at("bolts.csv") != a.files.at("bolts.csv"));
   }
 
   TEST_CASE("--set changes the result") {
     const Results& stiff = supported_results();
-    const Results soft = results_of(
+    const Results soft = ended_well(
         supported, {"--set", "joint.kn=2.5 GPa/m", "--set", "joint.ks = \"0.25 GPa/m\""});
     CHECK(crown(soft) > crown(stiff));
     CHECK(thrust(soft) > thrust(stiff));
   }
 
   TEST_CASE("quiet prints nothing; a pipe gets no control characters") {
-    const Results quiet = results_of(supported, {"--quiet"});
+    const Results quiet = ended_well(supported, {"--quiet"});
     CHECK(quiet.outcome.out.empty());
     CHECK(quiet.outcome.err.empty());
     const Results& spoken = supported_results();
@@ -299,7 +285,7 @@ TEST_SUITE("program/run") {
     staged.rest =
         "[[stage]]\nname = \"excavation\"\nwall_traction = \"60 %\"\n"
         "[[stage]]\nname = \"support\"\nwall_traction = \"0 %\"\ninstall = [\"bolts\", \"lining\"]\n";
-    const Results &wished = supported_results(), relaxed = results_of(staged.text());
+    const Results &wished = supported_results(), relaxed = ended_well(staged.text());
     REQUIRE(relaxed.json.at("stages").size() == 2);
     CHECK(relaxed.json.at("stages")[0].at("name") == "excavation");
     CHECK(relaxed.json.at("stages")[0].at("residual_wall_traction") == 0.6);
@@ -321,14 +307,14 @@ TEST_SUITE("program/run") {
     InputText input;
     input.lining = replaced(input.lining, "\"30 deg\" }",
                             "\"30 deg\", shear_bond = \"0.5 MPa\", tensile_bond = \"0.2 MPa\" }");
-    const Results r = results_of(input.text());
+    const Results r = ended_well(input.text());
     CHECK(r.json.at("lining").at("nodes_chosen_for_the_bond") == chosen);
     CHECK(table(r.files.at("lining.csv")).size() == static_cast<std::size_t>(chosen));
     CHECK(r.outcome.out.find("123 nodes on the full ring, 0.102 m apart, chosen for the bond") !=
           std::string::npos);
     // Given, or without a bond, it says nothing of them.
     CHECK_FALSE(supported_results().json.at("lining").contains("nodes_chosen_for_the_bond"));
-    const Results given = results_of(input.text(), {"--set", "support.lining.nodes=60"});
+    const Results given = ended_well(input.text(), {"--set", "support.lining.nodes=60"});
     CHECK(table(given.files.at("lining.csv")).size() == 60);
     CHECK_FALSE(given.json.at("lining").contains("nodes_chosen_for_the_bond"));
   }
@@ -336,19 +322,19 @@ TEST_SUITE("program/run") {
   TEST_CASE("a horseshoe, a polygon and a partial lining run") {
     InputText horseshoe, polygon, arch;
     horseshoe.shape = "shape = \"horseshoe\"\nwidth = \"4 m\"\nwall_height = \"2 m\"\n";
-    const Results h = results_of(horseshoe.text());
+    const Results h = ended_well(horseshoe.text());
     CHECK(crown(h) > 0);
     CHECK(h.json.at("lining").at("mean_thrust_kN_per_m") > 0);
 
     polygon.shape =
         "shape = \"polygon\"\nvertices = [[\"-2 m\", \"1 m\"], [\"0 m\", \"2.2 m\"], "
         "[\"2 m\", \"1 m\"], [\"2 m\", \"-1.5 m\"], [\"-2 m\", \"-1.5 m\"]]\n";  // clockwise
-    const Results p = results_of(polygon.text(), {"--set", "support.bolts.spacing=1 m"});
+    const Results p = ended_well(polygon.text(), {"--set", "support.bolts.spacing=1 m"});
     CHECK(crown(p) > 0);
     CHECK(p.json.at("bolts").at("count") >= 5);
 
     arch.lining += "arc = [\"0 deg\", \"180 deg\"]\n";
-    const Results a = results_of(arch.text());
+    const Results a = ended_well(arch.text());
     CHECK(table(a.files.at("lining.csv")).size() == 12);  // half of 24 nodes
   }
 
@@ -365,7 +351,7 @@ TEST_SUITE("program/run") {
       "rock without joints is one block: it rises by the weight taken out, its bolts hold nothing") {
     InputText massive;
     massive.joints = "";
-    const Results r = results_of(massive.text());
+    const Results r = ended_well(massive.text());
     CHECK(r.json.at("rock").at("bodies") == 1);
     CHECK(r.json.at("rock").at("contacts") == 0);
     // A 24-gon of 2 m radius, on 24 m of base springs; the crown is read within 12 degrees, on the
@@ -392,7 +378,7 @@ TEST_SUITE("program/run") {
         "[[joint_set]]\ndip = \"0 deg\"\ndip_direction = \"E\"\nspacing = \"1 m\"\n"
         "[[joint_set]]\ndip = \"90 deg\"\ndip_direction = \"W\"\nspacing = \"1 m\"\n";
     masonry.bolts = masonry.lining = "";
-    const Results r = results_of(masonry.text(), {"--set", "joint.friction=60 deg"});
+    const Results r = ended_well(masonry.text(), {"--set", "joint.friction=60 deg"});
     // 24 m x 20 m cut at every metre, from a random first joint on.
     CHECK(r.json.at("rock").at("median_block_area_m2") == near(1.0));
     CHECK(r.json.at("rock").at("joints") >= 43);
@@ -418,7 +404,7 @@ TEST_SUITE("program/run") {
       CAPTURE(given.traces);
       // Slabs right across the domain are longer than the limit of the other tests.
       const Results r =
-          results_of(mapped.text(), {"--set", "blocks.max_elongation=1000"}, given.traces);
+          ended_well(mapped.text(), {"--set", "blocks.max_elongation=1000"}, given.traces);
       CHECK(table(r.files.at("bolts.csv")).size() == given.crossings);
       for (const auto& row : table(r.files.at("bolts.csv")))
         CHECK(std::abs(std::stod(row.at("x_m"))) < 1e-9);
@@ -428,8 +414,8 @@ TEST_SUITE("program/run") {
   TEST_CASE("joints that coincide cut once, and those that cut nothing are counted") {
     InputText mapped;
     mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
-    const Results once = results_of(mapped.text(), {}, "-9,4,9,4\n");
-    const Results twice = results_of(mapped.text(), {}, "-9,4,9,4\n-9,4,9,4\n9,4,-5,4\n");
+    const Results once = ended_well(mapped.text(), {}, "-9,4,9,4\n");
+    const Results twice = ended_well(mapped.text(), {}, "-9,4,9,4\n-9,4,9,4\n9,4,-5,4\n");
     CHECK(once.json.at("rock").at("bodies") == 2);
     CHECK(twice.json.at("rock").at("bodies") == 2);
     CHECK(once.json.at("rock").at("joints_that_cut_nothing") == 0);
@@ -441,7 +427,7 @@ TEST_SUITE("program/run") {
     const auto with = [](const char* lines) {
       InputText given;
       given.joints += lines;
-      return results_of(given.text());
+      return ended_well(given.text());
     };
     const Results &plain = supported_results(), same = with("friction = \"35 deg\"\n"),
                   soft = with("kn = \"1 GPa/m\"\nks = \"0.1 GPa/m\"\n");
@@ -453,8 +439,8 @@ TEST_SUITE("program/run") {
   TEST_CASE("mapped joints are moved by the site coordinates of the tunnel") {
     InputText mapped;
     mapped.joints = "[joints]\nfile = \"traces.csv\"\n";
-    const Results local = results_of(mapped.text(), {}, "-9,4,9,4\n-5,-6,7,6\n");
-    const Results site = results_of(
+    const Results local = ended_well(mapped.text(), {}, "-9,4,9,4\n-5,-6,7,6\n");
+    const Results site = ended_well(
         replaced(mapped.text(), "seed = 3", "seed = 3\norigin = [\"500000 m\", \"1200 m\"]"), {},
         "499991,1204,500009,1204\n499995,1194,500007,1206\n");
     CHECK(without_run_id(local.files.at("lining.csv")) ==
@@ -466,9 +452,9 @@ TEST_SUITE("program/run") {
     const auto with = [&](const std::string& method) {
       auto arguments = coarse;
       arguments.insert(arguments.end(), {"--set", "run.method=" + method});
-      return results_of(supported, arguments);
+      return ended_well(supported, arguments);
     };
-    const Results two_level = results_of(supported, coarse);
+    const Results two_level = ended_well(supported, coarse);
     const Results relaxation = with("relaxation"), explicit_ = with("explicit");
     CHECK(relaxation.json.at("models").get<std::string>().ends_with("Relaxation"));
     CHECK(explicit_.json.at("models").get<std::string>().ends_with("Explicit"));
@@ -563,7 +549,7 @@ TEST_SUITE("program/run") {
     InputText in_stages = without_support();
     in_stages.rest =
         "[[stage]]\nwall_traction = 0.01\n[[stage]]\nwall_traction = \"0 %\"\nname = \"end\"\n";
-    const Results staged = results_of(in_stages.text());
+    const Results staged = ended_well(in_stages.text());
     REQUIRE(staged.json.at("stages")[1].at("equilibrium").at("detached_area_m2") == 0.0);
     CHECK(staged.json.at("stages")[1].at("equilibrium").at("verdict") == "stable");
     CHECK(staged.json.at("verdict") == "stable after rockfall");
@@ -642,7 +628,7 @@ TEST_SUITE("program/run") {
                             "support.lining.interface.ks=1 kPa/m",
                             "support.lining.interface.ks=1000 GPa/m"}) {
       CAPTURE(set);
-      (void)results_of(supported, {"--set", set});
+      (void)ended_well(supported, {"--set", set});
     }
     const Folder folder;
     const std::string file = write_file(folder / "case.toml", supported);

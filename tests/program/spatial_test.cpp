@@ -16,6 +16,7 @@
 #include "input.hpp"
 #include "joint_sets.hpp"
 #include "plausibility.hpp"
+#include "run_results.hpp"
 #include "support/near.hpp"
 
 namespace {
@@ -74,25 +75,10 @@ nodes = 24
 interface = { kn = "5 GPa/m", friction = "30 deg" }
 )";
 
-struct Results {
-  Outcome outcome;
-  Json json;
-  std::map<std::string, std::string> files;
-};
-
-Results results_of(const std::string& text, std::vector<std::string> more = {}) {
-  const Folder folder;
-  std::vector<std::string> arguments{"run", write_file(folder / "case.toml", text), "--out",
-                                     folder / "out"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  Results results;
-  results.outcome = run_program(arguments);
-  INFO(results.outcome.out);
-  INFO(results.outcome.err);
+/// One that stands.
+Results standing(const std::string& text, std::vector<std::string> more = {}) {
+  Results results = results_of(text, more);
   REQUIRE((results.outcome.status == 0 || results.outcome.status == 6));
-  for (const auto& [path, content] : contents(folder / "out"))
-    results.files[std::filesystem::path(path).filename().string()] = content;
-  results.json = Json::parse(results.files.at("run.json"));
   return results;
 }
 
@@ -126,8 +112,8 @@ TEST_SUITE("program/spatial") {
       const std::vector<std::string> of_seed{"--set", std::string("model.seed=") + seed};
       std::vector<std::string> flat = in_section;
       flat.insert(flat.end(), of_seed.begin(), of_seed.end());
-      const Results space = results_of(two_sets + supports, of_seed),
-                    section = results_of(two_sets + supports, flat);
+      const Results space = standing(two_sets + supports, of_seed),
+                    section = standing(two_sets + supports, flat);
       CHECK(space.json.at("dimension") == 3);
       CHECK(space.json.at("verdict") == section.json.at("verdict"));
       CHECK(space.json.at("rock").at("bodies") == section.json.at("rock").at("bodies"));
@@ -162,7 +148,7 @@ TEST_SUITE("program/spatial") {
     const Input section = read_input_text(text, "case.toml", ".", {"model.dimension=2"});
     CHECK(section.unused == std::vector<std::string>{"model.length", "tunnel.round_length",
                                                      "tunnel.rounds", "round[1].behind"});
-    const Results run = results_of(text, in_section);
+    const Results run = standing(text, in_section);
     CHECK(contains(
         run.outcome.out,
         "warning  not used in a section (model.dimension = 2): model.length, tunnel.round_length, "));
@@ -175,7 +161,7 @@ TEST_SUITE("program/spatial") {
         supports +
         "[[round]]\nname = \"face\"\n"
         "[[round]]\nexcavate = \"nothing\"\ninstall = [\"bolts\", \"lining\"]\nbehind = 1\n";
-    const Results run = results_of(text);
+    const Results run = standing(text);
     const Json& stages = run.json.at("stages");
     REQUIRE(stages.size() == 5);
     CHECK(stages[0].at("name") == "round 1");
@@ -185,7 +171,7 @@ TEST_SUITE("program/spatial") {
     CHECK(run.json.at("bolts").at("count") == 6 * 7);
     // The same tunnel in which all support is there before the rock moves carries more.
     const Results wished =
-        results_of(replaced(text, "behind = 1", "behind = 0"), {"--set", "round[1].name=support"});
+        standing(replaced(text, "behind = 1", "behind = 0"), {"--set", "round[1].name=support"});
     CHECK(number(wished.json, "lining", "mean_thrust_kN_per_m") >
           1.3 * number(run.json, "lining", "mean_thrust_kN_per_m"));
     for (const char* const file : {"bolts.csv", "lining.csv", "blocks.svg", "blocks.vtu"})
@@ -205,7 +191,7 @@ TEST_SUITE("program/spatial") {
     for (const bool flat : {true, false}) {
       CAPTURE(flat);
       const std::vector<std::string> how = flat ? in_section : std::vector<std::string>{};
-      const Results once = results_of(elastic, how), in_parts = results_of(elastic + parts, how);
+      const Results once = standing(elastic, how), in_parts = standing(elastic + parts, how);
       for (const char* const key : {"crown_mm", "invert_mm", "left_springing_mm"}) {
         CAPTURE(key);
         const double a = number(once.json, "convergence", key),
@@ -227,12 +213,12 @@ TEST_SUITE("program/spatial") {
     CHECK(std::tan(shown->dip) == near(std::tan(70 * degree) * std::sqrt(0.5)));
     CHECK(shown->spacing == near(1.5 / std::sqrt(1 - 0.5 * s70 * s70)));
     CHECK(shown->dip_direction == voussoir::DipDirection::east);
-    const Results run = results_of(text, in_section);
+    const Results run = standing(text, in_section);
     CHECK(contains(run.outcome.out, "set 1: dip 70 deg towards 75 deg is an apparent dip of 62.8"));
     // A set along the section is left out and named.
     const std::string along = replaced(text, "dip = \"20 deg\"\ndip_direction = \"W\"",
                                        "dip = \"88 deg\"\ndip_direction = \"32 deg\"");
-    const Results without = results_of(along, in_section);
+    const Results without = standing(along, in_section);
     CHECK(contains(without.outcome.out, "set 2: runs along the section, within 5 deg"));
     CHECK(without.json.at("rock").at("joints_by_source").size() == 1);
   }
@@ -243,7 +229,7 @@ TEST_SUITE("program/spatial") {
     CHECK(space.is_spatial());
     CHECK(space.round_count() == 6);
     CHECK(unusual_values(space).empty());
-    const Results section = results_of(read_file(file), in_section);
+    const Results section = standing(read_file(file), in_section);
     CHECK(section.json.at("stages").size() == 4);
     // Bedding strikes along the tunnel, J1 nearly, J2 across: traces of it are far apart.
     CHECK(section.json.at("rock").at("joints_in_section").size() == 2);
@@ -260,7 +246,7 @@ TEST_SUITE("program/spatial") {
                                "dip_direction = \"W\"", "dip_direction = " + deg(trend + 250)),
                       "facets = 24\n", "facets = 24\ntrend = " + deg(trend) + "\n");
     };
-    const Results north = results_of(at(0)), turned = results_of(at(211));
+    const Results north = standing(at(0)), turned = standing(at(211));
     CHECK(north.json.at("rock").at("bodies") == turned.json.at("rock").at("bodies"));
     CHECK(number(turned.json, "convergence", "crown_mm") ==
           near(number(north.json, "convergence", "crown_mm")).epsilon(1e-5));

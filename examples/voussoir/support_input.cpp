@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+#include "support_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <voussoir/core/elementary.hpp>
+#include <voussoir/core/units.hpp>
+
+#include "input_checks.hpp"
+
+namespace voussoir::program {
+
+namespace {
+
+// Ranges of what the equations add up. Far outside of them one spring drowns another in the 16
+// digits of a number, and a body then "can move without resistance".
+constexpr Range per_area_range{.low = 1e3, .high = 1e12};                   // interface [Pa/m]
+constexpr Range bolt_range{.low = 1e3, .high = 1e12};                       // of one bolt [N/m]
+constexpr Range modulus_range{.low = 1e6, .high = 1e12};                    // of a lining [Pa]
+constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};              // [m]
+constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
+constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
+constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
+constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};  // along the tunnel [m]
+
+constexpr const char* spacing_form =
+    R"(an angle from 0.1 deg or a length from 1 cm, such as "15 deg" or "1.3 m")";
+
+/// An angle or a length, whichever its unit says.
+std::optional<BoltSpacing> read_spacing(const Value& value) {
+  if (value.node().kind != Node::Kind::text) {
+    value.refuse("has no unit", spacing_form);
+    return std::nullopt;
+  }
+  try {
+    const Quantity quantity = parse_quantity(value.node().text);
+    const bool is_angle = quantity.dimension == dimension::angle;
+    if (!is_angle && quantity.dimension != dimension::length) {
+      value.refuse("is neither an angle nor a length", spacing_form);
+    } else if (!(quantity.value >= (is_angle ? radians(0.1) : 0.01))) {
+      value.refuse("is outside the accepted range", spacing_form);
+    } else {
+      return BoltSpacing{quantity.value, is_angle};
+    }
+  } catch (const UnitError& error) {
+    value.refuse(error.complaint(), spacing_form);
+  }
+  return std::nullopt;
+}
+
+std::optional<ArcInput> read_arc(const Value& value) {
+  const std::string form =
+      R"(two angles from -360 to 360 deg, the first below the second, at most 360 deg apart, such as ["0 deg", "180 deg"])";
+  const auto ends = value.as_list(2, 2, form);
+  if (!ends) return std::nullopt;
+  const Range range = between(radians(-360), radians(360));
+  const auto from = ends->at(0).as_quantity(dimension::angle, range);
+  const auto to = ends->at(1).as_quantity(dimension::angle, range);
+  if (!from || !to) return std::nullopt;
+  // One rounding of slack: -180 to 180 deg is the whole ring.
+  if (!(*from < *to) || *to - *from > radians(360) * (1 + 1e-15)) {
+    value.refuse(*from < *to ? "spans more than 360 deg" : "does not rise", form);
+    return std::nullopt;
+  }
+  return ArcInput{*from, *to};
+}
+
+/// Two angles, or what of the outline is lined in a word.
+void read_lined_arc(Section& s, LiningInput& lining) {
+  const auto value = s.find("arc", Need::optional);
+  if (!value) return;
+  if (value->node().kind != Node::Kind::text) {
+    lining.arc = read_arc(*value);
+    return;
+  }
+  constexpr LinedPart parts[] = {LinedPart::roof, LinedPart::roof_and_walls, LinedPart::all};
+  if (const auto word = value->as_word({"roof", "roof and walls", "all"}))
+    lining.part = parts[*word];
+}
+
+/// Bars one by one: head and tip of each.
+void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
+  const std::string form =
+      R"(1 to 1000 pairs of points, head and tip of each bar, such as [[["0 m", "4 m"], ["0 m", "8 m"]]])";
+  const auto entries = value.as_list(1, 1000, form);
+  for (std::size_t k = 0; entries && k < entries->size(); ++k) {
+    const auto ends = entries->at(k).as_list(2, 2, form);
+    if (!ends) continue;
+    const auto head = ends->at(0).as_point(), tip = ends->at(1).as_point();
+    if (!head || !tip) continue;
+    if (*head == *tip)
+      entries->at(k).refuse("has no length", form);
+    else
+      bars.push_back({*head, *tip});
+  }
+}
+
+}  // namespace
+
+void read_bolts(Section& s, BoltsInput& bolts) {
+  s.text("name", bolts.name);
+  const bool has_bars = s.has("bars");
+  if (const auto value = s.find("bars", Need::optional)) read_bars(*value, bolts.bars);
+  bolts.arc = {0, radians(180)};
+  s.only_with(!has_bars, "length and spacing, without bars,", [&] {
+    s.quantity("length", bolts.length, dimension::length, above(0), Need::required);
+    if (const auto value = s.find("spacing", Need::required, spacing_form))
+      bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
+    if (const auto value = s.find("arc", Need::optional))
+      bolts.arc = read_arc(*value).value_or(bolts.arc);
+  });
+  s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
+             Need::optional);
+  s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
+  s.quantity("stiffness", bolts.stiffness, dimension::stiffness, bolt_range, Need::required);
+  s.quantity("pretension", bolts.pretension, dimension::force, between(0, force_range.high),
+             Need::optional);
+  s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
+  s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
+
+  const bool anchors_known = s.choice<BoltAnchors>("anchors", bolts.anchors,
+                                                   {{"lorig", BoltAnchors::lorig},
+                                                    {"garga-wang", BoltAnchors::garga_wang},
+                                                    {"joint-face", BoltAnchors::joint_face}},
+                                                   Need::optional);
+  bolts.anchor_offset = 1.2 * bolts.diameter;  // as Boon et al. (2015), section 5.2
+  const auto offset = [&] {
+    s.quantity("anchor_offset", bolts.anchor_offset, dimension::length, above(0), Need::optional);
+  };
+  if (anchors_known) {
+    s.only_with(bolts.anchors == BoltAnchors::lorig, "anchors = \"lorig\"", offset);
+  } else {
+    s.unread(offset);
+  }
+
+  const bool law_known = s.choice<BoltLaw>(
+      "law", bolts.law, {{"axial", BoltLaw::axial}, {"axial-shear", BoltLaw::axial_shear}},
+      Need::optional);
+  const auto shear = [&] {
+    s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness, bolt_range,
+               Need::required);
+  };
+  if (law_known) {
+    s.only_with(bolts.law == BoltLaw::axial_shear, "law = \"axial-shear\"", shear);
+  } else {
+    s.unread(shear);
+  }
+}
+
+void read_lining(Section& s, Input& input) {
+  LiningInput& lining = input.lining.emplace();
+  s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
+  s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
+  s.number("nu", lining.poisson_ratio,
+           {.low = -1, .high = 0.5, .low_included = false, .high_included = false}, Need::optional);
+  s.choice<LiningBeam>(
+      "beam", lining.beam,
+      {{"euler-bernoulli", LiningBeam::euler_bernoulli}, {"timoshenko", LiningBeam::timoshenko}},
+      Need::optional);
+  s.table("interface", [&](Section& interface) {
+    interface.quantity("kn", lining.interface_normal_stiffness, dimension::stiffness_per_area,
+                       per_area_range, Need::required);
+    lining.interface_shear_stiffness = lining.interface_normal_stiffness;
+    interface.quantity("ks", lining.interface_shear_stiffness, dimension::stiffness_per_area,
+                       per_area_range, Need::optional);
+    interface.quantity("friction", lining.interface_friction_angle, dimension::angle,
+                       angle_below_90(), Need::required);
+    interface.quantity("shear_bond", lining.shear_bond, dimension::pressure, bond_range,
+                       Need::optional);
+    interface.quantity("tensile_bond", lining.tensile_bond, dimension::pressure, bond_range,
+                       Need::optional);
+    const double most = lining.shear_bond / elementary::tangent(lining.interface_friction_angle);
+    if (lining.tensile_bond > most * (1 + 1e-12))
+      interface.complain("tensile_bond",
+                         lining.shear_bond > 0 ? "is more than shear_bond / tan(friction)"
+                                               : "is a bond without strength in shear",
+                         lining.shear_bond > 0
+                             ? "at most " + format_quantity(most, dimension::pressure)
+                             : "with a key shear_bond, at most shear_bond / tan(friction)");
+  });
+  s.integer("nodes", lining.nodes, 8, 2000);
+  s.quantity("fill_depth", lining.fill_depth, dimension::length, {.low = 0, .high = 10},
+             Need::optional);
+  s.quantity("rib_spacing", lining.rib_spacing, dimension::length, rib_spacing_range);
+  if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
+  read_lined_arc(s, lining);
+  s.optional_table("feet", [&](Section& table) {
+    FeetInput& feet = lining.feet.emplace();
+    feet.width = lining.thickness;
+    table.quantity("width", feet.width, dimension::length, thickness_range, Need::optional);
+    table.quantity("stiffness", feet.stiffness, dimension::stiffness_per_area, per_area_range,
+                   Need::required);
+    table.quantity("strength", feet.strength, dimension::pressure, bearing_range);
+    feet.friction_angle = lining.interface_friction_angle;
+    table.quantity("friction", feet.friction_angle, dimension::angle, angle_below_90(),
+                   Need::optional);
+    table.optional_table("beam", [&](Section& under) {
+      FootBeam& beam = feet.beam.emplace();
+      under.quantity("depth", beam.depth, dimension::length, thickness_range, Need::required);
+      under.quantity("E", beam.modulus, dimension::pressure, modulus_range, Need::required);
+      under.quantity("spacing", beam.spacing, dimension::length, rib_spacing_range, Need::required);
+    });
+  });
+  if (lining.feet && !lining.arc && lining.part.value_or(LinedPart::all) == LinedPart::all)
+    s.complain("feet", "stand under the ends of an arc, and a full ring has none",
+               "a key arc, or no table feet");
+}
+
+namespace {
+
+/// What a round excavates: all of the section, or what lies between the limits given.
+void read_part(Section& s, StageInput& round) {
+  bool excavates = true;
+  const bool known = s.choice<bool>("excavate", excavates, {{"section", true}, {"nothing", false}},
+                                    Need::optional);
+  SectionPart part;
+  const auto limits = [&] {
+    s.quantity("above", part.bottom, dimension::length, Range{}, Need::optional);
+    s.quantity("below", part.top, dimension::length, Range{}, Need::optional);
+    s.quantity("right_of", part.left, dimension::length, Range{}, Need::optional);
+    s.quantity("left_of", part.right, dimension::length, Range{}, Need::optional);
+  };
+  if (!known) return s.unread(limits);
+  s.only_with(excavates, R"(excavate = "section")", limits);
+  if (!excavates) return;
+  if (!(part.bottom < part.top) && !s.faulty("above") && !s.faulty("below"))
+    s.complain("above", "leaves nothing: it is not lower than below", "an elevation under below");
+  if (!(part.left < part.right) && !s.faulty("right_of") && !s.faulty("left_of"))
+    s.complain("right_of", "leaves nothing: it is not left of left_of", "a place left of left_of");
+  round.part = part;
+}
+
+}  // namespace
+
+void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
+  s.text("name", stage.name);
+  s.quantity("wall_traction", stage.wall_traction, dimension::number, between(0, 1),
+             is_round ? Need::optional : Need::required);
+  if (is_round) {
+    read_part(s, stage);
+    s.only_with(input.tunnel.round_length.has_value(), "tunnel.round_length",
+                [&] { s.integer("behind", stage.behind, 0, 1000); });
+    if (!input.is_spatial()) note_unused(input, s, "behind");
+    if (input.is_spatial() && input.tunnel.round_length) note_unused(input, s, "wall_traction");
+  }
+  const auto value = s.find("install", Need::optional);
+  if (!value) return;
+  std::vector<std::string> words{"bolts", "lining"};  // all patterns, or one by its name
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  for (const BoltsInput* pattern : patterns) words.push_back(pattern->name);
+  const auto items = value->as_list(0, words.size(), R"(a list of "bolts", "lining")");
+  if (!items) return;
+  for (const Value& item : *items) {
+    const auto word = item.as_word(words);
+    if (!word) continue;
+    bool is_again = *word == 1 && stage.install_lining;
+    if (*word == 1) stage.install_lining = true;
+    // Bolts that no table describes are said of the whole file, below.
+    const std::size_t first = *word < 2 ? 0 : *word - 2,
+                      last = *word == 0   ? std::max<std::size_t>(patterns.size(), 1)
+                             : *word == 1 ? 0
+                                          : first + 1;
+    for (std::size_t k = first; k < last; ++k) {
+      is_again =
+          is_again || std::find(stage.bolts.begin(), stage.bolts.end(), k) != stage.bolts.end();
+      stage.bolts.push_back(k);
+    }
+    if (is_again) item.refuse("is in the list twice", "each support once");
+  }
+}
+
+void read_diagram(Section& s, DiagramInput& diagram) {
+  const std::string spacing_list =
+      R"(a rising list of 2 to 100 bolt spacings, all angles or all lengths, "none" last, such as ["9 deg", "18 deg", "none"])";
+  const std::string thickness_list =
+      R"(a rising list of 2 to 100 lengths, "0 cm" for no lining, such as ["0 cm", "10 cm"])";
+  if (const auto value = s.find("spacing", Need::required, spacing_list)) {
+    const auto entries = value->as_list(2, 100, spacing_list);
+    for (std::size_t i = 0; entries && i < entries->size(); ++i) {
+      const Value& entry = entries->at(i);
+      std::optional<BoltSpacing> spacing;
+      if (entry.node().kind == Node::Kind::text && entry.node().text == "none") {
+        if (i + 1 < entries->size()) entry.refuse("is not the last entry", spacing_list);
+      } else {
+        spacing = read_spacing(entry);
+        if (!spacing) continue;
+        const auto& previous = diagram.spacing;
+        if (!previous.empty() && previous.back()) {
+          if (previous.back()->is_angle != spacing->is_angle) {
+            entry.refuse("mixes angles and lengths", spacing_list);
+          } else if (!(spacing->value > previous.back()->value)) {
+            entry.refuse("is not above the entry before it", spacing_list);
+          }
+        }
+      }
+      diagram.spacing.push_back(spacing);
+    }
+  }
+  if (const auto value = s.find("thickness", Need::required, thickness_list)) {
+    const auto entries = value->as_list(2, 100, thickness_list);
+    for (std::size_t i = 0; entries && i < entries->size(); ++i) {
+      const auto thickness = entries->at(i).as_quantity(dimension::length, at_least(0));
+      if (!thickness) continue;
+      if (*thickness > 0 && !thickness_range.contains(*thickness)) {
+        entries->at(i).refuse("is outside the accepted range",
+                              "0 for no lining, or " + thickness_range.text(&dimension::length));
+        continue;
+      }
+      if (!diagram.thickness.empty() && !(*thickness > diagram.thickness.back()))
+        entries->at(i).refuse("is not above the entry before it", thickness_list);
+      diagram.thickness.push_back(*thickness);
+    }
+  }
+}
+
+}  // namespace voussoir::program
