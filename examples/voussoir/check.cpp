@@ -17,7 +17,6 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/statistics.hpp>
-#include <voussoir/tunnel/bolt_pattern.hpp>
 
 #include "boundary.hpp"
 #include "construction_plan.hpp"

@@ -371,9 +371,18 @@ double friction_angle_at(const JointLawInput& law, double stress) {
   const AnyJoint joint = joint_of(law);
   double steepest = 0;
   for (double slip = 1e-6; slip < 0.1; slip *= 1.1) {
-    const PointLoad<2> load{1, {stress, zeros<Vec<1>>()}, {0, Vec<1>(-slip)}};
-    const PointForce<2> force = joint.force(load, AnyJoint::State<2>{});
-    if (force.normal > 0) steepest = std::max(steepest, force.tangential[0] / force.normal);
+    // Free to lift: it opens until the stress is that asked for.
+    double low = 0, high = 0.05, friction = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double opening = k == 0 ? 0.0 : 0.5 * (low + high);
+      const PointLoad<2> load{1, {stress, zeros<Vec<1>>()}, {opening, Vec<1>(-slip)}};
+      const PointForce<2> force = joint.force(load, AnyJoint::State<2>{});
+      const bool is_pressed = force.normal > stress * (1 + 1e-9);
+      if (is_pressed || k == 0) friction = force.tangential[0] / force.normal;
+      if (k == 0 && !is_pressed) break;
+      (is_pressed ? low : high) = opening;
+    }
+    steepest = std::max(steepest, friction);
   }
   return elementary::angle_of(steepest, 1.0);
 }

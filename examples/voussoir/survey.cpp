@@ -79,6 +79,16 @@ void take(Section& file, Input& input, std::size_t index) {
   set.fisher = std::min(*fit.concentration, 1e6);
 }
 
+std::string survey_text(const FittedSet& fit) {
+  std::string text = fit.name + ": " + std::to_string(fit.count) +
+                     (fit.count == 1 ? " plane" : " planes") + ", mean dip " +
+                     degrees(fit.mean.dip) + " towards " + degrees(fit.mean.dip_direction);
+  if (fit.concentration) text += ", K " + significant_text(*fit.concentration, 3);
+  if (fit.cone_95) text += ", the mean known to " + degrees(*fit.cone_95, 2) + " (95 %)";
+  if (fit.count > 1) text += ", the farthest plane " + degrees(fit.largest_angle, 2) + " from it";
+  return text;
+}
+
 }  // namespace
 
 void read_survey(Section& file, Input& input) {
@@ -118,16 +128,6 @@ void read_survey(Section& file, Input& input) {
     if (std::none_of(input.joint_sets.begin(), input.joint_sets.end(),
                      [&](const JointSetInput& set) { return set.surveyed == static_cast<int>(k); }))
       survey.left_out.push_back(survey.fits[k].name);
-}
-
-std::string survey_text(const FittedSet& fit) {
-  std::string text = fit.name + ": " + std::to_string(fit.count) +
-                     (fit.count == 1 ? " plane" : " planes") + ", mean dip " +
-                     degrees(fit.mean.dip) + " towards " + degrees(fit.mean.dip_direction);
-  if (fit.concentration) text += ", K " + significant_text(*fit.concentration, 3);
-  if (fit.cone_95) text += ", the mean known to " + degrees(*fit.cone_95, 2) + " (95 %)";
-  if (fit.count > 1) text += ", the farthest plane " + degrees(fit.largest_angle, 2) + " from it";
-  return text;
 }
 
 std::string survey_lines(const Input& input) {

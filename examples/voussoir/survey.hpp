@@ -15,8 +15,6 @@ namespace voussoir::program {
 /// @param file  the whole input, of which all tables were read
 void read_survey(Section& file, Input& input);
 
-/// The line of a fitted set on the screen.
-[[nodiscard]] std::string survey_text(const FittedSet& fit);
 /// "survey   ...", a line for the file and one for each set; empty without a survey.
 [[nodiscard]] std::string survey_lines(const Input& input);
 /// Names the sets of the survey that no joint set takes.
