@@ -372,17 +372,17 @@ double friction_angle_at(const JointLawInput& law, double stress) {
   double steepest = 0;
   for (double slip = 1e-6; slip < 0.1; slip *= 1.1) {
     // Free to lift: it opens until the stress is that asked for.
-    double low = 0, high = 0.05, friction = 0;
+    double low = 0, high = 0.05, ratio = 0;
     for (int k = 0; k < 60; ++k) {
       const double opening = k == 0 ? 0.0 : 0.5 * (low + high);
       const PointLoad<2> load{1, {stress, zeros<Vec<1>>()}, {opening, Vec<1>(-slip)}};
       const PointForce<2> force = joint.force(load, AnyJoint::State<2>{});
       const bool is_pressed = force.normal > stress * (1 + 1e-9);
-      if (is_pressed || k == 0) friction = force.tangential[0] / force.normal;
+      if (is_pressed || k == 0) ratio = force.tangential[0] / force.normal;
       if (k == 0 && !is_pressed) break;
       (is_pressed ? low : high) = opening;
     }
-    steepest = std::max(steepest, friction);
+    steepest = std::max(steepest, ratio);
   }
   return elementary::angle_of(steepest, 1.0);
 }
