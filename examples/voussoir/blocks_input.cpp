@@ -127,7 +127,7 @@ class Reader {
  private:
   void read_block(Section& s, std::size_t i) {
     LaidBlockInput block{.name = std::to_string(i + 1)};
-    if (const auto value = s.find("name", Need::optional)) {
+    if (const auto value = s.find("name", Need::optional, "a text or a whole number")) {
       block.name = name_in(*value).value_or(block.name);
       if (block.name.empty()) value->refuse("is empty", "a name, or no key");
     }
@@ -151,14 +151,14 @@ class Reader {
       for (const char* key : {"min_inscribed_radius", "max_elongation", "min_wall_area"})
         (void)s.find(key, Need::optional);
     });
-    const auto value = s.find("file", Need::optional);
+    const auto value = s.find("file", Need::optional, form);
     const auto text = value ? value->as_text() : std::nullopt;
     if (text && text->empty()) value->refuse("is empty", form);
     if (text && !text->empty()) {
       laid_.file = directory_ / utf8_path(*text);
       read_corners(*value);
     }
-    const auto fixed = s.find("fixed", Need::optional);
+    const auto fixed = s.find("fixed", Need::optional, "a list of names");
     const auto names = fixed ? fixed->as_list(0, most_blocks, "a list of names") : std::nullopt;
     for (std::size_t k = 0; names && k < names->size(); ++k)
       if (const int block = block_in(names->at(k)); block >= 0)
@@ -343,7 +343,7 @@ class Reader {
     load.block = named ? block_in(*named) : -1;
     if (load.block >= 0 && laid_.blocks[static_cast<std::size_t>(load.block)].fixed)
       named->refuse("is fixed, and bears any load", "a block that can move");
-    if (const auto value = s.find("force", Need::optional))
+    if (const auto value = s.find("force", Need::optional, force_form))
       if (const auto pair = value->as_list(2, 2, force_form)) {
         const auto x =
             per_metre(pair->at(0), dimension::stiffness, "a force per metre", force_form);
@@ -351,13 +351,13 @@ class Reader {
             per_metre(pair->at(1), dimension::stiffness, "a force per metre", force_form);
         if (x && y) load.force = {*x, *y};
       }
-    if (const auto value = s.find("moment", Need::optional))
+    if (const auto value = s.find("moment", Need::optional, moment_form))
       load.moment = per_metre(*value, dimension::force, "a moment per metre", moment_form)
                         .value_or(load.moment);
     if (!s.has("force") && !s.has("moment"))
       s.complain("force", "is missing, and so is moment", force_form + ", or " + moment_form);
     s.only_with(s.has("force"), "a load with a force", [&] {
-      if (const auto value = s.find("at", Need::optional)) load.at = value->as_point();
+      if (const auto value = s.find("at", Need::optional, point_form)) load.at = value->as_point();
     });
     s.choice<bool>("kind", load.is_proportional, {{"proportional", true}, {"dead", false}},
                    Need::optional);
@@ -371,7 +371,7 @@ class Reader {
     if (motion.block >= 0 && !laid_.blocks[static_cast<std::size_t>(motion.block)].fixed)
       named->refuse("is free: only a fixed block is displaced",
                     "a block with fixed = true, or a [[load]] on this one");
-    if (const auto value = s.find("by", Need::optional))
+    if (const auto value = s.find("by", Need::optional, point_form))
       if (const auto by = value->as_point()) {
         motion.by = *by;
         if (!way_range.contains((*by)[0]) || !way_range.contains((*by)[1]))

@@ -5,13 +5,6 @@
 
 namespace voussoir::program {
 
-LawsBySet<AnyJoint> laws_of(const Input& input) {
-  LawsBySet<AnyJoint> laws(joint_of(input.joint));
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
-    if (const auto& own = input.joint_sets[k].law) laws.add(static_cast<int>(k), joint_of(*own));
-  return laws;
-}
-
 Acceptance acceptance_of(const Input& input, const SimplePolygon& opening) {
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
@@ -158,6 +151,7 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, b
   construction.acceptance = acceptance_of(input, opening);
   for (const StageInput& stage : input.stages) {
     auto& made = construction.add_stage(stage.name, stage.wall_traction);
+    made.duration = stage.duration;
     if (stage.part && !is_excavated)
       made.excavate(*outline_of_part(opening, *stage.part), input.blocks.min_wall_area);
     const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
@@ -253,8 +247,11 @@ Construction<SpatialTunnel> construction_of(const Input& input, const SimplePoly
   construction.acceptance = acceptance_of(input, section);
   const StretchWork work(input, section, supports);
   if (!input.tunnel.round_length) {
-    for (const StageInput& entry : input.stages)
-      work.add(entry, 0, construction.add_stage(entry.name, entry.wall_traction));
+    for (const StageInput& entry : input.stages) {
+      auto& stage = construction.add_stage(entry.name, entry.wall_traction);
+      stage.duration = entry.duration;
+      work.add(entry, 0, stage);
+    }
     return construction;
   }
   int farthest = 0;
@@ -265,7 +262,10 @@ Construction<SpatialTunnel> construction_of(const Input& input, const SimplePoly
                                                        : "behind the face " +
                                                              std::to_string(face - rounds + 1));
     for (const StageInput& entry : input.stages)
-      if (const int k = face - entry.behind; k >= 0 && k < rounds) work.add(entry, k, stage);
+      if (const int k = face - entry.behind; k >= 0 && k < rounds) {
+        work.add(entry, k, stage);
+        stage.duration = std::max(stage.duration, entry.duration);  // they work side by side
+      }
   }
   return construction;
 }

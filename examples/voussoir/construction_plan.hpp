@@ -24,8 +24,6 @@ struct SupportChoice {
   double thickness = 0;                ///< of the lining [m]; 0: no lining
 };
 
-/// The law of the joints, and of those sets that differ.
-[[nodiscard]] LawsBySet<AnyJoint> laws_of(const Input& input);
 [[nodiscard]] Acceptance acceptance_of(const Input& input, const SimplePolygon& opening);
 /// One row around the section.
 /// The bars of a pattern in the section; in 3-D in rows along what is driven.

@@ -14,6 +14,7 @@
 #include "input_section.hpp"
 #include "joint_laws.hpp"
 #include "joint_sets.hpp"
+#include "key_catalogue.hpp"
 #include "plausibility.hpp"
 #include "rock_input.hpp"
 #include "support_input.hpp"
@@ -48,8 +49,7 @@ void read_run(Section& s, RunInput& run) {
                "is never reached: a block that has moved so far is detached (displacement_limit: " +
                    format_quantity(*displacement_limit, dimension::length) + ")",
                "a length below displacement_limit");
-  if (const auto value = s.find("max_steps", Need::optional))
-    run.max_steps = value->as_integer(1, 2'000'000'000);
+  s.integer("max_steps", run.max_steps, 1, 2'000'000'000);
   const auto of_explicit = [&] {
     s.number("damping", run.damping, between(0, 0.95), Need::optional);
     s.integer("ramp_steps", run.ramp_steps, 0, 1'000'000'000);
@@ -297,6 +297,16 @@ Input read_input_text(std::string_view text, const std::string& name,
       input.content.push_back("tunnel.file (a point) = " + shortest_text(p[0]) + ", " +
                               shortest_text(p[1]));
   return input;
+}
+
+std::vector<DeclaredKey> keys_of_readers(std::string_view text) {
+  const Document document = read_document(text, "keys", {});
+  std::vector<DeclaredKey> keys;
+  Checker checker(document, &keys);
+  Input input;
+  Section file(checker, &document.root, "");
+  read_all(file, input, {});
+  return keys;
 }
 
 Input read_input(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -299,6 +299,7 @@ struct StageInput {
   /// 3-D, with tunnel.round_length: so many rounds behind the face, 0 to 1000.
   int behind = 0;
   double wall_traction = 0;  ///< left on the wall at the end / in-situ traction [-], 0 to 1
+  double duration = 0;  ///< for which joints creep at its end [s], >= 0
   std::vector<std::size_t> bolts = {};  ///< patterns installed at the start of the stage
   bool install_lining = false;          ///< at the start of the stage
 };

@@ -11,7 +11,9 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/lining/node_spacing.hpp>
+#include <voussoir/solver/creep.hpp>
 
+#include "joint_laws.hpp"
 #include "plausibility.hpp"
 
 namespace voussoir::program {
@@ -299,6 +301,23 @@ void check_bolts(Checker& checker, const Input& input) {
   }
 }
 
+/// A stage lasts for joints that creep, and no longer than they can be followed.
+void check_duration(Checker& checker, const Input& input, const StageInput& stage,
+                    const std::string& key) {
+  if (stage.duration == 0 || checker.faulty("joint") || checker.faulty("joint_set")) return;
+  const double step = longest_creep_step(laws_of(input));
+  constexpr double most_steps = 1000;
+  if (std::isinf(step))
+    return checker.report(key, "is for joints that creep, and none does",
+                          R"(law = "burgers" of [joint] or a [[joint_set]], or no duration)");
+  if (stage.duration > most_steps * step)
+    checker.report(key,
+                   "would take " + significant_text(std::ceil(stage.duration / step), 3) +
+                       " steps, each a fifth of the shortest time in which shear relaxes",
+                   "up to " + format_quantity(most_steps * step, dimension::time) +
+                       ": 1000 steps; or joints that creep more slowly");
+}
+
 void check_stages(Checker& checker, Input& input) {
   if (input.stages.empty()) {
     if (checker.faulty("stage") || checker.faulty("round")) return;  // meant to have some
@@ -312,6 +331,8 @@ void check_stages(Checker& checker, Input& input) {
   const std::string table = input.has_rounds ? "round" : "stage";
   if (checker.faulty(table)) return;
   const auto key = [&](std::size_t i) { return table + "[" + std::to_string(i) + "]"; };
+  for (std::size_t i = 0; i < input.stages.size(); ++i)
+    check_duration(checker, input, input.stages[i], key(i) + ".duration");
   for (std::size_t i = 1; i < input.stages.size(); ++i) {
     // Of what a round excavates, the wall has all of its traction yet.
     if (input.has_rounds && input.stages[i].part) continue;

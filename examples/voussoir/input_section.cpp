@@ -117,6 +117,56 @@ std::string words_form(const std::vector<std::string>& words) {
   return join(shown, ", ");
 }
 
+std::string integer_form(std::int64_t low, std::int64_t high) {
+  std::string form = "a whole number, ";
+  if (high == std::numeric_limits<std::int64_t>::max())
+    return form.append(std::to_string(low)).append(" or more");
+  if (low == high) return form.append(std::to_string(low));
+  return form.append("from ")
+      .append(std::to_string(low))
+      .append(" to ")
+      .append(std::to_string(high));
+}
+
+KeyForm KeyForm::of_kind(Kind kind, const std::string& accepted) {
+  KeyForm form(accepted);
+  form.kind = kind;
+  return form;
+}
+
+KeyForm KeyForm::quantity(const Dimension& dimension, const Range& range, Infinity infinity) {
+  KeyForm form = of_kind(Kind::quantity, quantity_form(dimension, range, infinity));
+  form.dimension = dimension;
+  form.range = range;
+  return form;
+}
+
+KeyForm KeyForm::number(const Range& range) {
+  KeyForm form = of_kind(Kind::number, number_form(range));
+  form.range = range;
+  return form;
+}
+
+KeyForm KeyForm::integer(std::int64_t low, std::int64_t high) {
+  KeyForm form = of_kind(Kind::integer, integer_form(low, high));
+  form.range = between(static_cast<double>(low), static_cast<double>(high));
+  return form;
+}
+
+KeyForm KeyForm::word(std::vector<std::string> words) {
+  KeyForm form = of_kind(Kind::word, words_form(words));
+  form.words = std::move(words);
+  return form;
+}
+
+void Checker::list(DeclaredKey key) {
+  if (declared_ == nullptr) return;
+  // Entries of a list are alike.
+  for (std::size_t at = 0; (at = key.key.find('[', at)) != std::string::npos; ++at)
+    key.key.erase(at + 1, key.key.find(']', at) - at - 1);
+  declared_->push_back(std::move(key));
+}
+
 void Checker::report(const Place& place, std::string key, std::string message,
                      std::string accepted) {
   errors_.push_back(
@@ -247,12 +297,7 @@ std::optional<double> Value::as_number(const Range& range) const {
 }
 
 std::optional<std::int64_t> Value::as_integer(std::int64_t low, std::int64_t high) const {
-  const std::string accepted =
-      "a whole number, " +
-      (high == std::numeric_limits<std::int64_t>::max()
-           ? std::to_string(low) + " or more"
-           : (low == high ? std::to_string(low)
-                          : "from " + std::to_string(low) + " to " + std::to_string(high)));
+  const std::string accepted = integer_form(low, high);
   if (node_->kind != Node::Kind::integer) {
     refuse(node_->kind == Node::Kind::real
                ? std::string("is not a whole number")
@@ -315,7 +360,7 @@ std::optional<std::vector<Value>> Value::as_list(std::size_t least, std::size_t 
 }
 
 std::optional<Point> Value::as_point() const {
-  const auto pair = as_list(2, 2, R"(two lengths, such as ["0 m", "-2.5 m"])");
+  const auto pair = as_list(2, 2, point_form);
   if (!pair) return std::nullopt;
   const auto x = pair->at(0).as_quantity(dimension::length, any_value);
   const auto y = pair->at(1).as_quantity(dimension::length, any_value);
@@ -327,8 +372,11 @@ std::string Section::full(std::string_view key) const {
   return (path_.empty() ? "" : path_ + ".") + std::string(key);
 }
 
-std::optional<Value> Section::find(std::string_view key, Need need, const std::string& accepted) {
+std::optional<Value> Section::find(std::string_view key, Need need, const KeyForm& form) {
   known_.emplace_back(key);
+  if (checker_.lists_keys() && mode_ != Mode::unread)
+    checker_.list({full(key), form, need == Need::required, condition_,
+                   node_ != nullptr && mode_ == Mode::active});
   const Node* node = node_ == nullptr ? nullptr : node_->find(key);
   if (mode_ == Mode::unread) return std::nullopt;
   if (mode_ == Mode::refused) {
@@ -339,7 +387,7 @@ std::optional<Value> Section::find(std::string_view key, Need need, const std::s
     return std::nullopt;
   }
   if (node == nullptr) {
-    if (need == Need::required) missing_.emplace_back(key, accepted);
+    if (need == Need::required) missing_.emplace_back(key, form.accepted);
     return std::nullopt;
   }
   checker_.found(full(key), *node);
@@ -348,35 +396,48 @@ std::optional<Value> Section::find(std::string_view key, Need need, const std::s
 
 void Section::quantity(std::string_view key, double& out, const Dimension& dimension,
                        const Range& range, Need need, Infinity infinity) {
-  if (const auto value = find(key, need, quantity_form(dimension, range, infinity)))
+  KeyForm form = KeyForm::quantity(dimension, range, infinity);
+  if (need == Need::optional) form.otherwise = format_quantity(out, dimension);
+  if (const auto value = find(key, need, form))
     out = value->as_quantity(dimension, range, infinity).value_or(out);
 }
 
 void Section::quantity(std::string_view key, std::optional<double>& out, const Dimension& dimension,
                        const Range& range) {
-  if (const auto value = find(key, Need::optional)) out = value->as_quantity(dimension, range);
+  if (const auto value = find(key, Need::optional, KeyForm::quantity(dimension, range)))
+    out = value->as_quantity(dimension, range);
 }
 
 void Section::number(std::string_view key, double& out, const Range& range, Need need) {
-  if (const auto value = find(key, need, number_form(range)))
-    out = value->as_number(range).value_or(out);
+  KeyForm form = KeyForm::number(range);
+  if (need == Need::optional) form.otherwise = plain_number(out);
+  if (const auto value = find(key, need, form)) out = value->as_number(range).value_or(out);
+}
+
+void Section::number(std::string_view key, std::optional<double>& out, const Range& range) {
+  if (const auto value = find(key, Need::optional, KeyForm::number(range)))
+    out = value->as_number(range);
 }
 
 void Section::text(std::string_view key, std::string& out) {
-  if (const auto value = find(key, Need::optional)) out = value->as_text().value_or(out);
+  if (const auto value = find(key, Need::optional, KeyForm::of_kind(KeyForm::Kind::text)))
+    out = value->as_text().value_or(out);
 }
 
 void Section::flag(std::string_view key, bool& out) {
-  if (const auto value = find(key, Need::optional)) out = value->as_flag().value_or(out);
+  KeyForm form = KeyForm::of_kind(KeyForm::Kind::flag);
+  form.otherwise = out ? "true" : "false";
+  if (const auto value = find(key, Need::optional, form)) out = value->as_flag().value_or(out);
 }
 
 void Section::in_mode(Mode mode, const std::string& condition,
                       const std::function<void()>& declare) {
   if (mode_ != Mode::active) return declare();  // inside another, which says more
+  const std::string around = std::exchange(condition_, condition);
   mode_ = mode;
-  condition_ = condition;
   declare();
   mode_ = Mode::active;
+  condition_ = around;
 }
 
 void Section::only_with(bool active, const std::string& condition,
@@ -387,7 +448,7 @@ void Section::only_with(bool active, const std::string& condition,
 void Section::unread(const std::function<void()>& declare) { in_mode(Mode::unread, "", declare); }
 
 void Section::table(std::string_view key, const std::function<void(Section&)>& read) {
-  const auto value = find(key, Need::optional);
+  const auto value = find(key, Need::optional, KeyForm::of_kind(KeyForm::Kind::table));
   const Node* node = nullptr;
   if (value) {
     if (value->node().kind != Node::Kind::table) {
@@ -406,7 +467,7 @@ void Section::table(std::string_view key, const std::function<void(Section&)>& r
 }
 
 void Section::optional_table(std::string_view key, const std::function<void(Section&)>& read) {
-  if (has(key)) {
+  if (has(key) || checker_.lists_keys()) {
     table(key, read);
   } else {
     known_.emplace_back(key);
@@ -414,8 +475,12 @@ void Section::optional_table(std::string_view key, const std::function<void(Sect
 }
 
 void Section::tables(std::string_view key, const std::function<void(Section&, std::size_t)>& read) {
-  const auto value = find(key, Need::optional);
-  if (!value) return;
+  const auto value = find(key, Need::optional, KeyForm::of_kind(KeyForm::Kind::tables));
+  if (!value) {
+    if (!checker_.lists_keys()) return;
+    Section none(checker_, nullptr, full(key) + "[]");
+    return read(none, 0);
+  }
   const std::string form = "tables [[" + full(key) + "]], one for each";
   if (value->node().kind == Node::Kind::table) {
     checker_.report(value->node().place, full(key), full(key) + " is one table, not a list of them",
@@ -439,6 +504,8 @@ void Section::tables(std::string_view key, const std::function<void(Section&, st
 
 void Section::table_or_tables(std::string_view key,
                               const std::function<void(Section&, std::size_t)>& read) {
+  if (checker_.lists_keys())
+    checker_.list({full(key), KeyForm::of_kind(KeyForm::Kind::one_or_more), false, "", false});
   if (has_list(key)) return tables(key, read);
   optional_table(key, [&](Section& s) { read(s, 0); });
 }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <voussoir/core/units.hpp>
@@ -57,7 +58,51 @@ enum class Need { required, optional };
 [[nodiscard]] std::string quantity_form(const Dimension& dimension, const Range& range,
                                         Infinity infinity = Infinity::refused);
 [[nodiscard]] std::string number_form(const Range& range);
+[[nodiscard]] std::string integer_form(std::int64_t low, std::int64_t high);
 [[nodiscard]] std::string words_form(const std::vector<std::string>& words);
+
+inline constexpr const char* point_form = R"(two lengths, such as ["0 m", "-2.5 m"])";
+
+/// What a key may hold, as its reader declares it.
+struct KeyForm {
+  enum class Kind {
+    other,
+    quantity,
+    number,
+    integer,
+    word,
+    text,
+    flag,
+    table,
+    tables,
+    one_or_more
+  };
+  Kind kind = Kind::other;
+  std::string accepted;  ///< what to write, in words
+  Dimension dimension{};
+  Range range{};
+  std::vector<std::string> words{};
+  std::string otherwise{};  ///< what holds where it is left out, as the file would have it
+
+  KeyForm() = default;
+  KeyForm(std::string text) : accepted(std::move(text)) {}  // NOLINT(google-explicit-constructor)
+  KeyForm(const char* text) : accepted(text) {}             // NOLINT(google-explicit-constructor)
+  [[nodiscard]] static KeyForm quantity(const Dimension& dimension, const Range& range,
+                                        Infinity infinity = Infinity::refused);
+  [[nodiscard]] static KeyForm number(const Range& range);
+  [[nodiscard]] static KeyForm integer(std::int64_t low, std::int64_t high);
+  [[nodiscard]] static KeyForm word(std::vector<std::string> words);
+  [[nodiscard]] static KeyForm of_kind(Kind kind, const std::string& accepted = "");
+};
+
+/// A key that a reader asked for, whether the file has it or not.
+struct DeclaredKey {
+  std::string key;  ///< dotted; entries of lists without their number: "joint_set[].dip"
+  KeyForm form;
+  bool is_required = false;  ///< where its table is, under its condition
+  std::string condition;     ///< `shape = "circle"`; empty: always
+  bool is_open = false;      ///< the document has its table, and the condition is met
+};
 
 /// The words of a choice and what they stand for.
 template <class Enum>
@@ -66,7 +111,10 @@ using Words = std::initializer_list<std::pair<std::string_view, Enum>>;
 /// The document being read, and what was found wrong with it.
 class Checker {
  public:
-  explicit Checker(const Document& document) : document_(document), errors_(document.errors) {}
+  /// @param declared  takes every key that is asked for: tables that the document lacks are then
+  ///                  read as well, as if they were empty; null: none of this
+  explicit Checker(const Document& document, std::vector<DeclaredKey>* declared = nullptr)
+      : document_(document), errors_(document.errors), declared_(declared) {}
 
   [[nodiscard]] const Document& document() const { return document_; }
 
@@ -79,6 +127,10 @@ class Checker {
   [[nodiscard]] bool faulty(std::string_view key) const;
 
   void found(const std::string& key, const Node& node) { nodes_[key] = &node; }
+
+  /// Whether keys are taken down.
+  [[nodiscard]] bool lists_keys() const { return declared_ != nullptr; }
+  void list(DeclaredKey key);
 
   /// Remembers what keys a table may have, and which it has besides.
   void declare(const std::string& table, std::vector<std::string> known,
@@ -97,6 +149,7 @@ class Checker {
   };
   const Document& document_;
   std::vector<InputError> errors_;
+  std::vector<DeclaredKey>* declared_;
   std::map<std::string, const Node*> nodes_;
   std::vector<Table> tables_;
 };
@@ -147,9 +200,9 @@ class Section {
   [[nodiscard]] Checker& checker() { return checker_; }
 
   /// Declares a key.
-  /// @param accepted  what to write, should it be missing
+  /// @param form  what to write, should it be missing
   /// @return  its value if it is there and belongs here
-  std::optional<Value> find(std::string_view key, Need need, const std::string& accepted = "");
+  std::optional<Value> find(std::string_view key, Need need, const KeyForm& form = {});
   /// Whether the file has the key (no declaration).
   [[nodiscard]] bool has(std::string_view key) const {
     return node_ != nullptr && node_->find(key) != nullptr;
@@ -177,19 +230,28 @@ class Section {
   void quantity(std::string_view key, std::optional<double>& out, const Dimension& dimension,
                 const Range& range);
   void number(std::string_view key, double& out, const Range& range, Need need);
+  void number(std::string_view key, std::optional<double>& out, const Range& range);
   void text(std::string_view key, std::string& out);
   void flag(std::string_view key, bool& out);
   template <class Integer>
   void integer(std::string_view key, Integer& out, std::int64_t low, std::int64_t high) {
-    if (const auto value = find(key, Need::optional))
+    KeyForm form = KeyForm::integer(low, high);
+    if constexpr (std::is_integral_v<Integer>) form.otherwise = std::to_string(out);
+    if (const auto value = find(key, Need::optional, form))
       if (const auto read = value->as_integer(low, high)) out = static_cast<Integer>(*read);
   }
   /// @return  whether `out` is known: the key was left out or is one of the words
   template <class Enum>
   bool choice(std::string_view key, Enum& out, Words<Enum> words, Need need) {
     std::vector<std::string> names;
-    for (const auto& [name, meaning] : words) names.emplace_back(name);
-    const auto value = find(key, need, words_form(names));
+    std::string otherwise;
+    for (const auto& [name, meaning] : words) {
+      names.emplace_back(name);
+      if (need == Need::optional && meaning == out) otherwise = name;
+    }
+    KeyForm form = KeyForm::word(names);
+    form.otherwise = otherwise;
+    const auto value = find(key, need, form);
     if (!value) return need == Need::optional;
     const auto at = value->as_word(names);
     if (at) out = (words.begin() + *at)->second;
@@ -231,7 +293,7 @@ class Section {
   std::vector<std::string> known_;
   std::vector<std::pair<std::string, std::string>> missing_;  // key, what to write
   Mode mode_ = Mode::active;
-  std::string condition_;
+  std::string condition_;  ///< under which keys belong to the table; empty: always
 };
 
 /// Takes note of a key that is there, and has a meaning in the other dimension only.

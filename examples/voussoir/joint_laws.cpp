@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -100,6 +101,35 @@ AnyJoint barton_bandis(const JointLawInput& law) {
                             .joint_length = law.at("joint_length"),
                             .largest_stress = law.at("largest_stress"),
                             .damage_coefficient = law.at("damage")});
+}
+
+constexpr double day = 86400;                                           // [s]
+constexpr Range viscosity_range{.low = 1e6 * day, .high = 1e18 * day};  // [Pa s/m]
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::optional<LawFault> burgers_fault(const JointLawInput& law) {
+  const bool is_delayed = std::isfinite(law.at("kelvin_stiffness")),
+             has_rate = std::isfinite(law.at("kelvin_viscosity"));
+  if (is_delayed != has_rate)
+    return LawFault{is_delayed ? "kelvin_stiffness" : "kelvin_viscosity",
+                    is_delayed ? "says how far delayed slip goes, and nothing how fast"
+                               : "says how fast delayed slip goes, and nothing how far",
+                    is_delayed ? R"(kelvin_viscosity = "20 GPa d/m" besides it)"
+                               : R"(kelvin_stiffness = "1 GPa/m" besides it)"};
+  if (!is_delayed && std::isinf(law.at("maxwell_viscosity")))
+    return LawFault{
+        "law", "creeps in no way: it is a Coulomb joint",
+        R"(maxwell_viscosity = "500 GPa d/m", or kelvin_stiffness and kelvin_viscosity, or law = "coulomb")"};
+  return std::nullopt;
+}
+
+AnyJoint burgers(const JointLawInput& law) {
+  return BurgersJoint({.joint_normal_stiffness = law.at("kn"),
+                       .joint_shear_stiffness = law.at("ks"),
+                       .friction_angle = law.at("friction"),
+                       .maxwell_viscosity = law.at("maxwell_viscosity"),
+                       .kelvin_stiffness = law.at("kelvin_stiffness"),
+                       .kelvin_viscosity = law.at("kelvin_viscosity")});
 }
 
 std::vector<JointLawRow> made_rows() {
@@ -225,6 +255,38 @@ std::vector<JointLawRow> made_rows() {
          .otherwise = 2.0}},
        barton_bandis_fault,
        barton_bandis},
+      {"burgers",
+       "Coulomb's joint that creeps in shear, for as long as stages last (`stage.duration`): "
+       "weathered or clay-coated joints. Under a constant shear stress it slips at once, by what is "
+       "delayed (Kelvin), and without end (Maxwell). All of the shear that it carries makes it "
+       "creep, that of the rock in situ included.",
+       {kn,
+        ks,
+        friction,
+        {.key = "maxwell_viscosity",
+         .dimension = dimension::viscosity_per_area,
+         .range = viscosity_range,
+         .common_low = 1e9 * day,
+         .common_high = 900e9 * day,
+         .sentence = "shear stress over the rate of slip that goes on, such as "
+                     "`\"500 GPa d/m\"`; left out: none goes on",
+         .otherwise = infinity},
+        {.key = "kelvin_stiffness",
+         .dimension = dimension::stiffness_per_area,
+         .range = stiffness_range,
+         .common_low = 20e6,
+         .common_high = 15e9,
+         .sentence = "shear stress over the slip that is delayed; left out: none is",
+         .otherwise = infinity},
+        {.key = "kelvin_viscosity",
+         .dimension = dimension::viscosity_per_area,
+         .range = viscosity_range,
+         .common_low = 1e9 * day,
+         .common_high = 900e9 * day,
+         .sentence = "that times the time in which it comes; with `kelvin_stiffness`",
+         .otherwise = infinity}},
+       burgers_fault,
+       burgers},
   };
 }
 
@@ -275,10 +337,10 @@ void read_parameter(Section& s, const LawParameter& parameter, const JointLawInp
   const Need need = is_required ? Need::required : Need::optional;
   std::optional<double> value;
   if (parameter.dimension == dimension::number) {
-    if (const auto found = s.find(parameter.key, need, number_form(parameter.range)))
+    if (const auto found = s.find(parameter.key, need, KeyForm::number(parameter.range)))
       value = found->as_number(parameter.range);
-  } else if (const auto found =
-                 s.find(parameter.key, need, quantity_form(parameter.dimension, parameter.range))) {
+  } else if (const auto found = s.find(parameter.key, need,
+                                       KeyForm::quantity(parameter.dimension, parameter.range))) {
     value = found->as_quantity(parameter.dimension, parameter.range);
   }
   if (s.has(parameter.key)) law.given.emplace_back(parameter.key);
@@ -300,7 +362,7 @@ JointLawInput read_joint_law(Section& s, const JointLawInput* common) {
   std::vector<std::string> words;
   for (const JointLawRow& row : joint_law_rows()) words.emplace_back(row.word);
   bool is_known = true;
-  if (const auto value = s.find("law", Need::optional, words_form(words))) {
+  if (const auto value = s.find("law", Need::optional, KeyForm::word(words))) {
     const auto word = value->as_word(words);
     is_known = word.has_value();
     if (word) law.law = words[*word];
@@ -354,6 +416,13 @@ std::vector<const JointLawInput*> laws_in_use(const Input& input) {
     has_own = has_own && set.law;
   }
   if (!has_own) laws.insert(laws.begin(), &input.joint);
+  return laws;
+}
+
+LawsBySet<AnyJoint> laws_of(const Input& input) {
+  LawsBySet<AnyJoint> laws(joint_of(input.joint));
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
+    if (const auto& own = input.joint_sets[k].law) laws.add(static_cast<int>(k), joint_of(*own));
   return laws;
 }
 
@@ -416,6 +485,7 @@ std::string law_text(const JointLawInput& law) {
 std::string json_name(const LawParameter& parameter) {
   const auto with = [&](const char* unit) { return std::string(parameter.key) + unit; };
   if (parameter.dimension == dimension::stiffness_per_area) return with("_Pa_per_m");
+  if (parameter.dimension == dimension::viscosity_per_area) return with("_Pa_s_per_m");
   if (parameter.dimension == dimension::angle) return with("_deg");
   if (parameter.dimension == dimension::pressure) return with("_Pa");
   if (parameter.dimension == dimension::length) return with("_m");
@@ -444,7 +514,8 @@ std::string joint_law_page() {
       if (!parameter.beside.empty()) page.append(" of `").append(parameter.beside).append("`");
       page += " | ";
       if (parameter.otherwise)
-        page += is_number ? significant_text(*parameter.otherwise, 4)
+        page += std::isinf(*parameter.otherwise) ? "none"
+                : is_number                      ? significant_text(*parameter.otherwise, 4)
                 : *parameter.otherwise == 0
                     ? "0"
                     : format_quantity(*parameter.otherwise, parameter.dimension);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 #include <voussoir/contact/any_joint.hpp>
+#include <voussoir/contact/laws_by_set.hpp>
 
 #include "input.hpp"
 #include "input_section.hpp"
@@ -64,6 +65,8 @@ struct JointLawRow {
 [[nodiscard]] std::vector<const JointLawInput*> laws_in_use(const Input& input);
 
 [[nodiscard]] AnyJoint joint_of(const JointLawInput& law);
+/// The law of the joints, and of those sets that differ.
+[[nodiscard]] LawsBySet<AnyJoint> laws_of(const Input& input);
 /// What a joint does at a normal stress [Pa]: the stiffness across it [Pa/m] and the largest angle
 /// of friction, cohesion and roughness included, that a monotonic slip of up to 0.1 m meets [rad].
 [[nodiscard]] double normal_stiffness_at(const JointLawInput& law, double stress);

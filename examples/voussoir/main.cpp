@@ -23,18 +23,14 @@
 #include <voussoir/core/version.hpp>
 #include <voussoir/io/operating_system.hpp>
 
-#include "analysis.hpp"
-#include "blocks_analysis.hpp"
-#include "blocks_outputs.hpp"
-#include "case_plan.hpp"
-#include "check.hpp"
+#include "completion.hpp"
 #include "input_document.hpp"
-#include "outputs.hpp"
+#include "input_page.hpp"
+#include "key_catalogue.hpp"
 #include "patterns.hpp"
 #include "ranks.hpp"
 #include "run_diff.hpp"
 #include "run_folder.hpp"
-#include "survey.hpp"
 #include "templates.hpp"
 #include "verbs.hpp"
 
@@ -52,143 +48,6 @@ namespace {
 extern "C" void ask_to_stop(int signal) {
   stop_asked = 1;
   std::signal(signal, ask_to_stop);  // Windows forgets it
-}
-
-const char* const smaller_model =
-    "a smaller domain (model.width, model.below_invert, tunnel.cover), fewer joints or a larger "
-    "blocks.min_inscribed_radius";
-
-/// What `run` and `diagram` report of themselves.
-void now_doing(const std::string& what, const std::string& otherwise) {
-  work.doing = what == "blocks" ? "cutting the rock into blocks" : otherwise;
-}
-
-/// One for every verdict, so that a script reads it as a person does.
-/// @param has_lost  blocks or lining have come off
-ExitStatus status_of(voussoir::Verdict verdict, bool has_lost) {
-  switch (verdict) {
-    case voussoir::Verdict::undecided:
-      return not_decided;
-    case voussoir::Verdict::collapse:
-      return collapsed;
-    case voussoir::Verdict::stable:
-      return has_lost ? stands_after_rockfall : finished;
-  }
-  return not_decided;
-}
-
-/// Blocks that are laid.
-int run_blocks_verb(const Options& options, const Input& input) {
-  RunFolder outputs(options.folder);
-  ProgressLine line(options.quiet);
-  work.remedy = "fewer blocks";
-  const BlocksRun run = run_blocks(input, [&](const std::string& what, double fraction) {
-    work.doing = "computing the stage " + what;
-    return line.show(what, fraction);
-  });
-  line.clear();
-  if (stop_asked != 0) return say_interrupted();
-  work.doing = "writing the results";
-  const std::string id = RunId("blocks").add(input).text();
-  outputs.add("run.json", blocks_run_json(input, run), id);
-  outputs.add("blocks.csv", blocks_csv(input, run), id);
-  outputs.add("contacts.csv", contacts_csv(input, run), id);
-  outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
-  if (!options.quiet) std::cout << blocks_summary(input, run);
-  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
-  return status_of(run.last().verdict, !run.last().fallen.empty());
-}
-
-/// A tunnel in 2-D or 3-D.
-/// @param compute  the run, by what is told of its progress
-template <class Compute>
-int run_tunnel_verb(const Options& options, const Input& input, Compute&& compute) {
-  RunFolder outputs(options.folder);
-  ProgressLine line(options.quiet);
-  work.remedy = smaller_model;
-  const auto run = compute([&](const std::string& what, double fraction) {
-    now_doing(what, "computing the stage " + what);
-    return line.show(what, fraction);
-  });
-  line.clear();
-  if (stop_asked != 0) return say_interrupted();
-  work.doing = "writing the results";
-  const std::string id = RunId("tunnel").add(input).text();
-  std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
-  outputs.add("run.json", run_json(input, run), id);
-  outputs.add("bolts.csv", bolts_csv(input, run), id);
-  outputs.add("lining.csv", lining_csv(run), id);
-  outputs.add("blocks.svg", blocks_svg(input, run), id);
-  if (input.survey) {
-    outputs.add("stereonet.svg", stereonet_svg(input), id);
-    names += ", stereonet.svg";
-  }
-  if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
-    outputs.add("blocks.vtu", blocks_vtu(run), id);
-    names += ", blocks.vtu";
-  }
-  if (!options.quiet) std::cout << run_summary(input, run);
-  publish(outputs, options, names);
-  return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
-}
-
-int run_verb(const Options& options) {
-  work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
-  if (input.laid) return run_blocks_verb(options, input);
-  if (input.is_spatial())
-    return run_tunnel_verb(options, input, [&](const voussoir::program::Report& report) {
-      return run_spatial_tunnel(input, report);
-    });
-  return run_tunnel_verb(options, input, [&](const voussoir::program::Report& report) {
-    return run_tunnel(input, report);
-  });
-}
-
-/// What is known before equilibrium is sought. Writes nothing unless it is told where.
-int check_verb(const Options& options, bool wants_picture) {
-  work = {"reading " + options.file, "a smaller input file"};
-  const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
-  if (input.laid) {
-    if (!options.quiet)
-      std::cout << "blocks   " << input.laid->blocks.size() << " that are laid\n"
-                << "checked  the file can be run\n";
-    return finished;
-  }
-  ProgressLine line(options.quiet);
-  work.remedy = smaller_model;
-  const CheckedModel model = checked_model(input, [&](const std::string& what, double fraction) {
-    now_doing(what, "making the model");
-    return line.show(what, fraction);
-  });
-  line.clear();
-  if (stop_asked != 0) return say_interrupted();
-  if (!options.quiet) std::cout << check_text(input, model);
-  if (!wants_picture) return finished;
-  RunFolder outputs(options.folder);
-  work.doing = "writing the results";
-  const std::string id = RunId("check").add(input).text();
-  outputs.add("check.svg", check_svg(input, model), id);
-  if (input.survey) outputs.add("stereonet.svg", stereonet_svg(input), id);
-  publish(outputs, options, input.survey ? "check.svg, stereonet.svg" : "check.svg");
-  return finished;
-}
-
-/// @param file  to be written, which must not be there; empty: standard output
-int init_verb(const std::string& name, const std::string& file) {
-  const std::string text = template_text(name);
-  if (file.empty()) {
-    std::cout << text;
-    return finished;
-  }
-  const std::filesystem::path path = voussoir::utf8_path(file);
-  std::error_code error;
-  if (std::filesystem::exists(path, error))
-    throw voussoir::InvalidInput(file + " is there already\n   = accepted: the name of a new file");
-  voussoir::write_atomically(path, text);
-  std::cout << "written  " << file << "; voussoir check " << file << "; voussoir run " << file
-            << "\n";
-  return finished;
 }
 
 /// Which cases, and how many rock masses of each.
@@ -325,6 +184,19 @@ int run_program(int argc, char** argv) {
   add_input(check);
   CLI::App* run = app.add_subcommand("run", "one tunnel: verdict, forces, picture");
   add_input(run);
+  CLI::App* explain = app.add_subcommand(
+      "explain", "what a key of the input, a verdict, an exit status or a result means");
+  std::string explained;
+  explain->add_option("NAME", explained, "for example stress.K0, marginal, 6, run.json")
+      ->required();
+  CLI::App* schema = app.add_subcommand(
+      "schema", "JSON schema of input files, by which an editor completes and checks them");
+  CLI::App* completion =
+      app.add_subcommand("completion", "a script that lets a shell complete verbs and keys");
+  std::string shell;
+  completion->add_option("SHELL", shell, "bash or zsh")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh"}));
   CLI::App* diff = app.add_subcommand("diff", "what differs between two runs");
   std::vector<std::string> compared;
   diff->add_option("FOLDERS", compared, "two folders of results, or their run.json")
@@ -451,6 +323,18 @@ int run_program(int argc, char** argv) {
   std::signal(SIGBREAK, ask_to_stop);
 #endif
   try {
+    if (*schema) {
+      std::cout << schema_json();
+      return finished;
+    }
+    if (*explain) {
+      std::cout << explanation(explained);
+      return finished;
+    }
+    if (*completion) {
+      std::cout << completion_script(app, shell);
+      return finished;
+    }
     if (*init) {
       if (!lists_templates) return init_verb(template_name, template_file);
       for (const Template& one : templates())

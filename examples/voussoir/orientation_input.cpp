@@ -109,7 +109,7 @@ std::optional<double> read_dip(const Value& value, const std::string& direction)
 
 void read_orientation(Section& s, JointSetInput& set, Need need) {
   const Range range{.low = 0, .high = 90 * degree};
-  const auto dip = s.find("dip", need, quantity_form(dimension::angle, range, Infinity::refused));
+  const auto dip = s.find("dip", need, KeyForm::quantity(dimension::angle, range));
   const std::string accepted =
       R"(an azimuth, "135 deg", clockwise from North, with tunnel.trend; "N", "NE", "E", ...; without tunnel.trend "E", down to the right, or "W", down to the left)";
   const auto direction = s.find("dip_direction", need, accepted);

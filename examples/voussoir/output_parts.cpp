@@ -62,12 +62,18 @@ nlohmann::json report_json(const EquilibriumReport& report, const std::string& m
 
 nlohmann::json stages_json(const std::vector<StageResult>& stages, const std::string& measure) {
   nlohmann::json list = nlohmann::json::array();
-  for (const StageResult& stage : stages)
+  for (const StageResult& stage : stages) {
     list.push_back({{"name", stage.name},
                     {"residual_wall_traction", stage.wall_traction},
                     {"residual_wall_traction_asked", stage.wall_traction_asked},
                     {"equilibrium", report_json(stage.report, measure)},
                     {"convergence", convergence_json(stage.convergence)}});
+    for (const CreptState& state : stage.crept)
+      list.back()["creep"].push_back({{"time_d", state.time / 86400},
+                                      {"verdict", to_string(state.report.verdict)},
+                                      {"detached_" + measure, state.report.fallen_measure},
+                                      {"convergence", convergence_json(state.convergence)}});
+  }
   return list;
 }
 
@@ -137,7 +143,12 @@ std::string stage_lines(const std::vector<StageResult>& stages) {
            text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
     if (!stage.fully_unloaded())
       out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
-    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm\n";
+    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm";
+    if (!stage.crept.empty())
+      out += ", after " + format_quantity(stage.crept.back().time, dimension::time) +
+             " of creep, " + std::to_string(stage.crept.size()) +
+             " steps: " + to_string(stage.last());
+    out += "\n";
   }
   return out;
 }

@@ -33,15 +33,14 @@ void read_model(Section& s, Input& input) {
   s.quantity("below_invert", model.below_invert, dimension::length, above(0), Need::required);
   s.integer("seed", model.seed, 0, std::numeric_limits<std::int64_t>::max());
   s.quantity("gravity", model.gravity, dimension::acceleration, gravity_range, Need::optional);
-  if (const auto value = s.find("origin", Need::optional))
+  if (const auto value = s.find("origin", Need::optional, point_form))
     model.origin = value->as_point().value_or(model.origin);
 }
 
 void read_stress(Section& s, Input& input) {
   StressInput& stress = input.stress;
   s.number("K0", stress.K0, between(0, 10), Need::required);
-  if (const auto value = s.find("K0_minor", Need::optional))
-    stress.K0_minor = value->as_number(between(0, 10));
+  s.number("K0_minor", stress.K0_minor, between(0, 10));
   s.quantity("K0_trend", stress.K0_trend, dimension::angle, between(0, radians(360)));
   s.quantity("horizontal", stress.horizontal, dimension::pressure, surcharge_range, Need::optional);
   s.quantity("surcharge", stress.surcharge, dimension::pressure, surcharge_range, Need::optional);
@@ -217,8 +216,7 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
              {.low = 0, .high = 1e4, .low_included = false});
   s.only_with(is_random || !is_mapped, "intensity, spacing or P32", [&] {
     s.quantity("sd", set.sd, dimension::angle, between(0, radians(45)), Need::optional);
-    if (const auto value = s.find("K", Need::optional))
-      set.fisher = value->as_number({.low = 5, .high = 1e6});
+    s.number("K", set.fisher, {.low = 5, .high = 1e6});
     s.quantity("extent", set.extent, dimension::length, above(0), Need::optional,
                Infinity::allowed);
     s.quantity("strike_extent", set.strike_extent, dimension::length, above(0));
@@ -254,9 +252,7 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
 
 void read_mapped(Section& s, Input& input, const std::filesystem::path& directory) {
   MappedInput& mapped = input.mapped;
-  if (const auto value = s.find("first_set", Need::optional)) {
-    if (const auto first = value->as_integer(0, 1)) mapped.first_set = static_cast<int>(*first);
-  }
+  s.integer("first_set", mapped.first_set, 0, 1);
   s.quantity("snap", mapped.snap, dimension::length, above(0));
   (void)s.choice<DeadEnds>(
       "dead_ends", mapped.dead_ends,

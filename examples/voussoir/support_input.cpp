@@ -21,8 +21,13 @@ constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};              // [
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
 constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
 constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
+constexpr Range duration_range{.low = 0, .high = 3.2e10};      // a thousand years [s]
 constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};  // along the tunnel [m]
 
+constexpr const char* arc_form =
+    R"(two angles from -360 to 360 deg, the first below the second, at most 360 deg apart, such as ["0 deg", "180 deg"])";
+constexpr const char* bars_form =
+    R"(1 to 1000 pairs of points, head and tip of each bar, such as [[["0 m", "4 m"], ["0 m", "8 m"]]])";
 constexpr const char* spacing_form =
     R"(an angle from 0.1 deg or a length from 1 cm, such as "15 deg" or "1.3 m")";
 
@@ -49,8 +54,7 @@ std::optional<BoltSpacing> read_spacing(const Value& value) {
 }
 
 std::optional<ArcInput> read_arc(const Value& value) {
-  const std::string form =
-      R"(two angles from -360 to 360 deg, the first below the second, at most 360 deg apart, such as ["0 deg", "180 deg"])";
+  const std::string form = arc_form;
   const auto ends = value.as_list(2, 2, form);
   if (!ends) return std::nullopt;
   const Range range = between(radians(-360), radians(360));
@@ -67,21 +71,21 @@ std::optional<ArcInput> read_arc(const Value& value) {
 
 /// Two angles, or what of the outline is lined in a word.
 void read_lined_arc(Section& s, LiningInput& lining) {
-  const auto value = s.find("arc", Need::optional);
+  const std::vector<std::string> words{"roof", "roof and walls", "all"};
+  const auto value =
+      s.find("arc", Need::optional, words_form(words).append("; or ").append(arc_form));
   if (!value) return;
   if (value->node().kind != Node::Kind::text) {
     lining.arc = read_arc(*value);
     return;
   }
   constexpr LinedPart parts[] = {LinedPart::roof, LinedPart::roof_and_walls, LinedPart::all};
-  if (const auto word = value->as_word({"roof", "roof and walls", "all"}))
-    lining.part = parts[*word];
+  if (const auto word = value->as_word(words)) lining.part = parts[*word];
 }
 
 /// Bars one by one: head and tip of each.
 void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
-  const std::string form =
-      R"(1 to 1000 pairs of points, head and tip of each bar, such as [[["0 m", "4 m"], ["0 m", "8 m"]]])";
+  const std::string form = bars_form;
   const auto entries = value.as_list(1, 1000, form);
   for (std::size_t k = 0; entries && k < entries->size(); ++k) {
     const auto ends = entries->at(k).as_list(2, 2, form);
@@ -100,13 +104,13 @@ void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
 void read_bolts(Section& s, BoltsInput& bolts) {
   s.text("name", bolts.name);
   const bool has_bars = s.has("bars");
-  if (const auto value = s.find("bars", Need::optional)) read_bars(*value, bolts.bars);
+  if (const auto value = s.find("bars", Need::optional, bars_form)) read_bars(*value, bolts.bars);
   bolts.arc = {0, radians(180)};
   s.only_with(!has_bars, "length and spacing, without bars,", [&] {
     s.quantity("length", bolts.length, dimension::length, above(0), Need::required);
     if (const auto value = s.find("spacing", Need::required, spacing_form))
       bolts.spacing = read_spacing(*value).value_or(bolts.spacing);
-    if (const auto value = s.find("arc", Need::optional))
+    if (const auto value = s.find("arc", Need::optional, arc_form))
       bolts.arc = read_arc(*value).value_or(bolts.arc);
   });
   s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
@@ -123,15 +127,17 @@ void read_bolts(Section& s, BoltsInput& bolts) {
                                                     {"garga-wang", BoltAnchors::garga_wang},
                                                     {"joint-face", BoltAnchors::joint_face}},
                                                    Need::optional);
-  bolts.anchor_offset = 1.2 * bolts.diameter;  // as Boon et al. (2015), section 5.2
-  const auto offset = [&] {
-    s.quantity("anchor_offset", bolts.anchor_offset, dimension::length, above(0), Need::optional);
+  std::optional<double> offset;
+  const auto read_offset = [&] {
+    s.quantity("anchor_offset", offset, dimension::length, above(0));
   };
   if (anchors_known) {
-    s.only_with(bolts.anchors == BoltAnchors::lorig, "anchors = \"lorig\"", offset);
+    s.only_with(bolts.anchors == BoltAnchors::lorig, "anchors = \"lorig\"", read_offset);
   } else {
-    s.unread(offset);
+    s.unread(read_offset);
   }
+  // As Boon et al. (2015), section 5.2.
+  bolts.anchor_offset = offset.value_or(1.2 * bolts.diameter);
 
   const bool law_known = s.choice<BoltLaw>(
       "law", bolts.law, {{"axial", BoltLaw::axial}, {"axial-shear", BoltLaw::axial_shear}},
@@ -160,9 +166,9 @@ void read_lining(Section& s, Input& input) {
   s.table("interface", [&](Section& interface) {
     interface.quantity("kn", lining.interface_normal_stiffness, dimension::stiffness_per_area,
                        per_area_range, Need::required);
-    lining.interface_shear_stiffness = lining.interface_normal_stiffness;
-    interface.quantity("ks", lining.interface_shear_stiffness, dimension::stiffness_per_area,
-                       per_area_range, Need::optional);
+    std::optional<double> ks;
+    interface.quantity("ks", ks, dimension::stiffness_per_area, per_area_range);
+    lining.interface_shear_stiffness = ks.value_or(lining.interface_normal_stiffness);
     interface.quantity("friction", lining.interface_friction_angle, dimension::angle,
                        angle_below_90(), Need::required);
     interface.quantity("shear_bond", lining.shear_bond, dimension::pressure, bond_range,
@@ -186,14 +192,14 @@ void read_lining(Section& s, Input& input) {
   read_lined_arc(s, lining);
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
-    feet.width = lining.thickness;
-    table.quantity("width", feet.width, dimension::length, thickness_range, Need::optional);
+    std::optional<double> width, friction;
+    table.quantity("width", width, dimension::length, thickness_range);
+    feet.width = width.value_or(lining.thickness);
     table.quantity("stiffness", feet.stiffness, dimension::stiffness_per_area, per_area_range,
                    Need::required);
     table.quantity("strength", feet.strength, dimension::pressure, bearing_range);
-    feet.friction_angle = lining.interface_friction_angle;
-    table.quantity("friction", feet.friction_angle, dimension::angle, angle_below_90(),
-                   Need::optional);
+    table.quantity("friction", friction, dimension::angle, angle_below_90());
+    feet.friction_angle = friction.value_or(lining.interface_friction_angle);
     table.optional_table("beam", [&](Section& under) {
       FootBeam& beam = feet.beam.emplace();
       under.quantity("depth", beam.depth, dimension::length, thickness_range, Need::required);
@@ -243,12 +249,14 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
     if (!input.is_spatial()) note_unused(input, s, "behind");
     if (input.is_spatial() && input.tunnel.round_length) note_unused(input, s, "wall_traction");
   }
-  const auto value = s.find("install", Need::optional);
+  s.quantity("duration", stage.duration, dimension::time, duration_range, Need::optional);
+  const std::string form = R"(a list of "bolts", "lining" and names of patterns of bolts)";
+  const auto value = s.find("install", Need::optional, form);
   if (!value) return;
   std::vector<std::string> words{"bolts", "lining"};  // all patterns, or one by its name
   const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
   for (const BoltsInput* pattern : patterns) words.push_back(pattern->name);
-  const auto items = value->as_list(0, words.size(), R"(a list of "bolts", "lining")");
+  const auto items = value->as_list(0, words.size(), form);
   if (!items) return;
   for (const Value& item : *items) {
     const auto word = item.as_word(words);

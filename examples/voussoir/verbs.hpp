@@ -109,6 +109,13 @@ struct PlanOptions {
   int chunks = 0;             ///< 0: so that each lasts `chunk_minutes`
   double chunk_minutes = 10;  ///< about
 };
+/// One tunnel, or laid blocks.
+[[nodiscard]] int run_verb(const Options& options);
+/// What is known before equilibrium is sought. Writes nothing unless it is told where.
+[[nodiscard]] int check_verb(const Options& options, bool wants_picture);
+/// @param file  to be written, which must not be there; empty: standard output
+[[nodiscard]] int init_verb(const std::string& name, const std::string& file);
+
 /// `diagram`, `realisations`, `sweep`.
 [[nodiscard]] int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings);
 /// One chunk of a plan, "3/60"; options.file names the plan or its folder.

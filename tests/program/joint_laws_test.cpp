@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include <voussoir/core/dimension.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
 #include "harness.hpp"
@@ -76,7 +77,8 @@ maximum_closure = "1 mm"
 /// A complete table of each law.
 std::string table_of(const JointLawRow& row) {
   if (row.word == "barton-bandis") return rough;
-  return "law = \"" + std::string(row.word) + "\"\n" + coulomb;
+  const std::string creep = row.word == "burgers" ? "maxwell_viscosity = \"100 GPa d/m\"\n" : "";
+  return "law = \"" + std::string(row.word) + "\"\n" + coulomb + creep;
 }
 
 double crown(const Results& results) {
@@ -116,10 +118,7 @@ std::string said_of(const std::string& text) {
 
 std::string value_text(const LawParameter& parameter, double value) {
   if (parameter.dimension == voussoir::dimension::number) return voussoir::shortest_text(value);
-  std::string unit = "Pa/m";
-  if (parameter.dimension == voussoir::dimension::angle) unit = "rad";
-  if (parameter.dimension == voussoir::dimension::pressure) unit = "Pa";
-  if (parameter.dimension == voussoir::dimension::length) unit = "m";
+  const std::string unit = voussoir::detail::base_units(parameter.dimension);
   return "\"" + voussoir::shortest_text(value) + " " + unit + "\"";
 }
 

@@ -36,6 +36,7 @@ inline constexpr Dimension moment{1, 2, -2, 0};               ///< N m
 inline constexpr Dimension stiffness{1, 0, -2, 0};            ///< N/m
 inline constexpr Dimension pressure{1, -1, -2, 0};            ///< Pa
 inline constexpr Dimension stiffness_per_area{1, -2, -2, 0};  ///< Pa/m
+inline constexpr Dimension viscosity_per_area{1, -2, -1, 0};  ///< of joints, Pa s/m
 }  // namespace dimension
 
 namespace detail {
@@ -48,11 +49,11 @@ struct DimensionWords {
   std::array<std::string_view, 4> echo;
 };
 
-inline constexpr std::array<DimensionWords, 16> dimension_words{{
+inline constexpr std::array<DimensionWords, 17> dimension_words{{
     {dimension::number, "a fraction", R"("40 %" or "2.5 %")", {"%"}},
     {dimension::mass, "a mass", R"("250 kg" or "1.2 t")", {"kg", "t"}},
     {dimension::length, "a length", R"("4 m", "10 cm" or "28 mm")", {"mm", "m"}},
-    {dimension::time, "a time", R"("0.5 s" or "20 ms")", {"ms", "s"}},
+    {dimension::time, "a time", R"("0.5 s", "30 d" or "2 a")", {"ms", "s", "h", "d"}},
     {dimension::angle, "an angle", R"("35 deg" or "0.6 rad")", {"deg"}},
     {dimension::area, "an area", R"("0.074 m^2" or "740 cm^2")", {"m^2"}},
     {dimension::intensity, "a number per area", R"("1 /m^2" or "0.5 1/m^2")", {"/m^2"}},
@@ -74,6 +75,10 @@ inline constexpr std::array<DimensionWords, 16> dimension_words{{
      "a stiffness per area",
      R"("5 GPa/m", "5000 MPa/m" or "5e9 Pa/m")",
      {"Pa/m", "kPa/m", "MPa/m", "GPa/m"}},
+    {dimension::viscosity_per_area,
+     "a viscosity per area",
+     R"("20 GPa d/m" or "5 GPa a/m")",
+     {"Pa*s/m", "MPa*d/m", "GPa*d/m"}},
 }};
 
 inline const DimensionWords* find_words(const Dimension& dimension) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <voussoir/core/dimension.hpp>
 
 namespace voussoir {
@@ -31,21 +32,26 @@ class UnitError : public std::invalid_argument {
 
 namespace detail {
 
-/// A unit symbol: SI value = 10^decimal_exponent * (degrees ? pi/180 : 1). The power of ten is kept
-/// apart because 7 / 100 is the double nearest to 0.07 and 7 * 0.01 is not.
+/// A unit symbol: SI value = 10^decimal_exponent * (degrees ? pi/180 : 1) * factor. The power of
+/// ten is kept apart because 7 / 100 is the double nearest to 0.07 and 7 * 0.01 is not.
 struct Unit {
   std::string_view symbol;
   std::string_view prefixes;  ///< of k c m u M G T, those in use with this symbol
   Dimension dimension;
   int decimal_exponent = 0;
   bool degrees = false;
+  double factor = 1;
 };
 
-inline constexpr std::array<Unit, 13> unit_table{{
+inline constexpr std::array<Unit, 17> unit_table{{
     {"m", "kcmu", dimension::length},
     {"g", "km", dimension::mass, -3},
     {"t", "k", dimension::mass, 3},
     {"s", "mu", dimension::time},
+    {"min", "", dimension::time, 0, false, 60},
+    {"h", "", dimension::time, 0, false, 3600},
+    {"d", "", dimension::time, 0, false, 86400},
+    {"a", "", dimension::time, 0, false, 31557600},  // of 365.25 days
     {"rad", "m", dimension::angle},
     {"deg", "", dimension::angle, 0, true},
     {"\u00b0", "", dimension::angle, 0, true},
@@ -163,7 +169,7 @@ class UnitParser {
     double value = scale_by_ten(number, decimal_exponent_);
     for (int i = 0; i < degrees_; ++i) value = value * std::numbers::pi / 180;
     for (int i = 0; i > degrees_; --i) value = value * 180 / std::numbers::pi;
-    return value;
+    return value * times_ / over_;
   }
 
   /// Control characters would garble a terminal, and a pasted page is no message.
@@ -219,6 +225,7 @@ class UnitParser {
       dimension_.angle += power * unit.dimension.angle;
       decimal_exponent_ += power * (unit.decimal_exponent + prefix);
       if (unit.degrees) degrees_ += power;
+      for (int k = 0; k < std::abs(power); ++k) (power > 0 ? times_ : over_) *= unit.factor;
       return;
     }
     if (const ForeignUnit* foreign = find_foreign(symbol))
@@ -275,6 +282,10 @@ class UnitParser {
     if (word == "degree" || word == "degrees") return ", did you mean `deg`?";
     if (word == "meter" || word == "metre" || word == "meters" || word == "metres")
       return ", did you mean `m`?";
+    for (const auto& [name, unit] : {std::pair{"day", "d"}, std::pair{"hour", "h"},
+                                     std::pair{"minute", "min"}, std::pair{"year", "a"}})
+      if (word == name || word == std::string(name) + "s")
+        return std::string(", did you mean `") + unit + "`?";
     return "";
   }
 
@@ -282,6 +293,7 @@ class UnitParser {
   Dimension dimension_;
   int decimal_exponent_ = 0;
   int degrees_ = 0;
+  double times_ = 1, over_ = 1;  ///< of units of time, which are no powers of ten
 };
 
 }  // namespace detail

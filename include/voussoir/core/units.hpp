@@ -30,10 +30,10 @@ struct Quantity {
 
 /// Reads a number and its unit, of whatever dimension.
 ///
-/// Units: m g t s rad deg N Pa bar J % with the prefixes in use (mm, cm, km, kg, kN, MPa, GPa ...);
-/// products with `*` or a space, quotients with `/`, exponents as m^2, m2 or superscript. The
-/// decimal sign is a point under every locale. Feet, inches, psi, gon and the like are refused with
-/// what they come to.
+/// Units: m g t s min h d a rad deg N Pa bar J % with the prefixes in use (mm, cm, km, kg, kN, MPa,
+/// GPa ...); products with `*` or a space, quotients with `/`, exponents as m^2, m2 or superscript.
+/// The decimal sign is a point under every locale. Feet, inches, psi, gon and the like are refused
+/// with what they come to.
 ///
 /// @throws UnitError  no number, no unit, unknown unit, text behind the unit, NaN, or too large for
 ///                    a double; the message then holds no accepted examples

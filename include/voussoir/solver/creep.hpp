@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/errors.hpp>
@@ -16,8 +17,18 @@ struct CreepState {
   EquilibriumReport report;
 };
 
+/// The time in which forces are taken to stay as they are: a fifth of the shortest creep time of
+/// all laws; infinity if none creeps [s].
+template <class Laws>
+[[nodiscard]] double longest_creep_step(const Laws& laws) {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const auto& law : laws.all()) longest = std::min(longest, 0.2 * law.creep_time());
+  return longest;
+}
+
 /// Lets the joints of a solver creep, a new equilibrium after every step: convergence against time.
 /// A step is a fifth of the shortest creep time: longer ones overshoot where blocks cannot follow.
+/// Laws that do not creep rest meanwhile.
 /// @param duration  [s], > 0
 /// @param seen      seen(state), called after every equilibrium; returns false to stop
 /// @return  the states; the last is at `duration` unless one was not stable, which ends it
@@ -29,9 +40,7 @@ requires CreepingLaw<typename Solver::JointLaw, Solver::dim> std::vector<CreepSt
     const Acceptance& acceptance = {}) {
   require(duration > 0 && std::isfinite(duration), "duration of creep", duration, "> 0 s");
   std::vector<CreepState> states;
-  double longest = duration;
-  for (const auto& law : solver.joint_laws().all())
-    longest = std::min(longest, 0.2 * law.creep_time());
+  const double longest = std::min(duration, longest_creep_step(solver.joint_laws()));
   for (double time = 0; time < duration;) {
     const double step = std::min(longest, duration - time);
     solver.creep_joints(step);

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/foot_bearing.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/progress.hpp>
@@ -17,6 +18,7 @@
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
+#include <voussoir/solver/creep.hpp>
 #include <voussoir/tunnel/chosen_nodes.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>
@@ -60,13 +62,14 @@ struct LiningInstallation {
 
 /// One stage, in this order: rock is taken out; bolts and linings are installed where the rock is
 /// then, free of force but for pretension; the walls lose traction until the stage's part of it is
-/// left, and the rock and its supports come to rest.
+/// left, and the rock and its supports come to rest; then joints creep for as long as it lasts.
 template <class Solver>
 struct ConstructionStage {
   using Opening = typename Solver::Geometry::Opening;
   std::string name;
   /// Part of the in-situ traction that is left on the walls at the end [-], 0 to 1.
   double wall_traction = 0;
+  double duration = 0;  ///< for which joints then creep [s], >= 0
   std::vector<Round<typename Solver::Geometry>> rounds;
   std::vector<BoltInstallation<Solver>> bolts;
   std::vector<LiningInstallation<Solver>> linings;
@@ -113,6 +116,13 @@ struct Construction {
   return 0.25 * opening.area();
 }
 
+/// Where joints have crept to in a stage.
+struct CreptState {
+  double time;  ///< since the stage came to rest [s]
+  EquilibriumReport report;
+  Convergence convergence;  ///< [m]; in 3-D of the whole length
+};
+
 /// A stage and what came of it.
 struct StageResult {
   std::string name;
@@ -120,6 +130,20 @@ struct StageResult {
   double wall_traction_asked = 0;  ///< at its end; reached unless the stage ended before [-]
   EquilibriumReport report = {};
   Convergence convergence = {};  ///< at its end [m]; in 3-D of the whole length
+  /// While joints crept, the last at the end of the stage unless one was not stable; empty where
+  /// none do.
+  std::vector<CreptState> crept = {};
+
+  /// Of its end.
+  [[nodiscard]] const EquilibriumReport& last() const {
+    return crept.empty() ? report : crept.back().report;
+  }
+  /// Rock that came off in it [m^2], [m^3].
+  [[nodiscard]] double fallen_measure() const {
+    double sum = report.fallen_measure;
+    for (const CreptState& state : crept) sum += state.report.fallen_measure;
+    return sum;
+  }
 
   /// False where blocks detached or the search ended while the wall was still being unloaded.
   [[nodiscard]] bool fully_unloaded() const {
@@ -134,28 +158,31 @@ struct ConstructionResult {
   double fallen_before = 0;         ///< rock that had detached before it began [m^2], [m^3]
 
   /// Of the last stage that was begun. @pre there is one
-  [[nodiscard]] const EquilibriumReport& last() const { return stages.back().report; }
+  [[nodiscard]] const EquilibriumReport& last() const { return stages.back().last(); }
   /// That of the last stage; a stage that does not end stable ends the construction. In words:
   /// `to_string(verdict(), fallen_measure(), has_lost_lining())`.
   [[nodiscard]] Verdict verdict() const { return last().verdict; }
   /// Over all stages, and what had detached before [m^2], [m^3].
   [[nodiscard]] double fallen_measure() const {
     double sum = fallen_before;
-    for (const StageResult& stage : stages) sum += stage.report.fallen_measure;
+    for (const StageResult& stage : stages) sum += stage.fallen_measure();
     return sum;
   }
   /// How that varies, over all stages; none where no stage says (`EquilibriumReport::rockfall`).
   [[nodiscard]] std::optional<RockfallRange> rockfall_range() const {
     std::optional<RockfallRange> sum;
     double exact = fallen_before;
-    for (const StageResult& stage : stages) {
-      const std::optional<RockfallRange>& range = stage.report.rockfall;
-      if (!range)
-        exact += stage.report.fallen_measure;
+    const auto add = [&](const EquilibriumReport& report) {
+      if (!report.rockfall)
+        exact += report.fallen_measure;
       else if (sum)
-        sum->add(*range);
+        sum->add(*report.rockfall);
       else
-        sum = range;
+        sum = report.rockfall;
+    };
+    for (const StageResult& stage : stages) {
+      add(stage.report);
+      for (const CreptState& state : stage.crept) add(state.report);
     }
     if (sum) sum->add({exact, exact, false, 0});
     return sum;
@@ -188,6 +215,46 @@ template <class Solver>
     layout.ring = with_chosen_nodes<3>(layout.ring, opening.section(), across, lining.interface_law,
                                        layout.spacing);
   return lining_frame(mass, opening, layout, solver.fallen());
+}
+
+/// @throws InvalidInput  a stage lasts where no joint creeps, or its duration is out of range
+template <class Solver>
+void check_durations(const Solver& solver, const Construction<Solver>& construction) {
+  bool creeps = false;
+  if constexpr (CreepingLaw<typename Solver::JointLaw, Solver::dim>)
+    creeps = std::isfinite(longest_creep_step(solver.joint_laws()));
+  for (const ConstructionStage<Solver>& stage : construction.stages)
+    naming("stage \"" + stage.name + "\"", [&] {
+      require(stage.duration >= 0 && std::isfinite(stage.duration), "duration", stage.duration,
+              ">= 0 s");
+      require(creeps || stage.duration == 0, "duration", stage.duration,
+              "0 s, for no joint law creeps");
+    });
+}
+
+/// Lets the joints creep for the duration of a stage that has come to rest.
+template <class Solver>
+void let_creep(Solver& solver, const ConstructionStage<Solver>& stage,
+               const Construction<Solver>& construction, const Progress& progress,
+               StageResult& end) {
+  if constexpr (CreepingLaw<typename Solver::JointLaw, Solver::dim>) {
+    const auto seen = [&](const CreepState& state) {
+      end.convergence = convergence(solver);
+      end.crept.push_back({state.time, state.report, end.convergence});
+      const bool goes_on = !progress || progress(std::min(state.time / stage.duration, 1.0));
+      if (!goes_on && state.time < stage.duration) {
+        end.crept.back().report.verdict = Verdict::undecided;
+        end.crept.back().report.stopped = true;
+      }
+      return goes_on;
+    };
+    const auto states =
+        creep(solver, stage.duration, seen, construction.method, construction.acceptance);
+    if (end.crept.size() < states.size())  // one that is not stable is not shown
+      end.crept.push_back({states.back().time, states.back().report, convergence(solver)});
+  } else {
+    (void)solver, (void)stage, (void)construction, (void)progress, (void)end;
+  }
 }
 
 /// @throws InvalidInput  see the calls; Stopped
@@ -225,6 +292,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
   if (construction.stages.empty())
     throw InvalidInput("construction: has no stages; accepted: at least one");
   check_construction(construction, solver.mass());
+  detail::check_durations(solver, construction);
   ConstructionResult<typename Solver::Geometry> result;
   result.fallen_before = solver.fallen_measure();
   for (const ConstructionStage<Solver>& stage : construction.stages) {
@@ -240,6 +308,8 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
       for (const double left : solver.wall_fractions())
         end.wall_traction = std::max(end.wall_traction, left);
       end.convergence = convergence(solver);
+      if (stage.duration > 0 && end.report.verdict == Verdict::stable)
+        detail::let_creep(solver, stage, construction, asked, end);
     });
     if (result.verdict() != Verdict::stable) break;
   }
