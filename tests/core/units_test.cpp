@@ -68,6 +68,13 @@ TEST_SUITE("core/units") {
         {"120 kN\u00b7m", dimension::moment, 120e3},
         {"2 N/m/m", dimension::pressure, 2},
         {"740 cm^2", dimension::area, 0.074},
+        {"90 min", dimension::time, 5400},
+        {"2 h", dimension::time, 7200},
+        {"30 d", dimension::time, 2592000},
+        {"1 a", dimension::time, 31557600},  // Julian: 365.25 days
+        {"3.6 m/h", dimension::velocity, 0.001},
+        {"20 GPa d/m", dimension::viscosity_per_area, 1.728e15},
+        {"20 GPa*d/m", dimension::viscosity_per_area, 1.728e15},
         {"0.6 rad", dimension::angle, 0.6},
         {"180 deg", dimension::angle, std::numbers::pi},
         {"90 \u00b0", dimension::angle, std::numbers::pi / 2},
@@ -177,6 +184,10 @@ TEST_SUITE("core/units") {
     CHECK(format_quantity(2700, dimension::density) == "2700 kg/m^3");
     CHECK(format_quantity(1, dimension::intensity) == "1 /m^2");
     CHECK(format_quantity(0.4, dimension::number) == "40 %");
+    CHECK(format_quantity(0.5, dimension::time) == "500 ms");
+    CHECK(format_quantity(5400, dimension::time) == "1.5 h");
+    CHECK(format_quantity(2592000, dimension::time) == "30 d");
+    CHECK(format_quantity(1.728e15, dimension::viscosity_per_area) == "20 GPa*d/m");
     CHECK(format_quantity(3, {0, 4, 0, 0}) == "3 m^4");
     CHECK(format_quantity(HUGE_VAL, dimension::length) == "inf");
     CHECK(format_quantity(std::nan(""), dimension::length) == "nan");

@@ -239,6 +239,18 @@ TEST_SUITE("tunnel/support_demand") {
     CHECK(remarks[1] == "bolts ruptured at " + std::to_string(condition.ruptured) + " joints");
   }
 
+  TEST_CASE("a stage that lasts is refused where no joint creeps") {
+    Tunnel tunnel = rock();
+    for (const double duration : {3600.0, -1.0, std::nan("")}) {
+      CAPTURE(duration);
+      Construction<Tunnel> lasting = plan();
+      lasting.stages.back().duration = duration;
+      const std::string said = refusal([&] { (void)construct(tunnel, lasting); });
+      CHECK(said.find("stage \"support\": duration") != std::string::npos);
+      CHECK(tunnel.mass().openings.empty());
+    }
+  }
+
   TEST_CASE("a plan that cannot be carried out is refused before anything is done") {
     const SimplePolygon heading({{-2, 0}, {2, 0}, {2, 2}, {-2, 2}}),
         bench({{-2, -2}, {2, -2}, {2, 0}, {-2, 0}}), wide({{-3, -2}, {3, -2}, {3, 1}, {-3, 1}});
