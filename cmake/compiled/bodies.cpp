@@ -18,6 +18,7 @@
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/csv_table.hpp>
+#include <voussoir/io/curve_picture.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
 #include <voussoir/io/detail/contour_panel.hpp>
 #include <voussoir/io/detail/interaction_panel.hpp>

@@ -184,6 +184,13 @@ int run_program(int argc, char** argv) {
   add_input(check);
   CLI::App* run = app.add_subcommand("run", "one tunnel: verdict, forces, picture");
   add_input(run);
+  CLI::App* grc = app.add_subcommand(
+      "grc", "ground reaction with and without support; of a tunnel in 3-D the wall along it");
+  add_input(grc);
+  int reaction_steps = 10;
+  grc->add_option("--steps", reaction_steps, "in which the wall is unloaded, in a section")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 100));
   CLI::App* explain = app.add_subcommand(
       "explain", "what a key of the input, a verdict, an exit status or a result means");
   std::string explained;
@@ -345,6 +352,7 @@ int run_program(int argc, char** argv) {
       std::cout << run_diff(compared[0], compared[1]);
       return finished;
     }
+    if (*grc) return grc_verb(options, reaction_steps);
     if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);

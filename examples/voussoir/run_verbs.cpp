@@ -13,6 +13,7 @@
 #include "blocks_analysis.hpp"
 #include "blocks_outputs.hpp"
 #include "check.hpp"
+#include "ground_reaction.hpp"
 #include "outputs.hpp"
 #include "run_folder.hpp"
 #include "spatial_analysis.hpp"
@@ -140,6 +141,42 @@ int check_verb(const Options& options, bool wants_picture) {
   outputs.add("check.svg", check_svg(input, model), id);
   if (input.survey) outputs.add("stereonet.svg", stereonet_svg(input), id);
   publish(outputs, options, input.survey ? "check.svg, stereonet.svg" : "check.svg");
+  return finished;
+}
+
+int grc_verb(const Options& options, int steps) {
+  work = {"reading " + options.file, "a smaller input file"};
+  const Input input = read_input(utf8_path(options.file), options.overrides);
+  if (input.laid)
+    throw InvalidInput(options.file +
+                       ": grc is of tunnels\n   = accepted: an input file with [tunnel]");
+  RunFolder outputs(options.folder);
+  ProgressLine line(options.quiet);
+  work.remedy = smaller_model;
+  const Report report = [&](const std::string& what, double fraction) {
+    now_doing(what, "computing the stage " + what);
+    return line.show(what, fraction);
+  };
+  const std::string id = RunId("grc").add(input).add(steps).text();
+  std::string said, name;
+  if (input.is_spatial()) {
+    const LongitudinalProfile profile = longitudinal_profile(input, report);
+    name = "profile";
+    said = profile_text(profile);
+    outputs.add("profile.csv", profile_csv(profile), id);
+    outputs.add("profile.svg", profile_svg(input, profile), id);
+  } else {
+    const GroundReaction reaction = ground_reaction(input, steps, report);
+    name = "grc";
+    said = grc_text(reaction);
+    outputs.add("grc.csv", grc_csv(reaction), id);
+    outputs.add("grc.svg", grc_svg(input, reaction), id);
+  }
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  work.doing = "writing the results";
+  if (!options.quiet) std::cout << said;
+  publish(outputs, options, name + ".csv, " + name + ".svg");
   return finished;
 }
 

@@ -113,6 +113,9 @@ struct PlanOptions {
 [[nodiscard]] int run_verb(const Options& options);
 /// What is known before equilibrium is sought. Writes nothing unless it is told where.
 [[nodiscard]] int check_verb(const Options& options, bool wants_picture);
+/// Ground reaction, and what supports do; in 3-D the wall along the tunnel.
+/// @param steps  in which the wall is unloaded, 2-D
+[[nodiscard]] int grc_verb(const Options& options, int steps);
 /// @param file  to be written, which must not be there; empty: standard output
 [[nodiscard]] int init_verb(const std::string& name, const std::string& file);
 

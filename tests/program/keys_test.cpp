@@ -354,6 +354,10 @@ TEST_SUITE("program/keys") {
     has(said("6"), "stable after rockfall");
     has(said("collapse"), "a quarter of the opening's own area");
     has(said("run.json"), "verdict");
+    const std::string limit = said("run.displacement_limit");
+    CHECK(limit.find('`') == std::string::npos);
+    CHECK(limit.find("](") == std::string::npos);
+    has(limit, "by the rock: a fifth of the mean block");
     const Outcome unknown = run_program({"explain", "stress.KO"});
     CHECK(unknown.status == 2);
     has(unknown.err, "did you mean `stress.K0`?");
