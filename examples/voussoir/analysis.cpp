@@ -54,6 +54,10 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     warnings.push_back(left_out_text(*input.survey));
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
+  const std::vector<const LiningInput*> linings = input.linings();
+  double least_filled = std::numeric_limits<double>::infinity();
+  for (const LiningInput* lining : linings)
+    least_filled = std::min(least_filled, lining->fill_depth);
   if (mass.slicing.coincident > 0)
     warn(std::to_string(mass.slicing.coincident) +
          " times a joint only touched a block or ran along an existing joint: merged, no cut made");
@@ -63,8 +67,8 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          " m2, or thinner between it and a joint along it than " +
          number(skin_thickness(2, input.blocks.min_wall_area)) + " m, were dropped, " +
          number(mass.carving.dropped_measure) + " m2 in all; the wall is the rock behind them" +
-         (input.lining ? ", a lining fills the holes to " + number(input.lining->fill_depth) + " m"
-                       : std::string()));
+         (linings.empty() ? std::string()
+                          : ", a lining fills the holes to " + number(least_filled) + " m"));
   const double needed = run.tunnel.in_situ().required_friction_angle(input.domain_top());
   if (needed >
       (1 + 1e-12) * least_friction_angle(input, run.tunnel.in_situ().vertical(input.domain_top())))
@@ -75,10 +79,11 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   for (std::string& text : remarks_on(supports)) warn(std::move(text));
   if (!supports.open_linings.empty())
     warn("feet of a lining: [support.lining.feet]; its bond: support.lining.interface.shear_bond");
-  if (input.lining && run.tunnel.first_lining_node() >= 0) {
-    const LiningInput& lining = *input.lining;
+  for (const LiningInput* const made : linings) {
+    if (run.tunnel.first_lining_node() < 0) break;
+    const LiningInput& lining = *made;
     const double node_spacing =
-        run.opening.perimeter() / lining_nodes(input, mass, run.opening, lining.thickness);
+        run.opening.perimeter() / lining_nodes(input, lining, mass, run.opening, lining.thickness);
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
                                                 2 * input.tunnel.half_width());
     if (node_spacing > joint_spacing)
@@ -233,8 +238,11 @@ std::vector<std::string> unchecked_supports(const Input& input) {
                   [](const BoltsInput* pattern) { return std::isinf(bolt_strength(*pattern)); }))
     unchecked.emplace_back("bolts");
   if (input.lining) unchecked.emplace_back("lining");
-  if (input.lining && input.lining->feet && !input.lining->feet->strength)
-    unchecked.emplace_back("feet of the lining");
+  for (const LiningInput* lining : input.linings())
+    if (lining->feet && !lining->feet->strength) {
+      unchecked.emplace_back("feet of the lining");
+      break;
+    }
   return unchecked;
 }
 
@@ -278,8 +286,10 @@ RunResult computed_run(const Input& input, const Report& report) {
                         report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
-  if (input.lining && !input.lining->nodes && input.lining->tensile_bond > 0)
-    run.bonded_nodes = lining_nodes(input, run.tunnel.mass(), run.opening, input.lining->thickness);
+  for (const LiningInput* lining : input.linings())
+    if (!lining->nodes && lining->tensile_bond > 0)
+      run.bonded_nodes = std::max(run.bonded_nodes, lining_nodes(input, *lining, run.tunnel.mass(),
+                                                                 run.opening, lining->thickness));
   run.warnings = warnings_of(input, run);
   return run;
 }

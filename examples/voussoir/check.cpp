@@ -106,7 +106,9 @@ std::string stage_plan(const Input& input) {
     for (const std::size_t k : stage.bolts)
       does.push_back("installs " +
                      (patterns.size() > 1 ? patterns[k]->name : std::string("bolts")));
-    if (stage.install_lining) does.emplace_back("installs the lining");
+    for (const std::size_t k : stage.linings)
+      does.emplace_back(input.linings().size() > 1 ? "installs " + input.linings()[k]->name
+                                                   : std::string("installs the lining"));
     if (input.is_spatial() && input.tunnel.round_length)
       does.push_back(stage.behind == 0 ? std::string("at the face")
                                        : counted(static_cast<std::size_t>(stage.behind), "round") +

@@ -88,9 +88,22 @@ std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
   });
 }
 
-int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimplePolygon& opening,
-                 double thickness) {
-  const LiningInput& lining = *input.lining;
+double thickness_of(const Input& input, const LiningInput& lining, const SupportChoice& supports) {
+  return &lining == &*input.lining ? supports.thickness : lining.thickness;
+}
+
+std::vector<const LiningInput*> linings_as_installed(const Input& input,
+                                                     const SupportChoice& supports) {
+  std::vector<const LiningInput*> installed;
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (const StageInput& stage : input.stages)
+    for (const std::size_t k : stage.linings)
+      if (thickness_of(input, *linings[k], supports) > 0) installed.push_back(linings[k]);
+  return installed;
+}
+
+int lining_nodes(const Input& input, const LiningInput& lining, const RockMass<Planar>& mass,
+                 const SimplePolygon& opening, double thickness) {
   if (lining.nodes) return *lining.nodes;
   const double half_width = input.tunnel.half_width();
   const double joint_spacing = radial_spacing(mass, Vec2::Zero(), half_width, 2 * half_width);
@@ -103,8 +116,7 @@ int lining_nodes(const Input& input, const RockMass<Planar>& mass, const SimpleP
                   .nodes);
 }
 
-std::optional<int> rib_nodes(const Input& input) {
-  const LiningInput& lining = *input.lining;
+std::optional<int> rib_nodes(const Input& input, const LiningInput& lining) {
   if (lining.nodes || lining.tensile_bond > 0) return lining.nodes;
   return std::max(input.tunnel.facets, 8);
 }
@@ -159,13 +171,15 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, b
       if (const auto spacing = spacing_of(*patterns[k], k, supports))
         made.install_bolts({bars_of_pattern(*patterns[k], *spacing, opening), bolt_of(*patterns[k]),
                             patterns[k]->out_of_plane, anchors_of(*patterns[k])});
-    if (stage.install_lining && supports.thickness > 0) {
-      const int nodes = lining_nodes(input, tunnel.mass(), opening, supports.thickness);
-      LiningInstallation<Tunnel> lining{ring_of(*input.lining, nodes),
-                                        {section_of(*input.lining, supports.thickness)},
-                                        interface_of(*input.lining)};
+    for (const std::size_t k : stage.linings) {
+      const LiningInput& asked = *input.linings()[k];
+      const double thickness = thickness_of(input, asked, supports);
+      if (!(thickness > 0)) continue;
+      const int nodes = lining_nodes(input, asked, tunnel.mass(), opening, thickness);
+      LiningInstallation<Tunnel> lining{
+          ring_of(asked, nodes), {section_of(asked, thickness)}, interface_of(asked)};
       if (!is_excavated) lining.opening = opening;
-      lining.feet = feet_of(*input.lining);
+      lining.feet = feet_of(asked);
       made.install_lining(std::move(lining));
     }
   }
@@ -206,23 +220,29 @@ class StretchWork {
       }
       if (!bolts.bars.empty()) stage.install_bolts(std::move(bolts));
     }
-    if (entry.install_lining && supports_.thickness > 0) stage.install_lining(lining(from, to));
+    for (const std::size_t number : entry.linings) {
+      const LiningInput& asked = *input_.linings()[number];
+      if (thickness_of(input_, asked, supports_) > 0) stage.install_lining(lining(asked, from, to));
+    }
   }
 
  private:
-  [[nodiscard]] LiningInstallation<SpatialTunnel> lining(double from, double to) const {
-    const LiningInput& lining = *input_.lining;
+  [[nodiscard]] LiningInstallation<SpatialTunnel> lining(const LiningInput& lining, double from,
+                                                         double to) const {
     const double width = strips_of(input_).width;
-    LiningInstallation<SpatialTunnel> made{
-        {.ring = ring_of(lining, rib_nodes(input_)), .spacing = width, .from = from, .to = to},
-        {strip_of(lining, supports_.thickness, width)},
-        interface_of(lining)};
+    const double thickness = thickness_of(input_, lining, supports_);
+    LiningInstallation<SpatialTunnel> made{{.ring = ring_of(lining, rib_nodes(input_, lining)),
+                                            .spacing = width,
+                                            .from = from,
+                                            .to = to},
+                                           {strip_of(lining, thickness, width)},
+                                           interface_of(lining)};
     const SimplePolygon& section = whole_.section();
     const int nodes = made.layout.ring.nodes.value_or(
         with_chosen_nodes<3>(made.layout.ring, section, made.sections.front(), made.interface_law,
                              width)
             .nodes.value_or(72));
-    made.sections.push_back(strip_of(lining, supports_.thickness, section.perimeter() / nodes));
+    made.sections.push_back(strip_of(lining, thickness, section.perimeter() / nodes));
     made.opening = whole_;
     made.feet = feet_of(lining);
     return made;

@@ -43,10 +43,17 @@ struct SupportChoice {
 /// Nodes on the full ring of a section: as many as facets, or as many as it takes to be no farther
 /// apart than joints, for a block that falls between two nodes loads none, or than a bond needs.
 /// @param thickness  of the lining [m], > 0
-[[nodiscard]] int lining_nodes(const Input& input, const RockMass<Planar>& mass,
-                               const SimplePolygon& opening, double thickness);
+[[nodiscard]] int lining_nodes(const Input& input, const LiningInput& lining,
+                               const RockMass<Planar>& mass, const SimplePolygon& opening,
+                               double thickness);
 /// In 3-D: as many as facets; none where they are chosen for a bond.
-[[nodiscard]] std::optional<int> rib_nodes(const Input& input);
+[[nodiscard]] std::optional<int> rib_nodes(const Input& input, const LiningInput& lining);
+/// Linings in the order in which stages install them: the number of a lining in tables.
+[[nodiscard]] std::vector<const LiningInput*> linings_as_installed(const Input& input,
+                                                                   const SupportChoice& supports);
+/// That of the file, or for the first lining what is chosen; 0: it is left out [m].
+[[nodiscard]] double thickness_of(const Input& input, const LiningInput& lining,
+                                  const SupportChoice& supports);
 /// Strips of a lining on one stretch of a tunnel, 3-D.
 struct StripsOfStretch {
   int count;

@@ -32,6 +32,7 @@ Input bare(const Input& input, int steps) {
   made.bolts.reset();
   made.further_bolts.clear();
   made.lining.reset();
+  made.further_linings.clear();
   made.has_rounds = false;
   made.stages.clear();
   for (int k = 1; k <= steps; ++k) {

@@ -110,7 +110,12 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
       pattern.name = "bolts " + std::to_string(k + 1);
       read_bolts(s, pattern);
     });
-    support.optional_table("lining", [&](Section& s) { read_lining(s, input); });
+    input.lists_linings = support.has_list("lining");
+    support.table_or_tables("lining", [&](Section& s, std::size_t k) {
+      LiningInput& lining = k == 0 ? input.lining.emplace() : input.further_linings.emplace_back();
+      lining.name = "lining " + std::to_string(k + 1);
+      read_lining(s, input, lining);
+    });
   });
   input.has_rounds = file.has("round");
   for (const char* const table : {"stage", "round"})
@@ -178,6 +183,18 @@ std::vector<const BoltsInput*> Input::bolt_patterns() const {
 std::string Input::bolts_key(std::size_t pattern) const {
   const std::string key = "support.bolts";
   return !lists_bolts ? key : key + "[" + std::to_string(pattern) + "]";
+}
+
+std::vector<const LiningInput*> Input::linings() const {
+  std::vector<const LiningInput*> all;
+  if (lining) all.push_back(&*lining);
+  for (const LiningInput& further : further_linings) all.push_back(&further);
+  return all;
+}
+
+std::string Input::lining_key(std::size_t number) const {
+  const std::string key = "support.lining";
+  return !lists_linings ? key : key + "[" + std::to_string(number) + "]";
 }
 
 double Input::K0_across() const {

@@ -265,8 +265,9 @@ struct FeetInput {
   }
 };
 
-/// [support.lining]
+/// [support.lining], or one of [[support.lining]].
 struct LiningInput {
+  std::string name;            ///< default "lining 1", "lining 2", ...
   double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
   double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
   double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
@@ -299,9 +300,9 @@ struct StageInput {
   /// 3-D, with tunnel.round_length: so many rounds behind the face, 0 to 1000.
   int behind = 0;
   double wall_traction = 0;  ///< left on the wall at the end / in-situ traction [-], 0 to 1
-  double duration = 0;  ///< for which joints creep at its end [s], >= 0
-  std::vector<std::size_t> bolts = {};  ///< patterns installed at the start of the stage
-  bool install_lining = false;          ///< at the start of the stage
+  double duration = 0;       ///< for which joints creep at its end [s], >= 0
+  std::vector<std::size_t> bolts = {};    ///< patterns installed at the start of the stage
+  std::vector<std::size_t> linings = {};  ///< the same
 };
 
 /// [run] How equilibrium is sought.
@@ -338,10 +339,12 @@ struct Input {
   std::optional<SurveyInput> survey;
   JointLawInput joint;
   BlocksInput blocks;
-  std::optional<BoltsInput> bolts;        ///< the first pattern, which a diagram varies
-  std::vector<BoltsInput> further_bolts;  ///< patterns behind it
-  bool lists_bolts = false;               ///< as [[support.bolts]]
-  std::optional<LiningInput> lining;
+  std::optional<BoltsInput> bolts;           ///< the first pattern, which a diagram varies
+  std::vector<BoltsInput> further_bolts;     ///< patterns behind it
+  bool lists_bolts = false;                  ///< as [[support.bolts]]
+  std::optional<LiningInput> lining;         ///< the first, which a diagram varies
+  std::vector<LiningInput> further_linings;  ///< behind it
+  bool lists_linings = false;                ///< as [[support.lining]]
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   bool has_rounds = false;         ///< stages are given as [[round]]
   RunInput run;
@@ -358,6 +361,10 @@ struct Input {
   [[nodiscard]] bool is_spatial() const { return model.dimension == 3; }
   /// All patterns of bolts, the first one first.
   [[nodiscard]] std::vector<const BoltsInput*> bolt_patterns() const;
+  /// All linings, the first one first.
+  [[nodiscard]] std::vector<const LiningInput*> linings() const;
+  /// The table of a lining: "support.lining", or "support.lining[1]" of several.
+  [[nodiscard]] std::string lining_key(std::size_t lining) const;
   /// The table of a pattern: "support.bolts", or "support.bolts[1]" of several.
   [[nodiscard]] std::string bolts_key(std::size_t pattern) const;
   /// Horizontal over vertical stress across the tunnel, without the constant part [-].

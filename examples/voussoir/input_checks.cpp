@@ -40,9 +40,11 @@ void check_opening(Checker& checker, const Input& input) {
   if (!checker.faulty("blocks") && !(input.blocks.min_inscribed_radius < half_width))
     checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening" + opening,
                    below);
-  if (input.lining && !checker.faulty("support.lining.thickness") &&
-      !(input.lining->thickness < half_width))
-    checker.report("support.lining.thickness", "fills the opening" + opening, below);
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (std::size_t k = 0; k < linings.size(); ++k)
+    if (const std::string key = input.lining_key(k) + ".thickness";
+        !checker.faulty(key) && !(linings[k]->thickness < half_width))
+      checker.report(key, "fills the opening" + opening, below);
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
     checker.report("diagram.thickness", "fills the opening" + opening, below);
@@ -62,10 +64,10 @@ std::string counted(double count) {
 }
 
 /// The arc of a word, and whether feet can stand where it ends.
-void check_arc(Checker& checker, Input& input) {
-  if (!input.lining || checker.faulty("tunnel") || checker.faulty("support.lining")) return;
-  LiningInput& lining = *input.lining;
-  const std::string key = "support.lining.arc";
+void check_arc(Checker& checker, const Input& input, LiningInput& lining,
+               const std::string& table) {
+  if (checker.faulty("tunnel") || checker.faulty("support.lining")) return;
+  const std::string key = table + ".arc";
   try {
     const SimplePolygon opening = opening_of(input);
     LiningRing ring{.nodes = lining.nodes.value_or(std::max(input.tunnel.facets, 8))};
@@ -95,13 +97,13 @@ void check_arc(Checker& checker, Input& input) {
 }
 
 /// Nodes are close enough together for a bond, see `node_spacing.hpp`.
-void check_bond(Checker& checker, const Input& input) {
-  if (!input.lining || !(input.lining->tensile_bond > 0)) return;
+void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
+                const std::string& table) {
+  if (!(lining.tensile_bond > 0)) return;
   for (const char* key : {"support.lining", "tunnel", "diagram"})
     if (checker.faulty(key)) return;
-  const LiningInput& lining = *input.lining;
   double thinnest = lining.thickness;
-  if (input.diagram)
+  if (input.diagram && &lining == &*input.lining)
     for (const double thickness : input.diagram->thickness)
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
   const double length =
@@ -119,7 +121,7 @@ void check_bond(Checker& checker, const Input& input) {
   if (lining.nodes ? *lining.nodes >= least : chosen <= 2000) return;
   const std::string accepted = least > 2000 ? "a thicker lining, " + others : enough;
   if (lining.nodes)
-    checker.report("support.lining.nodes",
+    checker.report(table + ".nodes",
                    "puts nodes " + metres(perimeter / *lining.nodes) +
                        " apart, too far to see the bond fail at the edge of a block: " + why,
                    accepted + (chosen <= 2000 ? ", or no key nodes to have it chosen"
@@ -127,7 +129,7 @@ void check_bond(Checker& checker, const Input& input) {
                                               : ", or " + others));
   else
     checker.report(
-        "support.lining",
+        table,
         "has no key nodes, and " + counted(chosen) + " would be chosen, more than 2000: " + why,
         least > 2000 ? accepted : "a key nodes of " + accepted + ", " + others);
 }
@@ -151,9 +153,12 @@ void check_spatial(Checker& checker, const Input& input) {
                      key == std::string("boundary.top")
                          ? "\"surface\", with the ground above as stress.surcharge"
                          : "\"rollers\"");
-  if (input.lining && input.lining->feet && input.lining->feet->beam)
-    checker.report("support.lining.feet.beam",
-                   "stands for what happens between ribs, which are there" + here, "no such table");
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (std::size_t k = 0; k < linings.size(); ++k)
+    if (linings[k]->feet && linings[k]->feet->beam)
+      checker.report(input.lining_key(k) + ".feet.beam",
+                     "stands for what happens between ribs, which are there" + here,
+                     "no such table");
   if (checker.faulty("model") || checker.faulty("tunnel")) return;
   if (const auto& round = input.tunnel.round_length) {
     const std::string within = "the tunnel of " +
@@ -180,10 +185,38 @@ void check_spatial(Checker& checker, const Input& input) {
     if (patterns[k]->out_of_plane > driven)
       checker.report(input.bolts_key(k) + ".out_of_plane", "leaves no row of bolts in the tunnel",
                      "at most " + format_quantity(driven, dimension::length) + ", what is driven");
-  if (input.lining && input.lining->rib_spacing && *input.lining->rib_spacing > input.stretch())
-    checker.report("support.lining.rib_spacing",
-                   "is longer than what is lined at a time, tunnel.round_length or model.length",
-                   "at most " + format_quantity(input.stretch(), dimension::length));
+  for (std::size_t k = 0; k < linings.size(); ++k) {
+    const auto& asked = linings[k]->rib_spacing;
+    const std::string key = input.lining_key(k) + ".rib_spacing";
+    if (asked && *asked > input.stretch())
+      checker.report(key,
+                     "is longer than what is lined at a time, tunnel.round_length or model.length",
+                     "at most " + format_quantity(input.stretch(), dimension::length));
+    else if (asked != linings[0]->rib_spacing)
+      checker.report(key, "is not that of the first lining: forces are given per strip",
+                     "the same rib_spacing in all linings");
+  }
+}
+
+/// Linings have names of their own, and what is printed of a foot's beam is of one lining.
+void check_linings(Checker& checker, Input& input) {
+  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (std::size_t k = 0; k < linings.size(); ++k) {
+    LiningInput& lining = k == 0 ? *input.lining : input.further_linings[k - 1];
+    const std::string table = input.lining_key(k);
+    check_arc(checker, input, lining, table);
+    check_bond(checker, input, lining, table);
+    if (lining.name == "bolts" || lining.name == "lining")
+      checker.report(table + ".name", "stands for all of a kind", "another name");
+    const auto is_same = [&](const auto* other) { return other->name == lining.name; };
+    if (std::any_of(linings.begin(), linings.begin() + static_cast<std::ptrdiff_t>(k), is_same) ||
+        std::any_of(patterns.begin(), patterns.end(), is_same))
+      checker.report(table + ".name", "is that of another support", "a name of its own");
+    if (linings.size() > 1 && lining.feet && lining.feet->beam)
+      checker.report(table + ".feet.beam", "is of the only lining, and there are others",
+                     "feet without a beam, or one [support.lining]");
+  }
 }
 
 /// Rounds take the section out, all of it, without leaving rock that hangs in the opening.
@@ -321,11 +354,11 @@ void check_duration(Checker& checker, const Input& input, const StageInput& stag
 void check_stages(Checker& checker, Input& input) {
   if (input.stages.empty()) {
     if (checker.faulty("stage") || checker.faulty("round")) return;  // meant to have some
-    input.stages.push_back({.name = "excavation and support",
-                            .part = SectionPart{},
-                            .install_lining = input.lining.has_value()});
+    input.stages.push_back({.name = "excavation and support", .part = SectionPart{}});
     for (std::size_t k = 0; k < input.bolt_patterns().size(); ++k)
       input.stages.back().bolts.push_back(k);
+    for (std::size_t k = 0; k < input.linings().size(); ++k)
+      input.stages.back().linings.push_back(k);
     return;
   }
   const std::string table = input.has_rounds ? "round" : "stage";
@@ -369,8 +402,13 @@ void check_stages(Checker& checker, Input& input) {
                     return std::find(stage.bolts.begin(), stage.bolts.end(), k) !=
                            stage.bolts.end();
                   });
-  check_support("lining", "support.lining", input.lining.has_value(),
-                [](const StageInput& stage) { return stage.install_lining; });
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (std::size_t k = 0; k < std::max<std::size_t>(linings.size(), 1); ++k)
+    check_support(linings.size() > 1 ? linings[k]->name : "lining", input.lining_key(k),
+                  !linings.empty(), [&](const StageInput& stage) {
+                    return std::find(stage.linings.begin(), stage.linings.end(), k) !=
+                           stage.linings.end();
+                  });
 }
 
 void check_diagram(Checker& checker, const Input& input) {
@@ -391,8 +429,7 @@ void check_diagram(Checker& checker, const Input& input) {
 void check_together(Checker& checker, Input& input) {
   check_opening(checker, input);
   check_snap(checker, input);
-  check_arc(checker, input);
-  check_bond(checker, input);
+  check_linings(checker, input);
   check_boundary(checker, input);
   check_spatial(checker, input);
   check_rounds(checker, input);

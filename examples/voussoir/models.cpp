@@ -109,12 +109,15 @@ std::string composition_of(const Input& input) {
     // Patterns that are alike are named once.
     if (before.ends_with(text.substr(before.size()))) text = before;
   }
-  if (input.lining)
+  for (const LiningInput* lining : input.linings()) {
+    const std::string before = text;
     text.append(", ")
-        .append(input.lining->beam == LiningBeam::euler_bernoulli ? EulerBernoulliBeam::name
-                                                                  : TimoshenkoBeam::name)
+        .append(lining->beam == LiningBeam::euler_bernoulli ? EulerBernoulliBeam::name
+                                                            : TimoshenkoBeam::name)
         .append(" on ")
-        .append(input.lining->shear_bond > 0 ? MohrCoulombJoint::name : CoulombJoint::name);
+        .append(lining->shear_bond > 0 ? MohrCoulombJoint::name : CoulombJoint::name);
+    if (before.ends_with(text.substr(before.size()))) text = before;
+  }
   switch (input.run.method) {
     case RunMethod::two_level:
       return text + ", " + TwoLevel::name;

@@ -48,11 +48,13 @@ BarStress bar_stress(const Input& input, const RunResult& run) {
   return most;
 }
 /// N / t + 6 |M| / t^2 of thrust and moment, the largest of all linings [Pa].
-double lining_stress(const RunResult& run, const LiningInput& lining) {
-  const double t = lining.thickness;
+double lining_stress(const Input& input, const RunResult& run) {
+  const std::vector<const LiningInput*> linings = linings_as_installed(input, supports_of(input));
   double most = 0;
-  for (const LiningForce& at : lining_forces(run.tunnel))
+  for (const LiningForce& at : lining_forces(run.tunnel)) {
+    const double t = linings.at(static_cast<std::size_t>(at.lining))->thickness;
     most = std::max(most, std::abs(at.thrust) / t + 6 * std::abs(at.moment) / (t * t));
+  }
   return most;
 }
 /// Which supports nothing says of whether they bear what they carry; empty: none.
@@ -66,8 +68,7 @@ std::string strength_line(const Input& input, const RunResult& run) {
     if (name == "bolts")
       names += text(" (up to %.3g MPa", 1e-6 * bar_stress(input, run).stress) +
                text(" in a bar of %.3g mm)", 1e3 * bar_stress(input, run).diameter);
-    if (name == "lining")
-      names += text(" (up to %.3g MPa)", 1e-6 * lining_stress(run, *input.lining));
+    if (name == "lining") names += text(" (up to %.3g MPa)", 1e-6 * lining_stress(input, run));
   }
   return names.empty() ? "" : "strength " + names + ": " + not_checked + "\n";
 }
@@ -224,7 +225,7 @@ std::string run_json(const Input& input, const RunResult& run) {
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"strength", not_checked},
                       {"of_its_strength", nullptr},
-                      {"largest_stress_MPa", 1e-6 * lining_stress(run, *input.lining)},
+                      {"largest_stress_MPa", 1e-6 * lining_stress(input, run)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
@@ -237,8 +238,8 @@ std::string run_json(const Input& input, const RunResult& run) {
                                       {"of_its_strength", foot.utilisation},
                                       {"settlement_mm", 1e3 * foot.settlement},
                                       {"settlement_that_stays_mm", 1e3 * foot.plastic_settlement}});
-    if (!input.lining->feet->strength) json["lining"]["feet"].back()["strength"] = not_checked;
-    if (input.lining->feet->beam)
+    if (std::isnan(foot.utilisation)) json["lining"]["feet"].back()["strength"] = not_checked;
+    if (input.lining->feet && input.lining->feet->beam)
       json["lining"]["feet"].back()["beam_moment_kNm"] =
           1e-3 * beam_moment(*input.lining->feet, foot.bearing);
   }
@@ -255,7 +256,7 @@ std::string lining_csv(const RunResult& run) { return lining_table(lining_forces
 std::string blocks_svg(const Input& input, const RunResult& run) {
   TunnelPictureText text;
   if (!input.title.empty()) text.title = input.title;
-  if (input.lining) text.lining_thickness = input.lining->thickness;
+  if (input.linings().size() == 1) text.lining_thickness = input.lining->thickness;
   if (run.fallen_measure() > 0) {
     text.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   }
@@ -318,8 +319,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
              (std::isfinite(foot.utilisation)
                   ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
                   : std::string());
-    const FeetInput& made = *input.lining->feet;
-    if (made.beam) {
+    if (input.lining->feet && input.lining->feet->beam) {
+      const FeetInput& made = *input.lining->feet;
       double most = 0;
       for (const auto& foot : feet) most = std::max(most, beam_moment(made, foot.bearing));
       out += text("; beam under ribs %.3g m apart", made.beam->spacing) +

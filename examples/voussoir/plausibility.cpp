@@ -225,8 +225,7 @@ void look_at_spacing(const std::string& key, const BoltSpacing& apart, Look& loo
 
 constexpr Common shotcrete_to_concrete{0.02, 3};  // thickness [m]
 
-void look_at_lining(const LiningInput& lining, Look& look) {
-  const std::string table = "support.lining.";
+void look_at_lining(const std::string& table, const LiningInput& lining, Look& look) {
   look.at(table + "thickness", lining.thickness, shotcrete_to_concrete, dimension::length);
   look.at(table + "E", lining.young_modulus, concrete_modulus, dimension::pressure);
   look.at(table + "nu", lining.poisson_ratio, poisson_ratio);
@@ -285,7 +284,9 @@ std::vector<std::string> unusual_values(const Input& input) {
     look_at_bolts(table, *patterns[k], look);
     if (patterns[k]->bars.empty()) look_at_spacing(table + "spacing", patterns[k]->spacing, look);
   }
-  if (input.lining) look_at_lining(*input.lining, look);
+  const std::vector<const LiningInput*> linings = input.linings();
+  for (std::size_t k = 0; k < linings.size(); ++k)
+    look_at_lining(input.lining_key(k) + ".", *linings[k], look);
   for (std::size_t k = 0; k < input.stages.size(); ++k)
     look.at(entry(input.has_rounds ? "round" : "stage", k) + ".wall_traction",
             input.stages[k].wall_traction, {0.01, 1, true}, dimension::number);

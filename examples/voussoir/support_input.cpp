@@ -153,8 +153,8 @@ void read_bolts(Section& s, BoltsInput& bolts) {
   }
 }
 
-void read_lining(Section& s, Input& input) {
-  LiningInput& lining = input.lining.emplace();
+void read_lining(Section& s, Input& input, LiningInput& lining) {
+  s.text("name", lining.name);
   s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
@@ -250,29 +250,33 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
     if (input.is_spatial() && input.tunnel.round_length) note_unused(input, s, "wall_traction");
   }
   s.quantity("duration", stage.duration, dimension::time, duration_range, Need::optional);
-  const std::string form = R"(a list of "bolts", "lining" and names of patterns of bolts)";
+  const std::string form = R"(a list of "bolts", "lining" and names of bolts and linings)";
   const auto value = s.find("install", Need::optional, form);
   if (!value) return;
-  std::vector<std::string> words{"bolts", "lining"};  // all patterns, or one by its name
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
-  for (const BoltsInput* pattern : patterns) words.push_back(pattern->name);
+  std::vector<std::string> words{"bolts", "lining"};  // all of a kind, or one by its name
+  const std::size_t patterns = input.bolt_patterns().size(), linings = input.linings().size();
+  for (const BoltsInput* pattern : input.bolt_patterns()) words.push_back(pattern->name);
+  for (const LiningInput* lining : input.linings()) words.push_back(lining->name);
   const auto items = value->as_list(0, words.size(), form);
   if (!items) return;
   for (const Value& item : *items) {
     const auto word = item.as_word(words);
     if (!word) continue;
-    bool is_again = *word == 1 && stage.install_lining;
-    if (*word == 1) stage.install_lining = true;
-    // Bolts that no table describes are said of the whole file, below.
-    const std::size_t first = *word < 2 ? 0 : *word - 2,
-                      last = *word == 0   ? std::max<std::size_t>(patterns.size(), 1)
-                             : *word == 1 ? 0
-                                          : first + 1;
-    for (std::size_t k = first; k < last; ++k) {
-      is_again =
-          is_again || std::find(stage.bolts.begin(), stage.bolts.end(), k) != stage.bolts.end();
-      stage.bolts.push_back(k);
-    }
+    bool is_again = false;
+    // Supports that no table describes are said of the whole file, below.
+    const auto install = [&](std::vector<std::size_t>& installed, bool are_all, std::size_t count,
+                             std::size_t number) {
+      const std::size_t first = are_all ? 0 : number,
+                        last = are_all ? std::max<std::size_t>(count, 1) : number + 1;
+      for (std::size_t k = first; k < last; ++k) {
+        is_again = is_again || std::find(installed.begin(), installed.end(), k) != installed.end();
+        installed.push_back(k);
+      }
+    };
+    if (*word == 0 || (*word >= 2 && *word < 2 + patterns))
+      install(stage.bolts, *word == 0, patterns, *word - 2);
+    else
+      install(stage.linings, *word == 1, linings, *word - 2 - patterns);
     if (is_again) item.refuse("is in the list twice", "each support once");
   }
 }

@@ -9,7 +9,7 @@
 namespace voussoir::program {
 
 void read_bolts(Section& s, BoltsInput& bolts);
-void read_lining(Section& s, Input& input);
+void read_lining(Section& s, Input& input, LiningInput& lining);
 /// After the supports, which it installs by their names.
 /// @param is_round  in a table [[round]], which says what it excavates
 void read_stage(Section& s, Input& input, StageInput& stage, bool is_round);
