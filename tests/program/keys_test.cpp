@@ -276,8 +276,12 @@ TEST_SUITE("program/keys") {
       const bool is_bare = form.kind != Kind::quantity;
       if (has_numbers(key) && form.range.high < 9e18 && form.range.low < form.range.high) {
         CAPTURE(row->cell("range"));
-        CHECK(row->cell("range").find(form.range.text(is_bare ? nullptr : &form.dimension)) !=
-              std::string::npos);
+        // Whole: "from 1 mm to 10 m" is no part of "from 1 mm to 10 mm".
+        const std::string range = form.range.text(is_bare ? nullptr : &form.dimension);
+        const std::string cell = row->cell("range") + " ";
+        const std::size_t at = cell.find(range);
+        REQUIRE(at != std::string::npos);
+        CHECK(std::string(" ,;:").find(cell[at + range.size()]) != std::string::npos);
       }
       for (const std::string& word : form.words) {
         CAPTURE(word);
