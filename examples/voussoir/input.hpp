@@ -436,7 +436,8 @@ class InputErrors : public std::runtime_error {
 ///
 /// @param overrides  "key=value" as given behind --set: dotted keys with indices from 0
 ///                   (`joint_set[0].dip=75 deg`), the value as in the file, quotes optional.
-///                   Later ones win. They may add keys, tables and, at the end, array entries.
+///                   Later ones win. They may add keys, tables and, at the end, array entries;
+///                   "!key" takes a key, a table or an array entry away.
 /// @throws InputErrors  the file cannot be read or is no TOML, a key is unknown, missing, of the
 ///                      wrong kind or out of range, or the parts do not fit together
 [[nodiscard]] Input read_input(const std::filesystem::path& file,

@@ -257,19 +257,50 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
 }
 
+/// Takes a key, a table or an entry of a list away.
+/// @return  false if it is not there
+bool remove(Node& root, const std::vector<Step>& steps) {
+  Node* holder = &root;
+  for (const Step& step : steps) {
+    const bool is_last = &step == &steps.back();
+    if (step.index) {
+      if (holder->kind != Node::Kind::array || *step.index >= holder->array.size()) return false;
+      if (is_last) {
+        holder->array.erase(holder->array.begin() + static_cast<std::ptrdiff_t>(*step.index));
+        return true;
+      }
+      holder = &holder->array[*step.index];
+    } else {
+      if (holder->kind != Node::Kind::table || holder->find(step.key) == nullptr) return false;
+      if (is_last) {
+        std::erase_if(holder->table, [&](const Entry& entry) { return entry.key == step.key; });
+        return true;
+      }
+      holder = holder->find(step.key);
+    }
+  }
+  return false;
+}
+
 /// Lays one override over the tree.
 void apply_override(Document& document, int index) {
   const std::string& text = document.overrides[static_cast<std::size_t>(index)];
   const Place place{.override_index = index};
-  const std::size_t equals = text.find('=');
-  const std::string key = trimmed(std::string_view(text).substr(0, equals));
+  const bool removes = text.starts_with('!');
+  const std::size_t equals = removes ? std::string::npos : text.find('=');
+  const std::string key = trimmed(std::string_view(text).substr(removes ? 1 : 0, equals));
   const auto refuse = [&](const std::string& message, const std::string& accepted) {
     document.errors.push_back(document.error_at(place, key, message, accepted));
   };
   const std::string form = "--set key=value, such as --set joint_set[0].dip=\"75 deg\"";
-  if (equals == std::string::npos) return refuse("override without `=`", form);
+  if (equals == std::string::npos && !removes) return refuse("override without `=`", form);
   const std::optional<std::vector<Step>> steps = split_key(key);
   if (!steps) return refuse("\"" + printable(key) + "\" is not a key", form);
+  if (removes) {
+    if (!remove(document.root, *steps))
+      refuse(key + " is to be taken away, and is not there", "--unset with a key of the file");
+    return;
+  }
   if (steps->size() > static_cast<std::size_t>(deepest_nesting))
     return refuse("a key of " + std::to_string(steps->size()) + " names and indices",
                   nesting_limit());

@@ -161,6 +161,9 @@ int run_program(int argc, char** argv) {
     verb->add_option("--set", options.overrides,
                      "KEY=VALUE in place of the file's, for example joint.kn=\"10 GPa/m\"")
         ->allow_extra_args(false);
+    verb->add_option("--unset", options.removed,
+                     "KEY that the file has, to be taken away: a value, a table, a list entry")
+        ->allow_extra_args(false);
     add_quiet(verb);
   };
   CLI::App* init =
@@ -324,6 +327,8 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? finished : bad_input;
   }
+  for (std::size_t k = options.removed.size(); k-- > 0;)
+    options.overrides.insert(options.overrides.begin(), "!" + options.removed[k]);
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
 #ifdef SIGBREAK  // Windows: Ctrl-Break, or the window is closed

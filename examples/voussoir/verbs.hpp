@@ -37,7 +37,8 @@ struct Options {
   std::string program;           ///< as it is called, absolute where that can be told
   const Ranks* ranks = nullptr;  ///< never null
   std::string file, folder = ".";
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides;  ///< see `read_input`
+  std::vector<std::string> removed;    ///< keys, which become overrides
   bool quiet = false;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };

@@ -247,7 +247,7 @@ TEST_SUITE("program/input") {
     CHECK(input.stages[0].name == "excavation and support");
     CHECK(input.stages[0].wall_traction == 0);
     CHECK(input.stages[0].bolts.size() == 1);
-    CHECK(input.stages[0].install_lining);
+    CHECK(input.stages[0].linings.size() == 1);
     CHECK(input.run.method == RunMethod::two_level);
     CHECK(input.run.tolerance == 1e-3);
     CHECK(input.run.displacement_limit == voussoir::Acceptance{}.displacement_limit);
@@ -286,8 +286,8 @@ TEST_SUITE("program/input") {
     CHECK(input.stages[0].name == "stage 1");
     CHECK(input.stages[0].wall_traction == 0.4);
     CHECK(input.stages[0].bolts.size() == 1);
-    CHECK_FALSE(input.stages[0].install_lining);
-    CHECK(input.stages[1].install_lining);
+    CHECK(input.stages[0].linings.empty());
+    CHECK(input.stages[1].linings.size() == 1);
     CHECK_FALSE(input.run.max_steps.has_value());
   }
 
@@ -1045,7 +1045,25 @@ TEST_SUITE("program/input") {
                                     "support.bolts.stiffness=0.1 GN/m"});
     CHECK(added.bolts.value().length == 3);
     CHECK(added.stages.at(0).bolts.size() == 1);
-    CHECK_FALSE(added.stages.at(0).install_lining);
+    CHECK(added.stages.at(0).linings.empty());
+  }
+
+  TEST_CASE("overrides take keys, tables and list entries away") {
+    CHECK_FALSE(read(good, {"!support.bolts", "!diagram"}).bolts.has_value());
+    CHECK(read(good, {"!title"}).title.empty());
+    CHECK(read(good, {"!diagram.thickness[0]", "diagram.thickness[1]=30 cm"})
+              .diagram.value()
+              .thickness.size() == 2);
+    // Another shape, without what the one before had.
+    const Input circle =
+        read(good, {"!tunnel", "tunnel.shape=circle", "tunnel.diameter=3 m", "tunnel.cover=9 m"});
+    CHECK(circle.tunnel.diameter == 3);
+    CHECK(contains(errors_of(good, {"!stress.K0"})[0].message, "stress.K0 is missing"));
+    for (const char* key : {"!support.anchors", "!joint_set[9]", "!title.x", "!nothing"}) {
+      const auto errors = errors_of(good, {key});
+      REQUIRE(errors.size() == 1);
+      CHECK(contains(errors[0].message, "is not there"));
+    }
   }
 
   TEST_CASE("errors of overrides name the override") {
