@@ -72,6 +72,9 @@ GroundReaction ground_reaction(const Input& input, int steps, const Report& repo
   const RunResult alone = run_tunnel(bare(input, steps), report);
   reaction.ground = points_of(alone.built);
   reaction.warnings = alone.rock_warnings;
+  if (input.has_rounds)
+    reaction.warnings.emplace_back(
+        "the rock without support is taken out at once, not in the rounds of the file");
   reaction.stress =
       alone.tunnel.in_situ().vertical(alone.tunnel.mass().domain.depth(zeros<Vec2>()));
   if (input.bolt_patterns().empty() && !input.lining) return reaction;

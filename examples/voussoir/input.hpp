@@ -116,8 +116,8 @@ struct JointLawInput {
   [[nodiscard]] double at(std::string_view key) const;
 };
 
-/// [[joint_set]] One family of joints: random ones, of which exactly one of intensity, spacing and
-/// P32 is given; or, with none, those that joints.file has of it.
+/// [[joint_set]] One family of joints: random ones, of which exactly one of intensity, spacing, P32
+/// and P30 is given; or, with none, those that joints.file has of it.
 struct JointSetInput {
   std::string name;                 ///< default "set 1", "set 2", ...
   Orientation plane{};              ///< as a compass reads it; of random joints
@@ -130,6 +130,9 @@ struct JointSetInput {
   SpacingLaw spacing_law = SpacingLaw::fixed;
   std::optional<double> spacing_sd;
   std::optional<double> p32;  ///< area of joints per volume [1/m], > 0, <= 1e4
+  std::optional<double> p30;  ///< joints per volume, with `extent` [1/m^3], > 0, <= 1e6
+  /// Part of its planes that is parted, of joints by their spacing, with `extent` [-], > 0, <= 1.
+  std::optional<double> persistence;
   double extent = std::numeric_limits<double>::infinity();  ///< trace length [m], > 0
   /// 3-D: along the strike, of rectangles that reach as far as `extent` down the dip [m], > 0;
   /// none: discs.
@@ -140,7 +143,7 @@ struct JointSetInput {
   bool wants_survey = false;
   int surveyed = -1;  ///< set of the survey from which that was taken; -1: none
 
-  [[nodiscard]] bool is_random() const { return intensity || spacing || p32; }
+  [[nodiscard]] bool is_random() const { return intensity || spacing || p32 || p30; }
 };
 
 /// [joints] orientations: what was measured with a compass, by sets.

@@ -99,7 +99,7 @@ void add_random_sources(const Input& input, std::size_t mapped, const std::vecto
     else if (!input.joint_sets[k].is_random() && !is_mapped)
       warnings.push_back("joint_set[" + std::to_string(k) + "] " + sources[k].name +
                          " has no joint: no trace of joints.file names it, and none of "
-                         "intensity, spacing and P32");
+                         "intensity, spacing, P32 and P30");
   }
 }
 

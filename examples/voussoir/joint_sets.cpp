@@ -24,6 +24,19 @@ double trace_deviation(const JointSetInput& set, double trend, const TraceInSect
   return std::min(set.sd * across / (trace.sine * trace.sine), 45 * degree);
 }
 
+/// Of the part of their planes that is parted: as if all of each were, so far apart [m].
+double parted_spacing(const JointSetInput& set) {
+  return *set.spacing / set.persistence.value_or(1);
+}
+
+/// As it is given, or by the number of joints and the mean area of one [1/m].
+std::optional<double> given_p32(const JointSetInput& set) {
+  if (set.p32 || !set.p30) return set.p32;
+  const double across = mean_extent(set);
+  return *set.p30 * (set.strike_extent ? set.extent * *set.strike_extent
+                                       : 0.25 * std::numbers::pi * across * across);
+}
+
 }  // namespace
 
 double mean_extent(const JointSetInput& set) {
@@ -32,8 +45,8 @@ double mean_extent(const JointSetInput& set) {
 }
 
 double p32_of(const JointSetInput& set, double trend) {
-  if (set.p32) return *set.p32;
-  if (set.spacing) return 1 / *set.spacing;
+  if (const auto given = given_p32(set)) return *given;
+  if (set.spacing) return 1 / parted_spacing(set);
   return set.intensity.value_or(0) * set.extent / trace_in_section(set.plane, trend).sine;
 }
 
@@ -47,11 +60,11 @@ std::optional<JointSet> section_set(const JointSetInput& set, double trend) {
   if (set.intensity)
     shown.intensity = *set.intensity;
   else if (set.spacing)
-    shown.spacing = *set.spacing / trace.sine;
+    shown.spacing = parted_spacing(set) / trace.sine;
   else if (std::isinf(set.extent))
-    shown.spacing = 1 / (set.p32.value_or(0) * trace.sine);
+    shown.spacing = 1 / (p32_of(set, trend) * trace.sine);
   else
-    shown.intensity = set.p32.value_or(0) * trace.sine / set.extent;
+    shown.intensity = p32_of(set, trend) * trace.sine / set.extent;
   return shown;
 }
 
@@ -87,7 +100,7 @@ SpatialJointSet spatial_set(const JointSetInput& set, double trend) {
   made.spacing_law = set.spacing_law;
   if (set.spacing_sd) made.spacing_deviation = *set.spacing_sd / *set.spacing;
   if (set.spacing)
-    made.spacing = *set.spacing;
+    made.spacing = parted_spacing(set);
   else
     made.area_per_volume = p32_of(set, trend);
   if (std::isfinite(set.extent)) {

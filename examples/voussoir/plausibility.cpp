@@ -177,11 +177,17 @@ void look_at_joints(const Input& input, Look& look) {
     look.at(table + "dip", set.plane.dip, dip, dimension::angle);
     look.at(table + "sd", set.sd, scatter, dimension::angle);
     if (set.fisher) look.at(table + "K", *set.fisher, fisher);
+    if (set.persistence)
+      look.at(table + "persistence", *set.persistence, {0.05, 1}, dimension::number);
     look.at(table + "P32", set.p32, {1 / joint_spacing.high, 1 / joint_spacing.low},
             dimension::area_per_volume);
     look.at(table + "strike_extent", set.strike_extent, trace_length, dimension::length);
     if (std::isfinite(set.extent)) {
       look.at(table + "extent", set.extent, trace_length, dimension::length);
+      const double area = set.extent * set.strike_extent.value_or(set.extent);
+      look.at(table + "P30", set.p30,
+              {1 / (joint_spacing.high * area), 1 / (joint_spacing.low * area)},
+              dimension::number_per_volume);
       if (set.intensity)
         look.at(table + "intensity", *set.intensity,
                 {1 / (joint_spacing.high * set.extent), 1 / (joint_spacing.low * set.extent)},

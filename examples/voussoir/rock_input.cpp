@@ -193,12 +193,32 @@ void check_spacing(Section& s, const JointSetInput& set) {
                "at most " + format_quantity(3 * *set.spacing, dimension::length));
 }
 
+/// The part of its planes that is parted: as such, or by the gaps between joints.
+void read_persistence(Section& s, JointSetInput& set) {
+  std::optional<double> gap;
+  s.quantity("persistence", set.persistence, dimension::number,
+             {.low = 0, .high = 1, .low_included = false});
+  s.quantity("gap", gap, dimension::length, above(0));
+  const bool has_both = s.has("persistence") && s.has("gap");
+  const char* const key = s.has("gap") ? "gap" : "persistence";
+  if (has_both) {
+    s.complain("gap", "is given besides persistence",
+               "one of the two; persistence = extent / (extent + gap)");
+  } else if (s.has(key) && (!s.has("spacing") || !s.has("extent"))) {
+    s.complain(key, "is of joints by their spacing, which have an extent",
+               R"(spacing = "2 m" of their planes and extent = "5 m" besides it)");
+  } else if (gap && std::isfinite(set.extent)) {
+    set.persistence = set.extent / (set.extent + *gap);
+  }
+}
+
 }  // namespace
 
 void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped,
                     bool is_surveyed) {
-  const int given = s.has("intensity") + s.has("spacing") + s.has("P32");
-  const bool is_random = given > 0;
+  std::vector<const char*> given{"intensity", "P32", "P30", "spacing"};
+  std::erase_if(given, [&](const char* key) { return !s.has(key); });
+  const bool is_random = !given.empty();
   set.wants_survey = is_surveyed && is_random && !s.has("dip") && !s.has("dip_direction");
   const Need need = (is_mapped && !is_random) || set.wants_survey ? Need::optional : Need::required;
   s.text("name", set.name);
@@ -214,7 +234,9 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
   s.quantity("spacing_sd", set.spacing_sd, dimension::length, above(0));
   s.quantity("P32", set.p32, dimension::area_per_volume,
              {.low = 0, .high = 1e4, .low_included = false});
-  s.only_with(is_random || !is_mapped, "intensity, spacing or P32", [&] {
+  s.quantity("P30", set.p30, dimension::number_per_volume,
+             {.low = 0, .high = 1e6, .low_included = false});
+  s.only_with(is_random || !is_mapped, "intensity, spacing, P32 or P30", [&] {
     s.quantity("sd", set.sd, dimension::angle, between(0, radians(45)), Need::optional);
     s.number("K", set.fisher, {.low = 5, .high = 1e6});
     s.quantity("extent", set.extent, dimension::length, above(0), Need::optional,
@@ -222,7 +244,15 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
     s.quantity("strike_extent", set.strike_extent, dimension::length, above(0));
   });
   if (!input.is_spatial()) note_unused(input, s, "strike_extent");
+  read_persistence(s, set);
   check_spacing(s, set);
+  if (set.p30 && std::isinf(set.extent) && !s.faulty("extent"))
+    s.complain("P30", "counts joints, and their area is not known without an extent",
+               R"(extent = "2 m" besides it, or P32)");
+  else if (set.p30 && !set.is_azimuth && !set.wants_survey && !input.tunnel.trend)
+    s.complain(
+        "P30", "is of a set of the section, whose joints go on along the tunnel without end",
+        R"(intensity, the number of traces per area; or a dip_direction by azimuth and tunnel.trend)");
   if (s.has("sd") && s.has("K"))
     s.complain("K", "is given besides sd", "one of the two; K = 1 / sd^2, sd in radians");
   if (set.strike_extent && !set.is_azimuth && !set.wants_survey && !input.tunnel.trend)
@@ -233,14 +263,13 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
     s.complain("strike_extent", "is of joints that have no extent down the dip",
                R"(extent = "2 m" besides it)");
   if (JointLawInput law = read_joint_law(s, &input.joint); !law.given.empty()) set.law = law;
-  if (given > 1) {
-    s.complain(s.has("spacing") ? "spacing" : "P32",
-               std::string("is given besides ") + (s.has("intensity") ? "intensity" : "P32"),
-               "one of intensity, spacing and P32");
+  if (given.size() > 1) {
+    s.complain(given.back(), std::string("is given besides ") + given.front(),
+               "one of intensity, spacing, P32 and P30");
   } else if (!is_random && !is_mapped) {
     s.complain(
-        "intensity", "is missing, and so are spacing and P32",
-        R"(one of intensity = "1 /m^2", spacing = "1.2 m" and P32 = "1.5 m^2/m^3"; or joints.file, with mapped joints of this set)");
+        "intensity", "is missing, and so are spacing, P32 and P30",
+        R"(one of intensity = "1 /m^2", spacing = "1.2 m", P32 = "1.5 m^2/m^3" and P30 = "0.1 /m^3"; or joints.file, with mapped joints of this set)");
   } else if (set.intensity && std::isinf(set.extent) && !s.faulty("extent")) {
     s.complain(
         "intensity",

@@ -304,7 +304,7 @@ TEST_SUITE("program/spatial") {
         {tunnel("round_length = \"1 m\"\nrounds = 4\n"), "rounds of 1 m are longer", "1 to 3"},
         {tunnel("rounds = 4\n"), "tunnel.rounds", "round_length"},
         {set("K = 200\n"), "joint_set[0].K = 200 is given besides sd", "one of the two"},
-        {set("P32 = \"1 /m\"\n"), "is given besides", "one of intensity, spacing and P32"},
+        {set("P32 = \"1 /m\"\n"), "is given besides", "one of intensity, spacing, P32 and P30"},
         {set("strike_extent = \"1 m\"\n"), "is of a set of the section", "by azimuth"},
         {replaced(two_sets, "sides = \"rollers\"\nbase = \"rollers\"",
                   "sides = \"rollers\"\nbase = \"elastic\""),

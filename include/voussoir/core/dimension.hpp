@@ -28,6 +28,7 @@ inline constexpr Dimension angle{0, 0, 0, 1};                 ///< rad
 inline constexpr Dimension area{0, 2, 0, 0};                  ///< m^2
 inline constexpr Dimension intensity{0, -2, 0, 0};            ///< joint centres per area, 1/m^2
 inline constexpr Dimension area_per_volume{0, -1, 0, 0};      ///< P32 of joints, m^2/m^3
+inline constexpr Dimension number_per_volume{0, -3, 0, 0};    ///< P30 of joints, 1/m^3
 inline constexpr Dimension velocity{0, 1, -1, 0};             ///< m/s
 inline constexpr Dimension acceleration{0, 1, -2, 0};         ///< m/s^2
 inline constexpr Dimension density{1, -3, 0, 0};              ///< kg/m^3
@@ -49,7 +50,7 @@ struct DimensionWords {
   std::array<std::string_view, 4> echo;
 };
 
-inline constexpr std::array<DimensionWords, 17> dimension_words{{
+inline constexpr std::array<DimensionWords, 18> dimension_words{{
     {dimension::number, "a fraction", R"("40 %" or "2.5 %")", {"%"}},
     {dimension::mass, "a mass", R"("250 kg" or "1.2 t")", {"kg", "t"}},
     {dimension::length, "a length", R"("4 m", "10 cm" or "28 mm")", {"mm", "m"}},
@@ -57,6 +58,7 @@ inline constexpr std::array<DimensionWords, 17> dimension_words{{
     {dimension::angle, "an angle", R"("35 deg" or "0.6 rad")", {"deg"}},
     {dimension::area, "an area", R"("0.074 m^2" or "740 cm^2")", {"m^2"}},
     {dimension::intensity, "a number per area", R"("1 /m^2" or "0.5 1/m^2")", {"/m^2"}},
+    {dimension::number_per_volume, "a number per volume", R"("0.1 /m^3")", {"/m^3"}},
     {dimension::velocity, "a velocity", R"("0.1 m/s" or "5 mm/s")", {"mm/s", "m/s"}},
     {dimension::acceleration, "an acceleration", R"("9.81 m/s^2")", {"m/s^2"}},
     {dimension::area_per_volume, "an area per volume", R"("1.5 m^2/m^3" or "1.5 /m")", {"m^2/m^3"}},
