@@ -187,6 +187,9 @@ int run_program(int argc, char** argv) {
   add_input(check);
   CLI::App* run = app.add_subcommand("run", "one tunnel: verdict, forces, picture");
   add_input(run);
+  CLI::App* blocks = app.add_subcommand(
+      "blocks", "the rock alone: sizes of blocks, scan lines, which blocks could leave the wall");
+  add_input(blocks);
   CLI::App* grc = app.add_subcommand(
       "grc", "ground reaction with and without support; of a tunnel in 3-D the wall along it");
   add_input(grc);
@@ -357,6 +360,7 @@ int run_program(int argc, char** argv) {
       std::cout << run_diff(compared[0], compared[1]);
       return finished;
     }
+    if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
     if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);

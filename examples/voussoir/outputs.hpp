@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/io/atomic_file.hpp>
+#include <voussoir/io/vtu.hpp>
 
 #include "analysis.hpp"
 
@@ -29,8 +30,9 @@ namespace voussoir::program {
 [[nodiscard]] std::string lining_csv(const SpatialRunResult& run);
 /// The tunnel cut open along its axis.
 [[nodiscard]] std::string blocks_svg(const Input& input, const SpatialRunResult& run);
-/// The blocks for ParaView.
-[[nodiscard]] std::string blocks_vtu(const SpatialRunResult& run);
+/// All files for ParaView with their names, `blocks.vtu` among them; `tunnel.vtm` opens them.
+[[nodiscard]] std::vector<NamedDocument> paraview_files(const Input& input,
+                                                        const SpatialRunResult& run);
 [[nodiscard]] std::string run_summary(const Input& input, const SpatialRunResult& run);
 
 }  // namespace voussoir::program

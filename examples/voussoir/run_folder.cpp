@@ -86,7 +86,7 @@ std::string with_run_id(const std::string& file_name, std::string text, const st
     return text.insert(2, "  \"run_id\": \"" + run_id + "\",\n");
   if (kind == ".gp") return "# " + words + "\n" + text;
   if (kind == ".md") return text + "\n<!-- " + words + " -->\n";
-  if (kind == ".svg" || kind == ".vtu" || kind == ".html") {
+  if (kind == ".svg" || kind == ".vtu" || kind == ".vtm" || kind == ".html") {
     // Behind the first line, which must stay the first: <?xml ...> or <!DOCTYPE ...>.
     const std::string comment = "<!-- " + words + " -->\n";
     const std::size_t end = text.find(">\n");

@@ -15,6 +15,7 @@
 #include "check.hpp"
 #include "ground_reaction.hpp"
 #include "outputs.hpp"
+#include "rock_blocks.hpp"
 #include "run_folder.hpp"
 #include "spatial_analysis.hpp"
 #include "survey.hpp"
@@ -95,8 +96,10 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
     names += ", stereonet.svg";
   }
   if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
-    outputs.add("blocks.vtu", blocks_vtu(run), id);
-    names += ", blocks.vtu";
+    for (const NamedDocument& file : paraview_files(input, run)) {
+      outputs.add(file.name, file.text, id);
+      names += ", " + file.name;
+    }
   }
   if (!options.quiet) std::cout << run_summary(input, run);
   publish(outputs, options, names);
@@ -177,6 +180,43 @@ int grc_verb(const Options& options, int steps) {
   work.doing = "writing the results";
   if (!options.quiet) std::cout << said;
   publish(outputs, options, name + ".csv, " + name + ".svg");
+  return finished;
+}
+
+int blocks_verb(const Options& options) {
+  work = {"reading " + options.file, "a smaller input file"};
+  const Input input = read_input(utf8_path(options.file), options.overrides);
+  if (input.laid)
+    throw InvalidInput(options.file +
+                       ": blocks is of rock that joints cut, and here blocks are laid\n"
+                       "   = accepted: an input file with [tunnel]");
+  RunFolder outputs(options.folder);
+  ProgressLine line(options.quiet);
+  work.remedy = smaller_model;
+  const RockBlocks rock = rock_blocks(input, [&](const std::string& what, double fraction) {
+    now_doing(what, "looking at the blocks");
+    return line.show(what, fraction);
+  });
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  work.doing = "writing the results";
+  const std::string id = RunId("rock").add(input).text();
+  std::string names = "blocks.json, block_sizes.csv, block_sizes.svg, removable.csv, rock.svg";
+  outputs.add("blocks.json", rock_blocks_json(input, rock), id);
+  outputs.add("block_sizes.csv", block_sizes_csv(input, rock), id);
+  outputs.add("block_sizes.svg", block_sizes_svg(input, rock), id);
+  outputs.add("removable.csv", removable_csv(input, rock), id);
+  outputs.add("rock.svg", rock_svg(input, rock), id);
+  if (input.is_spatial()) {
+    outputs.add("wall.svg", wall_svg(input, rock), id);
+    names += ", wall.svg";
+  }
+  if (input.survey) {
+    outputs.add("stereonet.svg", stereonet_svg(input), id);
+    names += ", stereonet.svg";
+  }
+  if (!options.quiet) std::cout << rock_blocks_text(input, rock);
+  publish(outputs, options, names);
   return finished;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/io/paraview_files.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
@@ -141,13 +142,14 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   TunnelPictureText words;
   if (!input.title.empty()) words.title = input.title;
   words.axes = {"right", "along", "up"};
+  if (input.lining) words.strip_width = strips_of(input).width;
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 
-std::string blocks_vtu(const SpatialRunResult& run) {
-  return vtu_of(state_of(run.tunnel), run.tunnel.mass());
+std::vector<NamedDocument> paraview_files(const Input& input, const SpatialRunResult& run) {
+  return voussoir::paraview_files(run.tunnel, input.lining ? strips_of(input).width : 0.0);
 }
 
 std::string run_summary(const Input& input, const SpatialRunResult& run) {

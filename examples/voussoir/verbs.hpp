@@ -114,6 +114,8 @@ struct PlanOptions {
 [[nodiscard]] int run_verb(const Options& options);
 /// What is known before equilibrium is sought. Writes nothing unless it is told where.
 [[nodiscard]] int check_verb(const Options& options, bool wants_picture);
+/// The rock alone: sizes of blocks, scan lines, blocks at the wall that can move out.
+[[nodiscard]] int blocks_verb(const Options& options);
 /// Ground reaction, and what supports do; in 3-D the wall along the tunnel.
 /// @param steps  in which the wall is unloaded, 2-D
 [[nodiscard]] int grc_verb(const Options& options, int steps);

@@ -36,6 +36,7 @@
 #include <voussoir/laboratory/generation_stage.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
 #include <voussoir/lining/beams.hpp>
+#include <voussoir/rockmass/block_size_curve.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
@@ -47,6 +48,8 @@
 #include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/rockmass/orientation_file.hpp>
 #include <voussoir/rockmass/orientation_sets.hpp>
+#include <voussoir/rockmass/removable_blocks.hpp>
+#include <voussoir/rockmass/scan_line.hpp>
 #include <voussoir/rockmass/slicing.hpp>
 #include <voussoir/rockmass/spatial_joint_set.hpp>
 #include <voussoir/rockmass/statistics.hpp>

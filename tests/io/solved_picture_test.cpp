@@ -2,6 +2,8 @@
 // From a constructed tunnel to a finished picture in one call.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -123,6 +125,43 @@ TEST_SUITE("io/solved_picture") {
         parts += tunnel.mass().bodies[b].parts.size();
     CHECK(xml_fault(grid) == "");
     CHECK(grid.find("NumberOfCells=\"" + std::to_string(parts) + "\"") != std::string::npos);
+  }
+
+  TEST_CASE("3-D: ribs on the unrolled wall, each where it is, with its force per metre") {
+    const TunnelAxis axis({0, 0, 0}, 30 * degree);
+    const PrismaticOpening opening(circular_opening(3, 12), axis);
+    Solver<Spatial> tunnel(voussoir_test::jointed_mass({{-6, -2, -5}, {6, 2, 6}}, 2, 1.5), joints,
+                           {.density = 2700, .surcharge = 5e5});
+    CHECK(unrolled_lining(tunnel, 2).nodes.empty());
+    Construction<Solver<Spatial>> plan;
+    plan.add_stage("all").excavate(opening).install_lining(
+        {{.ring = {.nodes = 24}, .spacing = 0.5, .from = -1, .to = 1},
+         {LiningSection::strip(0.1, 0.5, 25e9), LiningSection::strip(0.1, 0.4, 25e9)},
+         CoulombJoint({5e9, 5e9, 35 * degree})});
+    const auto built = construct(tunnel, plan);
+    REQUIRE(built.verdict() == Verdict::stable);
+    const UnrolledLining unrolled = unrolled_lining(tunnel, 0.5);
+    const auto forces = rib_forces(tunnel);
+    REQUIRE(forces.size() == 4 * 24);
+    REQUIRE(unrolled.nodes.size() == forces.size());
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const UnrolledNode& node = unrolled.nodes[k];
+      CHECK(node.angle >= -90);
+      CHECK(node.angle <= 270);
+      // The nodes lie on the polygon, between its inner and its outer radius.
+      const double angle = node.angle * degree, radius = 1.5;
+      const Vec3 place = axis.point(radius * Vec2(std::cos(angle), std::sin(angle)), node.along);
+      CHECK((place - forces[k].position).norm() < radius * (1 - std::cos(15 * degree)) + 0.05);
+      CHECK(node.thrust == 2 * forces[k].thrust);  // on half a metre
+      CHECK(node.moment == 2 * forces[k].moment);
+    }
+    const std::string picture = draw_tunnel(tunnel, built, {.strip_width = 0.5});
+    CHECK(xml_fault(picture) == "");
+    double largest = 0;
+    for (const RibForce& at : forces) largest = std::max(largest, 2e-3 * at.thrust);
+    CHECK(count_of(picture, ">largest " + printed_text(largest) + " kN/m at ") == 1);
+    CHECK(count_of(picture, ">" + fixed_text(largest, 0) + " kN/m<") == 1);  // a key number
+    CHECK(count_of(draw_tunnel(tunnel, built), "of each rib") == 2);
   }
 
   TEST_CASE("the words for every verdict") {

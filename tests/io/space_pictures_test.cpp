@@ -2,6 +2,8 @@
 // Views and ParaView files of tunnels in 3-D.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <regex>
 #include <string>
 #include <vector>
@@ -13,12 +15,14 @@
 #include "io/xml_check.hpp"
 #include "support/blocks.hpp"
 #include "support/jointed_mass.hpp"
+#include "support/near.hpp"
 
 namespace space_pictures_test {
 
 using namespace voussoir;
 using voussoir_test::brick;
 using voussoir_test::jointed_mass;
+using voussoir_test::near;
 using voussoir_test::rectangle;
 
 namespace {
@@ -79,11 +83,11 @@ TEST_SUITE("io/space_pictures") {
     scene.header.title = "view";
     CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
     scene.displacement.assign(mass.bodies.size(), 1e-3);
-    scene.displacement.front() = 2.5e-3;
+    scene.displacement.front() = 1.5e-3;
     scene.bolts = {{{-2, 0, 0}, {-3, 0, 0}, 5e4}, {{2, 0, 0}, {3, 0, 0}, 9e4}};
     const std::string half = draw_tunnel_view(mass, scene);
     CHECK(xml_fault(half) == "");
-    CHECK(half.find(">2.50<") != std::string::npos);  // the scale ends at the largest
+    CHECK(half.find(">1.60<") != std::string::npos);  // the scale ends above the largest
     CHECK(half.find("bolt, 90") != std::string::npos);
     CHECK(half.find("hole filled with lining") == std::string::npos);
     scene.fills = {brick({-2, -1, 0}, {0.5, 1, 1})};
@@ -107,6 +111,78 @@ TEST_SUITE("io/space_pictures") {
     CHECK(draw_tunnel_view(mass, scene) == cut);
     scene.section_x = -5;
     CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
+  }
+
+  TEST_CASE("one loose block does not set the scale of displacement of all others") {
+    const Domain<3> ground{{-4, -3, -4}, {4, 3, 4}};
+    const auto mass = jointed_mass(ground, 1, 1.5);
+    REQUIRE(mass.bodies.size() > 100);  // one is less than 2 % of them
+    TunnelView scene;
+    scene.section_x = 4;
+    scene.displacement.assign(mass.bodies.size(), 1e-3);
+    const std::string before = draw_tunnel_view(mass, scene);
+    CHECK(before.find(">1.00<") != std::string::npos);
+    scene.displacement.front() = 0.3;
+    const std::string loose = draw_tunnel_view(mass, scene);
+    CHECK(loose.find(">≥ 1.00<") != std::string::npos);
+    // One that has come off counts for nothing.
+    scene.is_gone.assign(mass.bodies.size(), 0);
+    scene.is_gone.front() = 1;
+    CHECK(draw_tunnel_view(mass, scene).find(">1.00<") != std::string::npos);
+  }
+
+  TEST_CASE("an unrolled lining covers its ribs all round, an arc no more than itself") {
+    const auto area_of = [](const UnrolledLining& lining) {
+      double sum = 0;
+      for (const auto& cell : detail::unrolled_cells(lining)) {
+        CHECK(cell.rect.low.y() >= -90);
+        CHECK(cell.rect.high.y() <= 270);
+        const UnrolledNode& node = lining.nodes[cell.node];
+        CHECK(std::abs(cell.rect.centre().x() - node.along) < 1e-12);
+        sum += cell.rect.width() * cell.rect.height();
+      }
+      return sum;
+    };
+    UnrolledLining ring{{}, 0.8}, arc{{}, 0.8};
+    for (int rib = 0; rib < 3; ++rib)
+      for (int k = 0; k < 36; ++k)
+        ring.nodes.push_back({0.4 + 0.8 * rib, -90.0 + 10 * k, 1e5, 1e3});
+    for (int k = 0; k <= 18; ++k) arc.nodes.push_back({0.4, 10.0 * k, 1e5, 1e3});
+    // Sums of a hundred numbers that are exact to 1e-16 of them.
+    CHECK(area_of(ring) == near(3 * 0.8 * 360).epsilon(1e-13));
+    CHECK(area_of(arc) == near(0.8 * 190).epsilon(1e-13));
+    std::reverse(ring.nodes.begin(), ring.nodes.end());
+    CHECK(area_of(ring) == near(3 * 0.8 * 360).epsilon(1e-13));
+    ring.strip_width = 0;  // as wide as they stand apart
+    CHECK(area_of(ring) == near(3 * 0.8 * 360).epsilon(1e-13));
+  }
+
+  TEST_CASE("below the view thrust and moment of every rib, the largest told with its place") {
+    const Domain<3> ground{{-4, -3, -4}, {4, 3, 4}};
+    const auto mass =
+        carve(jointed_mass(ground, 1, 1.5), PrismaticOpening(circular_opening(3, 24)), 0.0);
+    TunnelView scene;
+    scene.displacement.assign(mass.bodies.size(), 1e-3);
+    CHECK(draw_tunnel_view(mass, scene).find("unrolled") == std::string::npos);
+    scene.unrolled.strip_width = 1;
+    for (int rib = 0; rib < 3; ++rib)
+      for (int k = 0; k < 24; ++k)
+        scene.unrolled.nodes.push_back({0.5 + rib, -90.0 + 15 * k, 2e5 + 1e3 * rib, 1e3});
+    scene.unrolled.nodes[12].thrust = 4.56e5;       // first rib, 90 degrees
+    scene.unrolled.nodes[24 + 3].moment = -7.89e3;  // second rib, -45 degrees
+    const std::string picture = draw_tunnel_view(mass, scene);
+    CHECK(xml_fault(picture) == "");
+    for (const char* const text :
+         {"Lining thrust N [kN/m], wall unrolled", "Lining moment M [kN m/m], wall unrolled",
+          "largest 456 kN/m at 0.5 m, crown (90°)",
+          "smallest \u22127.89 kN m/m at 1.5 m, lower right (\u221245°)", ">along the tunnel [m]<",
+          ">\u22127.89<"}) {
+      CAPTURE(text);
+      CHECK(picture.find(text) != std::string::npos);
+    }
+    scene.unrolled.strip_width = 0;
+    CHECK(draw_tunnel_view(mass, scene).find("Lining thrust N [kN] of each rib") !=
+          std::string::npos);
   }
 
   TEST_CASE("of a body with parts on both sides of the section only those behind it are drawn") {

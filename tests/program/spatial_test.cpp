@@ -174,9 +174,14 @@ TEST_SUITE("program/spatial") {
         standing(replaced(text, "behind = 1", "behind = 0"), {"--set", "round[1].name=support"});
     CHECK(number(wished.json, "lining", "mean_thrust_kN_per_m") >
           1.3 * number(run.json, "lining", "mean_thrust_kN_per_m"));
-    for (const char* const file : {"bolts.csv", "lining.csv", "blocks.svg", "blocks.vtu"})
+    for (const char* const file : {"bolts.csv", "lining.csv", "blocks.svg", "blocks.vtu",
+                                   "joints.vtu", "bolts.vtu", "lining.vtu", "tunnel.vtm"})
       CHECK(run.files.count(file) == 1);
-    CHECK(contains(run.files.at("blocks.vtu"), "Name=\"displacement [m]\""));
+    CHECK(contains(run.files.at("blocks.vtu"), "Name=\"displacement_m\""));
+    for (const char* const file : {"blocks.vtu", "joints.vtu", "bolts.vtu", "lining.vtu"})
+      CHECK(contains(run.files.at("tunnel.vtm"), std::string("file=\"") + file + "\""));
+    for (const char* const panel : {"thrust", "moment"})
+      CHECK(contains(run.files.at("blocks.svg"), panel));
   }
 
   TEST_CASE(

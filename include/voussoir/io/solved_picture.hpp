@@ -12,9 +12,13 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/support_vtu.hpp>
 #include <voussoir/io/tunnel_picture.hpp>
+#include <voussoir/io/tunnel_tables.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/tunnel/construction.hpp>
+#include <voussoir/tunnel/opening_centre.hpp>
+#include <voussoir/tunnel/rib_forces.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
 namespace voussoir {
@@ -31,6 +35,7 @@ struct TunnelPictureText {
   double lining_thickness = 0;            ///< [m]; 0: that of each section. Without meaning in 3-D
   std::vector<std::string> remarks = {};  ///< below the verdict, a line each
   std::array<std::string, 3> axes = detail::compass;  ///< in 3-D: what they are called
+  double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
 };
 
 /// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
@@ -90,11 +95,16 @@ VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double f
 namespace detail {
 
 /// Crown, blocks and what the supports carry.
+/// @param strip_width  see `TunnelPictureText`
 template <class Solver>
 [[nodiscard]] std::vector<KeyNumber> key_numbers_of(
-    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result) {
-  const SupportDemand demand = support_demand(solver);
-  const std::string per_metre = Solver::dim == 2 ? "/m" : "";
+    const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
+    double strip_width = 0) {
+  SupportDemand demand = support_demand(solver);
+  const std::string per_metre = Solver::dim == 2 || strip_width > 0 ? "/m" : "";
+  if (strip_width > 0)
+    for (double* const force : {&demand.largest_thrust, &demand.largest_moment})
+      *force /= strip_width;
   std::vector<KeyNumber> numbers{
       {"crown convergence", millimetres_text(result.stages.back().convergence.crown) + " mm"},
       {"blocks", std::to_string(solver.mass().bodies.size())}};
@@ -119,6 +129,35 @@ template <class Solver>
 
 }  // namespace detail
 
+/// The ribs of a solver's linings along the axis of its last opening; those along another axis are
+/// left out.
+/// @param strip_width  see `UnrolledLining`
+template <class Solver>
+requires(Solver::dim == 3) [[nodiscard]] UnrolledLining
+    unrolled_lining(const Solver& solver, double strip_width) {
+  UnrolledLining unrolled{{}, strip_width};
+  const auto& openings = solver.mass().openings;
+  if (openings.empty()) return unrolled;
+  const TunnelAxis& axis = openings.back().axis();
+  // Rounds of one tunnel share the origin of their sections: where one of them has it inside, it is
+  // the centre of all.
+  Vec2 centre = centre_of(openings.back());
+  for (const auto& opening : openings)
+    if (opening.axis().is_parallel_to(axis) && opening.section().contains(zeros<Vec2>()))
+      centre = zeros<Vec2>();
+  const std::vector<Vec3> along = lining_axes(solver);
+  const double per = strip_width > 0 ? 1 / strip_width : 1;
+  for (const RibForce& node : rib_forces(solver)) {
+    if (std::abs(along[static_cast<std::size_t>(node.lining)].dot(axis.along())) < 1 - 1e-9)
+      continue;
+    const Vec3 seen = axis.local(node.position);
+    const double angle = detail::angle_in_degrees(Vec2(seen.x(), seen.y()) - centre);
+    unrolled.nodes.push_back(
+        {seen.z(), angle > 270 ? angle - 360 : angle, per * node.thrust, per * node.moment});
+  }
+  return unrolled;
+}
+
 /// The picture of a constructed tunnel in 2-D: rock by displacement, opened and slipped joints,
 /// bolts, diagrams of the lining.
 /// @return  an SVG document
@@ -139,7 +178,8 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   return draw_blocks_picture(picture);
 }
 
-/// The same in 3-D, cut open along the tunnel: rock by displacement, bolts and lining by force.
+/// In 3-D, cut open along the tunnel: rock by displacement, bolts and lining by force, and below it
+/// thrust and moment of every rib on the unrolled wall.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] std::string
     draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
@@ -150,7 +190,8 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
-  view.header.key_numbers = detail::key_numbers_of(solver, result);
+  view.header.key_numbers = detail::key_numbers_of(solver, result, text.strip_width);
+  view.unrolled = unrolled_lining(solver, text.strip_width);
   view.banner = banner_of(result.verdict(), fallen, "m³", result.has_lost_lining());
   return draw_tunnel_view(solver.mass(), view);
 }
@@ -176,7 +217,7 @@ template <class Geometry>
       number.push_back(static_cast<double>(b));
     }
   }
-  grid.add_values("displacement [m]", 3, moved);
+  grid.add_values("displacement_m", 3, moved);
   grid.add_values("block", 1, number);
   return grid.document();
 }

@@ -18,6 +18,8 @@
 #include <voussoir/drawing/picture_parts.hpp>
 #include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/detail/mass_layers.hpp>
+#include <voussoir/io/detail/rib_strips.hpp>
+#include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
 namespace voussoir {
@@ -40,6 +42,7 @@ struct TunnelView {
   double elevation = 0.12 * std::numbers::pi;
   std::optional<PictureBanner> banner = {};  ///< above the rock; none: a tunnel that stands
   std::array<std::string, 3> axes = detail::compass;  ///< what they are called
+  UnrolledLining unrolled = {};  ///< thrust and moment of its ribs, below the view; none: no panels
 };
 
 namespace detail {
@@ -56,7 +59,9 @@ namespace detail {
 }  // namespace detail
 
 /// The rock on the far side of the section with its blocks, the wall of the tunnel, bolts and
-/// lining; colours show displacement.
+/// lining; colours show displacement. Their scale ends where 98 % of the standing blocks are below
+/// (`DisplacementScale`), at "≥" where one loose block is far beyond. Below it the ribs of the
+/// lining, unrolled.
 ///
 /// @return  an SVG document, 190 mm wide
 /// @throws InvalidInput  no block, a displacement for each is missing, or nothing behind the
@@ -100,9 +105,10 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   const HalfSpace<3> section{Vec3::UnitX(), scene.section_x};
   const double tolerance = mass.domain.tolerance();
   const auto is_gone = [&](std::size_t b) { return !scene.is_gone.empty() && scene.is_gone[b]; };
-  double largest = 0;
+  std::vector<PictureBlock> blocks;
   for (std::size_t b = 0; b < mass.bodies.size(); ++b)
-    if (!is_gone(b)) largest = std::max(largest, scene.displacement[b]);
+    blocks.push_back({{}, scene.displacement[b], is_gone(b)});
+  const DisplacementScale scale(blocks);
   const ColourMap colours = ColourMap::straw_to_blue();
 
   // What can be seen: the section, the wall of the tunnel, the sides of the model, and where a
@@ -143,7 +149,7 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   };
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     if (is_gone(b)) continue;
-    const Colour colour = colours(largest > 0 ? scene.displacement[b] / largest : 0);
+    const Colour colour = colours(scene.displacement[b] / scale.top());
     for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour);
   }
   const Colour filled{0x9a, 0xa3, 0xab};
@@ -165,7 +171,8 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   const ViewRect frame{{picture_margin, top}, {picture_margin + width, top + height}};
   const PageMap map = PageMap::equal_scales(world, frame.grown(-8));
   const double foot = frame.high.y() + 10;
-  SvgCanvas canvas(picture_width, foot + 100, picture_printed_width, scene.header.title);
+  const double panels = unrolled_height(scene.unrolled);
+  SvgCanvas canvas(picture_width, foot + 100 + panels, picture_printed_width, scene.header.title);
   scene.header.draw(canvas);
   if (scene.banner) {
     const double y = scene.header.height();
@@ -203,7 +210,9 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
                      {.fill = colours((k + 0.5) / steps).hex()});
   canvas.text({bar, foot + 15}, "Displacement [mm]");
   canvas.text({bar, foot + 54}, "0", {.anchor = TextAnchor::middle});
-  canvas.text({bar + 220, foot + 54}, readable_text(1e3 * largest), {.anchor = TextAnchor::middle});
+  canvas.text({bar + 220, foot + 54},
+              (scale.is_cut() ? "≥ " : "") + readable_text(1e3 * scale.top()),
+              {.anchor = TextAnchor::middle});
   double x = bar + 270;
   const auto key = [&](const char* stroke, const std::string& text) {
     canvas.line({x, foot + 30}, {x + 26, foot + 30}, {.stroke = stroke, .stroke_width = 2.6});
@@ -218,6 +227,9 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
     canvas.text({second + 34, foot + 61}, "hole filled with lining");
   }
   canvas.end_layer();
+  draw_unrolled_lining(canvas,
+                       {{picture_margin, foot + 96}, {picture_margin + width, foot + 96 + panels}},
+                       scene.unrolled);
   return canvas.document();
 }
 

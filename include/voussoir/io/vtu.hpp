@@ -17,12 +17,15 @@
 namespace voussoir {
 
 /// A ParaView file (.vtu, VTK's unstructured grid in XML, text): blocks as polygons or polyhedra,
-/// bars as lines, each with its values.
+/// bars as lines, walls and joints as polygons, each with its values.
 ///
 ///   VtuGrid grid;
-///   for (...) grid.add(part, pose);                 // one cell
-///   grid.add_values("displacement [m]", 3, values);  // 3 numbers for every cell, in that order
+///   for (...) grid.add(part, pose);                // one cell
+///   grid.add_values("displacement_m", 3, values);  // 3 numbers for every cell, in that order
 ///   write_atomically("rock.vtu", grid.document());
+///
+/// Units stand in the names as in the tables (`thrust_kN_per_m`): ParaView's calculators and
+/// Python take such a name as it is, one with brackets or blanks only in quotes.
 ///
 /// Source: VTK file formats, XML; cell types 3 (line), 7 (polygon), 42 (polyhedron).
 class VtuGrid {
@@ -49,15 +52,26 @@ class VtuGrid {
     const std::size_t a = add_point(from), b = add_point(to);
     add_cell(3, {a, b}, {});
   }
+  /// @param corners  of a flat polygon, in their order round it, three or more [m]
+  void add_polygon(std::span<const Vec3> corners) {
+    VOUSSOIR_ASSERT(corners.size() >= 3, "a polygon has three corners");
+    std::vector<std::size_t> loop;
+    for (const Vec3& p : corners) loop.push_back(add_point(p));
+    add_cell(7, loop, {});
+  }
   [[nodiscard]] std::size_t cell_count() const { return types_.size(); }
+  /// No two cells share one.
+  [[nodiscard]] std::size_t point_count() const { return points_.size(); }
 
   /// @param components  numbers for each cell: 1, or 3 for a vector
   /// @throws InvalidInput  not as many as that
   void add_values(std::string name, std::size_t components, std::vector<double> values) {
-    if (values.size() != components * cell_count())
-      throw InvalidInput("vtu: \"" + name + "\" has " + std::to_string(values.size()) +
-                         " values, needs " + std::to_string(components * cell_count()));
-    arrays_.push_back({std::move(name), components, std::move(values)});
+    put(cell_values_, std::move(name), components, std::move(values), cell_count());
+  }
+  /// Of every point, cell by cell in the order in which their corners were given; ParaView draws
+  /// what lies between.
+  void add_point_values(std::string name, std::size_t components, std::vector<double> values) {
+    put(point_values_, std::move(name), components, std::move(values), point_count());
   }
 
   [[nodiscard]] std::string document() const {
@@ -78,8 +92,12 @@ class VtuGrid {
       add_array(out, "Int64", "faceoffsets", 1, face_offsets_);
     }
     out += "</Cells>\n<CellData>\n";
-    for (const Values& values : arrays_)
-      add_array(out, "Float64", values.name, values.components, values.numbers);
+    add_arrays(out, cell_values_);
+    if (!point_values_.empty()) {
+      out += "</CellData>\n<PointData>\n";
+      add_arrays(out, point_values_);
+      return out + "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    }
     return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   }
 
@@ -90,6 +108,17 @@ class VtuGrid {
     std::vector<double> numbers;
   };
 
+  static void put(std::vector<Values>& arrays, std::string name, std::size_t components,
+                  std::vector<double> values, std::size_t count) {
+    if (values.size() != components * count)
+      throw InvalidInput("vtu: \"" + name + "\" has " + std::to_string(values.size()) +
+                         " values, needs " + std::to_string(components * count));
+    arrays.push_back({std::move(name), components, std::move(values)});
+  }
+  static void add_arrays(std::string& out, const std::vector<Values>& arrays) {
+    for (const Values& values : arrays)
+      add_array(out, "Float64", values.name, values.components, values.numbers);
+  }
   std::size_t add_point(const Vec3& p) {
     points_.push_back(p);
     return points_.size() - 1;
@@ -123,7 +152,28 @@ class VtuGrid {
   std::vector<std::size_t> connectivity_, offsets_, faces_;
   std::vector<long> face_offsets_;
   std::vector<int> types_;
-  std::vector<Values> arrays_;
+  std::vector<Values> cell_values_, point_values_;
 };
+
+/// A file that belongs to others.
+struct NamedDocument {
+  std::string name;  ///< of the file, without folder
+  std::string text;
+};
+
+/// A ParaView file (.vtm, VTK's multi-block data set) that opens others as one, each a block under
+/// the name of its file.
+/// @param files  beside which it is to lie
+[[nodiscard]] inline std::string vtm_document(std::span<const NamedDocument> files) {
+  std::string out =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
+  std::size_t index = 0;
+  for (const NamedDocument& file : files)
+    out += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" +
+           xml_escaped(file.name.substr(0, file.name.rfind('.'))) + "\" file=\"" +
+           xml_escaped(file.name) + "\"/>\n";
+  return out + "</vtkMultiBlockDataSet>\n</VTKFile>\n";
+}
 
 }  // namespace voussoir
