@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
 #include <voussoir/core/units.hpp>
+#include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/mass_picture.hpp>
@@ -171,6 +173,50 @@ std::string check_text(const Input& input, const CheckedModel& model) {
   out += stage_plan(input);
   for (const std::string& warning : model.warnings) out += "warning  " + warning + "\n";
   return out + "checked  the file can be run\n";
+}
+
+std::string check_json(const Input& input, const CheckedModel& model) {
+  const Stress<3> stress = in_situ_of(input).stress<3>(input.domain_top());
+  const bool is_spatial = input.is_spatial();
+  nlohmann::json json = {
+      {"schema", 1},
+      {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
+      {"title", input.title},
+      {"dimension", input.model.dimension},
+      {"seed", input.model.seed},
+      {"models", composition_of(input)},
+      {"tunnel",
+       {{"width_m", 2 * input.tunnel.half_width()},
+        {"height_m", input.tunnel.crown() - input.tunnel.invert()},
+        {"area_m2", opening_of(input).area()}}},
+      {"stress_at_centre_kPa",
+       {{"upright", 1e-3 * stress(2, 2)},
+        {"across", 1e-3 * stress(0, 0)},
+        {"along", is_spatial ? nlohmann::json(1e-3 * stress(1, 1)) : nlohmann::json()}}},
+      {"joints", joints_json(model.rock.joints)},
+      {"boundary", is_spatial ? spatial_boundary_text : boundary_text(model.rock.boundary)},
+      {"bolts", model.bolts},
+      {"stages", nlohmann::json::array()},
+      {"warnings", model.warnings}};
+  std::visit(
+      [&](const auto& tunnel) {
+        const BlockSizes sizes = block_sizes(tunnel.mass());
+        const std::string measure = is_spatial ? "volume_m3" : "area_m2";
+        json["rock"] = {{"blocks", sizes.count},
+                        {"contacts", tunnel.system().joints.contacts().size()},
+                        {"smallest_block_" + measure, sizes.smallest},
+                        {"mean_block_" + measure, sizes.mean},
+                        {"largest_block_" + measure, sizes.largest}};
+      },
+      model.rock.tunnel);
+  if (model.section) json["joints_crossed_by_bolts"] = model.joints_crossed;
+  if (input.survey) json["survey"] = survey_json(input);
+  for (const StageInput& stage : input.stages)
+    json["stages"].push_back({{"name", stage.name},
+                              {"wall_traction", stage.wall_traction},
+                              {"rounds_behind_face", stage.behind},
+                              {"duration_d", stage.duration / 86400}});
+  return json.dump(2) + "\n";
 }
 
 std::string check_svg(const Input& input, const CheckedModel& model) {

@@ -26,6 +26,8 @@ struct CheckedModel {
 
 /// For a terminal, in the units of an engineer.
 [[nodiscard]] std::string check_text(const Input& input, const CheckedModel& model);
+/// For a program.
+[[nodiscard]] std::string check_json(const Input& input, const CheckedModel& model);
 /// The rock with its joints, and in 2-D the bolts and the limits of the rounds.
 [[nodiscard]] std::string check_svg(const Input& input, const CheckedModel& model);
 

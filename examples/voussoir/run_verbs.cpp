@@ -35,6 +35,14 @@ void now_doing(const std::string& what, const std::string& otherwise) {
   work.doing = what == "blocks" ? "cutting the rock into blocks" : otherwise;
 }
 
+/// On screen: words for a person or, asked for, what a program reads.
+void say(const Options& options, const std::string& words, const std::string& json) {
+  if (options.json)
+    std::cout << json;
+  else if (!options.quiet)
+    std::cout << words;
+}
+
 /// One for every verdict, so that a script reads it as a person does.
 /// @param has_lost  blocks or lining have come off
 ExitStatus status_of(voussoir::Verdict verdict, bool has_lost) {
@@ -66,7 +74,8 @@ int run_blocks_verb(const Options& options, const Input& input) {
   outputs.add("blocks.csv", blocks_csv(input, run), id);
   outputs.add("contacts.csv", contacts_csv(input, run), id);
   outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
-  if (!options.quiet) std::cout << blocks_summary(input, run);
+  say(options, blocks_summary(input, run),
+      with_run_id("run.json", blocks_run_json(input, run), id));
   publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
   return status_of(run.last().verdict, !run.last().fallen.empty());
 }
@@ -101,7 +110,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
       names += ", " + file.name;
     }
   }
-  if (!options.quiet) std::cout << run_summary(input, run);
+  say(options, run_summary(input, run), with_run_id("run.json", run_json(input, run), id));
   publish(outputs, options, names);
   return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
 }
@@ -123,9 +132,9 @@ int check_verb(const Options& options, bool wants_picture) {
   work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   if (input.laid) {
-    if (!options.quiet)
-      std::cout << "blocks   " << input.laid->blocks.size() << " that are laid\n"
-                << "checked  the file can be run\n";
+    const std::string count = std::to_string(input.laid->blocks.size());
+    say(options, "blocks   " + count + " that are laid\nchecked  the file can be run\n",
+        "{\n  \"schema\": 1,\n  \"laid_blocks\": " + count + "\n}\n");
     return finished;
   }
   ProgressLine line(options.quiet);
@@ -136,7 +145,7 @@ int check_verb(const Options& options, bool wants_picture) {
   });
   line.clear();
   if (stop_asked != 0) return say_interrupted();
-  if (!options.quiet) std::cout << check_text(input, model);
+  say(options, check_text(input, model), check_json(input, model));
   if (!wants_picture) return finished;
   RunFolder outputs(options.folder);
   work.doing = "writing the results";
@@ -215,7 +224,8 @@ int blocks_verb(const Options& options) {
     outputs.add("stereonet.svg", stereonet_svg(input), id);
     names += ", stereonet.svg";
   }
-  if (!options.quiet) std::cout << rock_blocks_text(input, rock);
+  say(options, rock_blocks_text(input, rock),
+      with_run_id("blocks.json", rock_blocks_json(input, rock), id));
   publish(outputs, options, names);
   return finished;
 }

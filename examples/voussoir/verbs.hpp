@@ -40,6 +40,7 @@ struct Options {
   std::vector<std::string> overrides;  ///< see `read_input`
   std::vector<std::string> removed;    ///< keys, which become overrides
   bool quiet = false;
+  bool json = false;  ///< on screen, in place of words: `run`, `check`, `blocks`
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };
 
@@ -93,7 +94,8 @@ class ProgressLine {
 /// The line says what was written only once it is there.
 inline void publish(RunFolder& outputs, const Options& options, const std::string& names) {
   outputs.publish();
-  if (!options.quiet) std::cout << "written  " << names << " in " << options.folder << "\n";
+  if (!options.quiet && !options.json)
+    std::cout << "written  " << names << " in " << options.folder << "\n";
 }
 
 inline int say_interrupted() {

@@ -94,7 +94,8 @@ TEST_SUITE("program/creep") {
       CHECK(std::abs(crown(stage.at("creep")[0]) - at_once) < 0.25 * at_once);
       CHECK(softer > 1.1 * at_once);
       CHECK(std::abs(crown(run) - softer) < 0.02 * softer);
-      CHECK(crown(stage) == crown(run));
+      // In 3-D that of the run is of the middle third of the tunnel.
+      CHECK(std::abs(crown(stage) - crown(run)) < 1e-3 * crown(run));
       CHECK(stage.at("creep").back().at("time_d") == 100);
     }
   }

@@ -1049,7 +1049,7 @@ TEST_SUITE("program/input") {
   }
 
   TEST_CASE("overrides take keys, tables and list entries away") {
-    CHECK_FALSE(read(good, {"!support.bolts", "!diagram"}).bolts.has_value());
+    CHECK_FALSE(read(good, {"!support.bolts", "!diagram", "!stage"}).bolts.has_value());
     CHECK(read(good, {"!title"}).title.empty());
     CHECK(read(good, {"!diagram.thickness[0]", "diagram.thickness[1]=30 cm"})
               .diagram.value()

@@ -50,6 +50,13 @@ TEST_SUITE("program/templates") {
       CHECK(checked.status == 0);
       CHECK(checked.out.find("warning") == std::string::npos);
       CHECK(checked.out.find("checked  the file can be run\n") != std::string::npos);
+      const auto json = nlohmann::json::parse(run_program({"check", file, "--json"}).out);
+      CHECK(json.at("dimension") == input.model.dimension);
+      CHECK(json.at("stages").size() == input.stages.size());
+      CHECK(json.at("warnings").empty());
+      // As in words.
+      CHECK(checked.out.find("rock     " + json.at("rock").at("blocks").dump() + " blocks") !=
+            std::string::npos);
     }
     CHECK(contents(folder / "").size() == templates().size());
   }

@@ -191,8 +191,8 @@ TEST_SUITE("program/traces") {
     CHECK(contains(fault(plain, {"joints.dead_ends=cut"}), "cut_through"));
     const std::string set = "[[joint_set]]\nname = \"a\"\n";
     CHECK(fault(mapped_case(set), {}) == "accepted");
-    CHECK(
-        contains(fault(mapped_case(set + "extent = \"2 m\"\n"), {}), "intensity, spacing, P32 or P30"));
+    CHECK(contains(fault(mapped_case(set + "extent = \"2 m\"\n"), {}),
+                   "intensity, spacing, P32 or P30"));
     // Without a file of traces a set has to say how many joints it has.
     const std::string none = replaced(mapped_case(set), "[joints]\nfile = \"overshoot.csv\"\n", "");
     CHECK(contains(fault(none, {}), "joint_set[0].intensity is missing"));

@@ -4,18 +4,25 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/repeatable.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/orientation_file.hpp>
 
 #include "support/degree.hpp"
+#include "support/near.hpp"
 
 namespace orientation_file_test {
 
 using namespace voussoir;
 using voussoir_test::degree;
+using voussoir_test::near;
 
 namespace {
 
@@ -48,6 +55,65 @@ bool is(const SurveyedPlane& found, double dip, double direction) {
   return std::abs(found.plane.dip - dip * degree) < 1e-12 &&
          std::abs(found.plane.dip_direction - direction * degree) < 1e-12;
 }
+
+/// A plane in whole degrees.
+struct Whole {
+  int dip, direction;
+};
+
+/// Planes towards every eighth of the compass, upright ones, level ones and drawn ones.
+std::vector<Whole> whole_planes() {
+  std::vector<Whole> planes;
+  for (int direction = 0; direction < 360; direction += 45)
+    for (const int dip : {30, 90}) planes.push_back({dip, direction});
+  planes.push_back({0, 0});
+  planes.push_back({1, 359});
+  std::mt19937 draw(2024);
+  for (int k = 0; k < 40; ++k) {
+    const int dip = static_cast<int>(draw() % 91), direction = static_cast<int>(draw() % 360);
+    planes.push_back({dip, direction});
+  }
+  return planes;
+}
+
+/// A file of these rows under a header has the planes of another, bit by bit; which that are.
+template <class Row>
+std::string unlike_plain(const std::string& header, const Row& row) {
+  const std::vector<Whole> planes = whole_planes();
+  std::string plain = "dip;dip direction\n", text = header + "\n", unlike;
+  for (const Whole& plane : planes) {
+    plain += std::to_string(plane.dip) + ";" + std::to_string(plane.direction) + "\n";
+    text += row(plane) + "\n";
+  }
+  const OrientationFile expected = read(plain), found = read(text);
+  if (found.planes.size() != planes.size()) return "not all planes are read";
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    if (found.planes[k].plane.dip != expected.planes[k].plane.dip ||
+        found.planes[k].plane.dip_direction != expected.planes[k].plane.dip_direction)
+      unlike += row(planes[k]) + " ";
+  return unlike;
+}
+
+/// An azimuth of 0 to 359 degrees as a bearing: N45E.
+std::string bearing(int azimuth, const std::string& blank = "", const std::string& sign = "") {
+  const auto text = [&](const char* from, int angle, const char* towards) {
+    return from + blank + std::to_string(angle) + sign + blank + towards;
+  };
+  if (azimuth <= 90) return text("N", azimuth, "E");
+  if (azimuth <= 180) return text("S", 180 - azimuth, "E");
+  if (azimuth < 270) return text("S", azimuth - 180, "W");
+  return text("N", 360 - azimuth, "W");
+}
+
+/// The quadrant in which a direction is, or the cardinal point that it is.
+std::string quadrant_of(int direction) {
+  if (direction % 90 == 0) return std::string(1, "NESW"[direction / 90]);
+  constexpr const char* quadrants[] = {"NE", "SE", "SW", "NW"};
+  return quadrants[direction / 90];
+}
+
+/// The cardinal point nearest to a direction.
+std::string cardinal_of(int direction) { return std::string(1, "NESWN"[(direction + 45) / 90]); }
 
 /// A text of ASCII in UTF-16 with a mark.
 std::string wide(const std::string& text) {
@@ -178,12 +244,320 @@ TEST_SUITE("rockmass/orientation_file") {
   TEST_CASE("a strike needs a rule, unless the caller has one") {
     CHECK(refusal("dip,strike\n30,40\n") ==
           "survey.csv:1: strike without rule in \"dip,strike\"; accepted: a column named strike "
-          "(RHR), with the dip to the right of the strike, or a dip direction");
+          "(RHR), with the dip to the right of the strike, or a dip direction, or dips with the "
+          "letters of their side, as 60SE");
+    CHECK(contains(refusal("strike,dip [rad]\n1,1\n"), "survey.csv:1: strike without rule"));
+    // A level and an upright plane have no side.
+    CHECK(is(read("strike,dip\n40,90\n250,0\n").planes[0], 90, 130));
+    CHECK(is(read("strike,dip\n40,90\n300,0\n").planes[1], 0, 30));
     OrientationFileLimits limits;
     limits.strike_is_right_handed = true;
     CHECK(is(read("dip,strike\n30,40\n", limits).planes[0], 30, 130));
     CHECK(is(read("dip,strike\n30,300\n", limits).planes[0], 30, 30));
     CHECK(contains(refusal("dip,strike (LHR)\n30,40\n"), "strike without rule"));
+  }
+
+  TEST_CASE("poles by trend and plunge are the planes of their dips and dip directions") {
+    const auto trend = [](const Whole& plane) {
+      return std::to_string((plane.direction + 180) % 360);
+    };
+    const auto row = [&](const Whole& plane) {
+      return trend(plane) + ";" + std::to_string(90 - plane.dip);
+    };
+    for (const char* header :
+         {"pole trend;pole plunge", "Trend of pole;Plunge of pole", "POLE AZIMUTH;POLE PLUNGE",
+          "pole_trend_deg;pole_plunge_deg", "Trend (pole) [deg];Plunge (pole) [deg]",
+          "trend of normal;plunge of normal", "Pole to plane trend;Pole to plane plunge",
+          "trend;pole plunge", "pole trend;plunge", "poletrend;poleplunge"}) {
+      CAPTURE(header);
+      CHECK(unlike_plain(header, row) == "");
+    }
+    CHECK(unlike_plain("Pole Plunge,Set,Pole Trend", [&](const Whole& plane) {
+            return std::to_string(90 - plane.dip) + ",," + trend(plane);
+          }) == "");
+    CHECK(unlike_plain("pole trend pole plunge", [&](const Whole& plane) {
+            return trend(plane) + " " + std::to_string(90 - plane.dip);
+          }) == "");
+    CHECK(unlike_plain("pole trend;pole plunge", [&](const Whole& plane) {
+            return bearing((plane.direction + 180) % 360) + ";" + std::to_string(90 - plane.dip);
+          }) == "");
+    const OrientationFile file = read("pole trend,pole plunge,set\n30,90,1\n360,25.5,2\n");
+    CHECK(is(file.planes[0], 0, 210));  // level: it has any dip direction
+    CHECK(is(file.planes[1], 64.5, 180));
+    CHECK(file.set_names.size() == 2);
+    CHECK(file.layout ==
+          "fields separated by ,, columns by the header, poles by trend and plunge, angles in "
+          "degrees");
+    CHECK(has_note(file, "each plane dips 90 degrees less the plunge, opposite to the trend"));
+    CHECK(is(read("pole trend [gon],pole plunge [gon]\n100,50\n").planes[0], 45, 270));
+    const SurveyedPlane level = read("pole trend [rad],pole plunge [rad]\n0,1.571\n").planes[0];
+    CHECK(level.plane.dip == 0);
+    CHECK(has_note(read("pole trend,pole plunge\n1.1,1.2\n0.3,0.2\n1.5,0.2\n"),
+                   "no plunge is above 1.58, no trend above 6.29"));
+  }
+
+  TEST_CASE("a pole of the lower hemisphere is the downward normal of its plane") {
+    std::mt19937 draw(7);
+    for (int k = 0; k < 30; ++k) {
+      const double trend = 0.01 * static_cast<double>(draw() % 36'000),
+                   plunge = 0.01 * static_cast<double>(draw() % 9'000);
+      std::ostringstream text;
+      text << "pole trend,pole plunge\n" << trend << "," << plunge << "\n";
+      CAPTURE(text.str());
+      const Vec3 normal = upward_normal(read(text.str()).planes[0].plane);
+      const auto [down, level] = repeatable::sine_cosine(plunge * degree);
+      const auto [east, north] = repeatable::sine_cosine(trend * degree);
+      CHECK(std::abs(normal.x() + level * east) < 1e-12);
+      CHECK(std::abs(normal.y() + level * north) < 1e-12);
+      CHECK(std::abs(normal.z() - down) < 1e-12);
+    }
+  }
+
+  TEST_CASE("a trend and a plunge that are not told to be of a pole are refused") {
+    const std::string sentence =
+        "accepted: of poles (normals) columns named pole trend and pole plunge; lineations are not "
+        "read";
+    for (const char* header : {"trend,plunge", "Plunge,Trend", "azimuth,plunge", "set,Azi,Plunge",
+                               "bearing,plunge", "trend [deg],plunge [deg]"}) {
+      CAPTURE(header);
+      const std::string told = refusal(std::string(header) + "\n120,45,1\n");
+      CHECK(contains(told,
+                     "survey.csv:1: trend and plunge of a line: is it the pole of the plane "
+                     "or a lineation? in \"" +
+                         std::string(header) + "\""));
+      CHECK(contains(told, sentence));
+    }
+    CHECK(contains(refusal("pole trend,set\n1,1\n"), "a pole's trend without its plunge in"));
+    CHECK(contains(refusal("pole plunge,azimuth\n1,1\n"), "a pole's plunge without its trend in"));
+    CHECK(contains(refusal("pole trend,pole azimuth,plunge\n1,1,1\n"),
+                   "two columns mean the same, \"pole trend\""));
+    CHECK(contains(refusal("pole trend,pole plunge\n370,45\n"),
+                   "survey.csv:2: pole trend = 370 in \"370,45\"; accepted: 0 to 360 degrees"));
+    CHECK(contains(refusal("pole trend,pole plunge\n30,-5\n"),
+                   "survey.csv:2: pole plunge = -5, upward: the same pole plunges 5 towards 210 in "
+                   "\"30,-5\"; accepted: 0 to 90 degrees, downward"));
+    CHECK(contains(refusal("pole trend,pole plunge\n300,95\n"),
+                   "pole plunge = 95, beyond upright: the same pole plunges 85 towards 120 in"));
+    CHECK(contains(refusal("pole trend,pole plunge\n300,200\n"), "pole plunge = 200 in"));
+    CHECK(contains(refusal("pole trend,pole plunge\n300,60SE\n"),
+                   "field 2 (column 5, \"60SE\") is not a finite number in"));
+    CHECK(contains(refusal("pole trend,pole plunge\nSE,60\n"), "has no angle: letters alone name"));
+  }
+
+  TEST_CASE("a plane and a line in one table: the plane, or the pole of a strike without rule") {
+    const OrientationFile plane = read("dip,dd,trend,plunge\n30,40,100,10\n");
+    CHECK(is(plane.planes[0], 30, 40));
+    CHECK(has_note(plane, "not read: trend, plunge"));
+    CHECK(is(read("dip,dd,pole trend,pole plunge\n30,40,220,60\n").planes[0], 30, 40));
+    const OrientationFile pole = read("strike,dip,pole trend,pole plunge\n130,30,220,60\n");
+    CHECK(is(pole.planes[0], 30, 40));
+    CHECK(has_note(pole, "not read: strike, dip"));
+    CHECK(is(read("strike,dip,trend,plunge\n310,30NE,100,10\n").planes[0], 30, 40));
+    CHECK(is(read("azimuth,pole trend,pole plunge,trend\n5,220,60,7\n").planes[0], 30, 40));
+  }
+
+  TEST_CASE("quadrant notation is the planes of its dips and dip directions, exactly") {
+    const auto strike = [](const Whole& plane) { return (plane.direction + 270) % 360; };
+    const auto other_end = [](const Whole& plane) { return (plane.direction + 90) % 360; };
+    const auto dip = [](const Whole& plane) { return std::to_string(plane.dip); };
+    // Every plane by either end of its strike, by a quadrant or a cardinal point, in all spellings.
+    CHECK(unlike_plain("strike;dip", [&](const Whole& plane) {
+            return bearing(strike(plane)) + ";" + dip(plane) + quadrant_of(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("Strike;Dip", [&](const Whole& plane) {
+            return bearing(other_end(plane), " ") + ";" + dip(plane) + " " +
+                   cardinal_of(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("STRIKE [deg];DIP [deg]", [&](const Whole& plane) {
+            return bearing(other_end(plane), "", "\xC2\xB0") + ";" + dip(plane) + "\xC2\xB0" +
+                   quadrant_of(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("dip strike (quadrant)", [&](const Whole& plane) {
+            return dip(plane) + quadrant_of(plane.direction) + " " + bearing(strike(plane));
+          }) == "");
+    // A strike by azimuth, with the side in letters; with a rule, too, if both agree.
+    CHECK(unlike_plain("strike;dip", [&](const Whole& plane) {
+            return std::to_string(other_end(plane)) + ";" + dip(plane) +
+                   quadrant_of(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("strike (LHR);dip", [&](const Whole& plane) {
+            return std::to_string(other_end(plane)) + ";" + dip(plane) +
+                   quadrant_of(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("strike (RHR);dip", [&](const Whole& plane) {
+            return std::to_string(strike(plane)) + ";" + dip(plane) + quadrant_of(plane.direction);
+          }) == "");
+    // A strike in quadrant notation is a line under any header.
+    CHECK(unlike_plain("strike (RHR);dip", [&](const Whole& plane) {
+            return bearing(other_end(plane)) + ";" + dip(plane) + quadrant_of(plane.direction);
+          }) == "");
+    // A dip direction.
+    CHECK(unlike_plain("dip;dip direction", [&](const Whole& plane) {
+            return dip(plane) + ";" + bearing(plane.direction);
+          }) == "");
+    CHECK(unlike_plain("dip;dip direction", [&](const Whole& plane) {
+            return dip(plane) + quadrant_of(plane.direction) + ";" +
+                   std::to_string(plane.direction);
+          }) == "");
+    // Mixed rows.
+    CHECK(unlike_plain("dip;dip direction", [&](const Whole& plane) {
+            return dip(plane) + ";" +
+                   (plane.direction % 2 == 0 ? bearing(plane.direction)
+                                             : std::to_string(plane.direction));
+          }) == "");
+    CHECK(unlike_plain("strike rhr;dip", [&](const Whole& plane) {
+            return plane.direction % 2 == 0
+                       ? bearing(other_end(plane)) + ";" + dip(plane) + quadrant_of(plane.direction)
+                       : std::to_string(strike(plane)) + ";" + dip(plane);
+          }) == "");
+  }
+
+  TEST_CASE("every quadrant of the strike and every side of it") {
+    const auto direction = [](const std::string& row) {
+      return read("strike;dip\n" + row + "\n").planes[0].plane.dip_direction / degree;
+    };
+    for (const auto& [row, expected] :
+         std::vector<std::pair<const char*, double>>{{"N45E;60SE", 135},
+                                                     {"N45E;60NW", 315},
+                                                     {"N45E;60S", 135},
+                                                     {"N45E;60E", 135},
+                                                     {"N45E;60N", 315},
+                                                     {"N45E;60W", 315},
+                                                     {"S45W;60SE", 135},
+                                                     {"S45W;60NW", 315},
+                                                     {"N30W;60NE", 60},
+                                                     {"N30W;60SW", 240},
+                                                     {"S30E;60NE", 60},
+                                                     {"S30E;60SW", 240},
+                                                     {"S30W;60SE", 120},
+                                                     {"S30W;60W", 300},
+                                                     {"N;60E", 90},
+                                                     {"N;60W", 270},
+                                                     {"S;60NE", 90},
+                                                     {"NS;60SW", 270},
+                                                     {"N-S;60E", 90},
+                                                     {"SN;60W", 270},
+                                                     {"E;60N", 0},
+                                                     {"E;60S", 180},
+                                                     {"W;60NW", 0},
+                                                     {"EW;60SE", 180},
+                                                     {"E-W;60N", 0},
+                                                     {"WE;60S", 180},
+                                                     {"N0W;60E", 90},
+                                                     {"N0E;60E", 90},
+                                                     {"N90W;60S", 180},
+                                                     {"n45e;60se", 135},
+                                                     {"N 45 E;60 SE", 135},
+                                                     {"N45\xC2\xB0 E;60\xC2\xB0 SE", 135},
+                                                     {"N45\xBA"
+                                                      "E;60\xBASE",
+                                                      135},
+                                                     {"045;60SE", 135},
+                                                     {"225;60SE", 135},
+                                                     {"N10E;60NE", 100},
+                                                     {"N45E;90SE", 135},
+                                                     {"N45E;90NW", 315},
+                                                     {"N45E;90", 135},
+                                                     {"N45E;0", 135},
+                                                     {"E-W;0", 180},
+                                                     {"N45.5E;60SE", 135.5},
+                                                     {"N45,5E;60SE", 135.5},
+                                                     {"S0W;60E", 90},
+                                                     {"N22.5E;60N", 292.5}}) {
+      const std::string text = row;  // clang++ 14 captures no structured binding
+      CAPTURE(text);
+      const double found = direction(text);
+      CHECK(std::abs(found - expected) < 1e-12 * 360);
+    }
+    CHECK(read("strike;dip\nN45E;60.5SE\n").planes[0].plane.dip == near(60.5 * degree));
+    const OrientationFile file = read("strike,dip\nN45E,60SE\n30,90\n120,20SW\n");
+    CHECK(file.layout ==
+          "fields separated by ,, columns by the header, strike with the side of the dip, quadrant "
+          "notation, angles in degrees");
+    CHECK(has_note(file, "quadrant notation in 2 of 3 planes: the letters of a dip tell its side"));
+    CHECK(contains(read("dip,dd\n30,S45E\n").layout, "dip direction, quadrant notation, angles"));
+    CHECK(has_note(read("dip,dd\n30,S45E\n"), "quadrant notation in 1 of 1 planes"));
+    CHECK_FALSE(contains(read("dip,dd\n30,45\n").layout, "quadrant"));
+    CHECK_FALSE(has_note(read("dip,dd\n30SE,130\n"), "across which"));
+  }
+
+  TEST_CASE("quadrant notation that leaves the side open, or contradicts itself, is refused") {
+    const auto one = [](const std::string& row) { return refusal("strike;dip\n" + row + "\n"); };
+    CHECK(one("N45E;60") ==
+          "survey.csv:2: to which side of its strike is the dip of 60? in \"N45E;60\"; accepted: "
+          "dips with the letters of their side: 60SE or 60NW");
+    CHECK(contains(refusal("strike rhr;dip\nN45E;60\n"), "to which side of its strike is the dip"));
+    CHECK(contains(refusal("strike;dip\nN45E;60SE\n45;60\n"),
+                   "survey.csv:3: to which side of its strike is the dip of 60? in \"45;60\""));
+    CHECK(contains(one("45;60"), "survey.csv:1: strike without rule in \"strike;dip\""));
+    for (const char* row : {"N45E;60NE", "N45E;60SW", "S45W;60NE", "45;60NE", "N44E;60NE", "N;60N",
+                            "EW;60W", "N22E;60N", "N45E;90NE"}) {
+      CAPTURE(row);
+      CHECK(contains(one(row), " is along the strike, "));
+    }
+    CHECK(contains(one("N45E;60NE"),
+                   "survey.csv:2: the dip towards NE is along the strike, 45 degrees in "
+                   "\"N45E;60NE\"; accepted: letters of the side to which the plane dips, across "
+                   "its strike: SE or NW"));
+    CHECK(contains(refusal("strike (RHR);dip\n45;60NW\n"),
+                   "survey.csv:2: the dip towards NW contradicts the right-hand rule: with it the "
+                   "dip direction is 135 in \"45;60NW\"; accepted: letters on the right of the "
+                   "strike"));
+    CHECK(contains(refusal("dip;dip direction\n60NW;130\n"),
+                   "the dip towards NW contradicts the dip direction, 130 in"));
+    CHECK(contains(refusal("dip;dip direction\n60NW;S45E\n"), "contradicts the dip direction"));
+  }
+
+  TEST_CASE("damaged quadrant notation is refused by line, value and what is accepted") {
+    const auto one = [](const std::string& row) { return refusal("strike;dip\n" + row + "\n"); };
+    CHECK(one("N95E;60SE") ==
+          "survey.csv:2: field 1 (column 1, \"N95E\") has an angle above 90 in \"N95E;60SE\"; "
+          "accepted: a number in each column of angles or weights, a strike also as N45E, S30W, N, "
+          "E, NS or EW");
+    CHECK(contains(one("N45X;60SE"), "field 1 (column 1, \"N45X\") is not a finite number in"));
+    CHECK(contains(one("E45N;60SE"), "(column 1, \"E45N\") does not begin with N or S in"));
+    CHECK(contains(one("NE45E;60SE"), "does not begin with N or S in"));
+    CHECK(contains(one("N45;60SE"), "does not end with E or W in"));
+    CHECK(contains(one("N45S;60SE"), "does not end with E or W in"));
+    CHECK(contains(one("45E;60SE"), "has an angle with letters behind it only, as a dip has in"));
+    CHECK(contains(one("NE;60SE"), "has no angle between its letters in"));
+    CHECK(contains(one("-N45E;60SE"), "is not a finite number"));
+    CHECK(contains(one("N-45E;60SE"), "is not a finite number"));
+    CHECK(contains(one("N4 5E;60SE"), "is not a finite number"));
+    CHECK(contains(one("N1.045,5E;60SE"), "thousands are grouped"));
+    CHECK(contains(one(";60SE"), "field 1 (column 1, \"\") is empty"));
+    CHECK(contains(one("N45E;"), "field 2 (column 6, \"\") is empty"));
+    CHECK(
+        contains(one("N45E;60QQ"),
+                 "field 2 (column 6, \"60QQ\") is not a finite number in \"N45E;60QQ\"; accepted: "
+                 "a number in each column of angles or weights, a dip also with the side"));
+    CHECK(contains(one("N45E;60SES"), "ends with no point of the compass"));
+    CHECK(contains(one("N45E;60SN"), "ends with no point of the compass"));
+    CHECK(contains(one("N45E;S"), "(column 6, \"S\") has no angle before its letters in"));
+    CHECK(contains(one("N45E;SE60"), "is not a finite number"));
+    CHECK(contains(one("N45E;-60SE"), "is not a finite number"));
+    CHECK(contains(one("N45E;95SE"), "dip = 95 in \"N45E;95SE\"; accepted: 0 to 90 degrees"));
+    CHECK(contains(one("N45E;1e1SE"), "is not a finite number"));
+    CHECK(contains(one("361;60SE"), "strike = 361 in"));
+    CHECK(contains(one("N45,5E;60SE\nN45.5E;60SE"), "has a decimal point, line 2 a decimal comma"));
+    CHECK(contains(refusal("dip;dip direction\n30;SE\n"),
+                   "has no angle: letters alone name a side, not a direction in \"30;SE\"; "
+                   "accepted: a number in each column of angles or weights, a direction also as "
+                   "S45E"));
+    CHECK(contains(refusal("dip;dip direction\n30;NS\n"), "has no angle"));
+    // A table whose side is in a third column, where it is no direction.
+    CHECK(contains(refusal("strike;dip;dip direction\nN45E;60;SE\n"),
+                   "a side alone, SE, stands behind a dip beside its strike"));
+    CHECK(refusal("45,x\n").ends_with("accepted: a number in each column of angles or weights"));
+    CHECK(contains(refusal("dip;dip direction;weight\n30;S45E;2E\n"), "is not a finite number"));
+    CHECK(contains(refusal("strike [gon];dip [gon]\nN45E;60SE\n"),
+                   "is in quadrant notation, which is in degrees; the header says gon in"));
+    CHECK(contains(refusal("N45E,60SE\n"),
+                   "survey.csv:1: field 1 (column 1, \"N45E\") is in quadrant notation, and there "
+                   "is no header in \"N45E,60SE\"; accepted: a header: columns dip"));
+    CHECK(contains(refusal("strike dip\nN 45 E 60 SE\n"),
+                   "5 fields instead of 2: where blanks separate fields, N 45 E must be written "
+                   "N45E"));
   }
 
   TEST_CASE("a header that names no plane, or something twice, is refused") {

@@ -28,15 +28,14 @@ requires(Solver::dim == 3)
                                                             double strip_width = 0) {
   std::vector<NamedDocument> files;
   const auto add = [&](const char* name, const VtuGrid& grid) {
-    if (grid.cell_count() > 0) files.push_back({name, grid.document()});
+    if (grid.cell_count() > 0) files.push_back({std::string(name) + ".vtu", grid.document()});
   };
   const TunnelState<Spatial> state = state_of(solver);
-  files.push_back({"blocks.vtu", vtu_of(state, solver.mass())});
-  add("joints.vtu", joint_grid(joint_areas(solver)));
-  add("bolts.vtu", bolt_grid(state.bolts, bars_of(solver)));
-  add("lining.vtu",
-      lining_grid(state.members, rib_forces(solver), lining_axes(solver), strip_width));
-  files.push_back({"tunnel.vtm", vtm_document(files)});
+  files.push_back({std::string("blocks") + ".vtu", vtu_of(state, solver.mass())});
+  add("joints", joint_grid(joint_areas(solver)));
+  add("bolts", bolt_grid(state.bolts, bars_of(solver)));
+  add("lining", lining_grid(state.members, rib_forces(solver), lining_axes(solver), strip_width));
+  files.push_back({std::string("tunnel") + ".vtm", vtm_document(files)});
   return files;
 }
 

@@ -10,15 +10,23 @@
 namespace voussoir {
 
 /// Reads joints that were measured with a compass from a table of text: a row for each plane, with
-/// its dip and dip direction, or its strike by the right-hand rule, and optionally a set and a
-/// weight. As Dips, Stereonet, FieldMove and spreadsheets export it.
+/// its dip and dip direction, or its strike, or trend and plunge of its pole, and optionally a set
+/// and a weight. As Dips, Stereonet, FieldMove and spreadsheets export it.
 ///
 /// A header in any case and order chooses the columns; columns that it does not know, and what
-/// stands before it, are skipped and told in the notes. A strike without a rule is refused: half of
-/// the trade has the dip to its left. Without a header there are two columns, and the one with
-/// values above 90 is the dip direction. Angles are in degrees, or in the unit that the header says
-/// (deg, rad, gon); "grad" is refused, which is a degree in German and a gon in English. Azimuths
-/// are taken as they stand: no declination is added.
+/// stands before it, are skipped and told in the notes. A strike by azimuth needs its rule, RHR, or
+/// letters of the side in the dip, 60SE, as half of the trade has the dip to its left. Without a
+/// header there are two columns, and the one with values above 90 is the dip direction. Angles are
+/// in degrees, or in the unit that the header says (deg, rad, gon); "grad" is refused, which is a
+/// degree in German and a gon in English. Azimuths are taken as they stand: no declination is
+/// added.
+///
+/// Quadrant notation, N45E, N 45 E or N45°E of an azimuth and 60SE or 60 SE of a dip, is read row
+/// by row beside numbers, in degrees. A strike in it is a line, also N, E, NS or EW: the letters of
+/// the dip choose the side, and the dip direction is across the strike. Refused are a dip without
+/// letters, unless it is 0 or 90, and letters within 22.5 degrees of the strike. Of a pole, in the
+/// lower hemisphere, the plane has dip = 90 - plunge and dip direction = trend + 180; a trend and a
+/// plunge that are not told to be of a pole may be of a lineation and are refused.
 ///
 /// Fields are separated by tabs, semicolons, commas, | or blanks, may be quoted, and numbers may
 /// have a decimal comma where fields are not separated by commas. Empty lines and those that start

@@ -24,8 +24,8 @@ orientation_layout(const std::vector<std::string>& lines, bool right_handed, Tra
 #if VOUSSOIR_BODIES
 
 [[nodiscard]] VOUSSOIR_INLINE bool is_angle(OrientationColumn column) {
-  return column == OrientationColumn::dip || column == OrientationColumn::direction ||
-         column == OrientationColumn::right_strike;
+  using enum OrientationColumn;
+  return column != other && column != set && column != weight;
 }
 
 /// The unit that a field of a line of units has, "deg" of "[deg]", "(deg)" or "deg"; or empty.
@@ -68,8 +68,12 @@ VOUSSOIR_INLINE void read_angle_units(OrientationLayout& layout, const std::stri
       const auto is_one_of = [&](std::string_view known) {
         return word.size() > 2 && known.find(word) != std::string_view::npos;
       };
-      if (is_one_of(" true truenorth tn grid gridnorth ")) continue;
-      if (layout.columns[k] == OrientationColumn::right_strike && is_one_of(right_hand_rules))
+      if (is_one_of(" true truenorth tn grid gridnorth quadrant quadrants ")) continue;
+      const OrientationColumn column = layout.columns[k];
+      if (column == OrientationColumn::right_strike && is_one_of(right_hand_rules)) continue;
+      if (column == OrientationColumn::strike && is_one_of(left_hand_rules)) continue;
+      if ((column == OrientationColumn::pole_trend || column == OrientationColumn::pole_plunge) &&
+          is_one_of(pole_words))
         continue;
       if (is_one_of(" magnetic mag magneticnorth mn "))
         layout.notes.push_back(shown(layout.names[k]) +
@@ -81,10 +85,23 @@ VOUSSOIR_INLINE void read_angle_units(OrientationLayout& layout, const std::stri
   }
 }
 
-/// Refuses what a header lacks and what it has twice; leaves the columns that make a plane.
-VOUSSOIR_INLINE void check_orientation_columns(OrientationLayout& layout, bool right_handed,
-                                               const std::string& header, std::size_t number,
-                                               TraceFaults& faults) {
+/// Whether there is a dip with a direction or with a strike.
+[[nodiscard]] VOUSSOIR_INLINE bool names_plane(const OrientationLayout& layout) {
+  using enum OrientationColumn;
+  return layout.count(dip) > 0 &&
+         layout.count(direction) + layout.count(strike) + layout.count(right_strike) > 0;
+}
+
+/// Whether there are a trend and a plunge, one of which at least is told to be of a pole.
+[[nodiscard]] VOUSSOIR_INLINE bool names_pole(const OrientationLayout& layout) {
+  using enum OrientationColumn;
+  const std::size_t told = layout.count(pole_trend) + layout.count(pole_plunge);
+  return told > 0 && layout.count(trend) + layout.count(pole_trend) > 0 &&
+         layout.count(plunge) + layout.count(pole_plunge) > 0;
+}
+
+/// Leaves of a header the columns that make a plane: one way of the two or three that it has.
+VOUSSOIR_INLINE void choose_orientation_columns(OrientationLayout& layout, bool right_handed) {
   using enum OrientationColumn;
   const auto turn_into = [&](OrientationColumn from, OrientationColumn to) {
     for (OrientationColumn& column : layout.columns)
@@ -94,18 +111,48 @@ VOUSSOIR_INLINE void check_orientation_columns(OrientationLayout& layout, bool r
   if (layout.count(direction) > 0) turn_into(right_strike, other);
   if (layout.count(direction) > 0 || layout.count(right_strike) > 0) turn_into(strike, other);
   if (right_handed) turn_into(strike, right_strike);
-  const bool has_direction = layout.count(direction) + layout.count(right_strike) > 0;
-  if (layout.count(strike) > 0)
-    faults.add(number, "strike without rule", header,
-               "a column named strike (RHR), with the dip to the right of the strike, or a dip "
-               "direction");
-  else if (!has_direction)
-    faults.add(number, "a dip without a direction", header, orientation_names);
-  if (layout.count(dip) == 0)
-    faults.add(number, "a direction without a dip", header, orientation_names);
+  const bool has_both = layout.count(pole_trend) > 0 && layout.count(pole_plunge) > 0;
+  const bool by_plane = names_plane(layout) && !(layout.count(strike) > 0 && has_both);
+  if (by_plane) {  // a line beside a plane may be the slip on it
+    for (const OrientationColumn line : {trend, plunge, pole_trend, pole_plunge})
+      turn_into(line, other);
+  } else if (names_pole(layout)) {
+    for (const OrientationColumn of_plane : {dip, direction, strike, right_strike})
+      turn_into(of_plane, other);
+    turn_into(trend, layout.count(pole_trend) > 0 ? other : pole_trend);
+    turn_into(plunge, layout.count(pole_plunge) > 0 ? other : pole_plunge);
+  }
+}
+
+/// Refuses what a header lacks and what it has twice; leaves the columns that make a plane.
+VOUSSOIR_INLINE void check_orientation_columns(OrientationLayout& layout, bool right_handed,
+                                               const std::string& header, std::size_t number,
+                                               TraceFaults& faults) {
+  using enum OrientationColumn;
+  choose_orientation_columns(layout, right_handed);
+  const std::size_t trends = layout.count(trend) + layout.count(pole_trend),
+                    plunges = layout.count(plunge) + layout.count(pole_plunge);
+  if (!names_plane(layout) && !names_pole(layout)) {
+    const bool has_direction =
+        layout.count(direction) + layout.count(strike) + layout.count(right_strike) > 0;
+    if (trends > 0 && plunges > 0)
+      faults.add(number, "trend and plunge of a line: is it the pole of the plane or a lineation?",
+                 header,
+                 "of poles (normals) columns named pole trend and pole plunge; lineations are not "
+                 "read");
+    else if (layout.count(pole_trend) + layout.count(pole_plunge) > 0)
+      faults.add(
+          number,
+          trends > 0 ? "a pole's trend without its plunge" : "a pole's plunge without its trend",
+          header, orientation_names);
+    else if (!has_direction)
+      faults.add(number, "a dip without a direction", header, orientation_names);
+    else
+      faults.add(number, "a direction without a dip", header, orientation_names);
+  }
   for (std::size_t k = 0; k < layout.columns.size(); ++k) {
     const OrientationColumn column = layout.columns[k];
-    if (column != other && column != strike && layout.count(column) > 1)
+    if (column != other && layout.count(column) > 1)
       faults.add(number, "two columns mean the same, \"" + shown(layout.names[k]) + "\"", header,
                  orientation_names);
   }
@@ -132,15 +179,17 @@ VOUSSOIR_INLINE OrientationLayout orientation_layout(const std::vector<std::stri
     while (below < lines.size() && is_orientation_comment(lines[below])) ++below;
     OrientationLayout tried =
         header_of(lines[k], told, below < lines.size() ? lines[below] : std::string());
-    const std::size_t directions =
-        tried.count(direction) + tried.count(strike) + tried.count(right_strike);
-    if (tried.count(dip) > 0 && directions > 0) {
+    if (names_plane(tried) || names_pole(tried)) {
       layout = std::move(tried);
       layout.has_header = true;
       data = k + 1;
       break;
     }
-    if (tried.count(dip) + directions > 0) {
+    const bool has_line = tried.count(trend) > 0 && tried.count(plunge) > 0;
+    if (has_line || tried.count(dip) + tried.count(direction) + tried.count(strike) +
+                            tried.count(right_strike) + tried.count(pole_trend) +
+                            tried.count(pole_plunge) >
+                        0) {
       half = k;
       half_layout = std::move(tried);
     }
@@ -160,6 +209,8 @@ VOUSSOIR_INLINE OrientationLayout orientation_layout(const std::vector<std::stri
                            shown(skipped.front()) + "\" on");
   const std::string header = lines[data - 1];
   const std::size_t number = data;
+  layout.header = header;
+  layout.header_line = number;
   check_orientation_columns(layout, right_handed, header, number, faults);
   std::vector<TraceField> units;
   if (data < lines.size()) units = fields_of(lines[data], layout.separator);

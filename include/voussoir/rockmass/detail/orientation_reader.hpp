@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <istream>
 #include <numbers>
@@ -17,7 +16,9 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/rockmass/detail/bounded_lines.hpp>
 #include <voussoir/rockmass/detail/orientation_header.hpp>
+#include <voussoir/rockmass/detail/orientation_plane.hpp>
 #include <voussoir/rockmass/detail/orientation_table.hpp>
+#include <voussoir/rockmass/detail/quadrant_angle.hpp>
 #include <voussoir/rockmass/detail/set_names.hpp>
 #include <voussoir/rockmass/detail/trace_table.hpp>
 #include <voussoir/rockmass/orientation_sets.hpp>
@@ -117,6 +118,10 @@ class OrientationReader {
         what += ": are these decimal commas? Fields must then be separated by ;";
       else if (fields.size() < needed && separator_of(line) != layout_.separator)
         what += ": this line is separated otherwise than the first";
+      else if (layout_.separator == ' ' &&
+               std::any_of(fields.begin(), fields.end(),
+                           [](const auto& f) { return azimuth_of_letters(f.text).has_value(); }))
+        what += ": where blanks separate fields, N 45 E must be written N45E";
       std::string accepted =
           std::string("dip and dip direction, or a header: ") + orientation_names;
       if (layout_.has_header) accepted = "a field for each column of the header, which is: ";
@@ -124,12 +129,11 @@ class OrientationReader {
         accepted += (k == 0 ? "" : ", ") + layout_.names[k];
       return faults_.add(number, what, line, accepted);
     }
-    const auto fall = value(fields, dip, line, number),
-               azimuth = value(fields, layout_.count(direction) > 0 ? direction : right_strike,
-                               line, number);
+    const auto fall = angle(fields, tilt_column(), line, number),
+               azimuth = angle(fields, azimuth_column(), line, number);
     SurveyedPlane surveyed;
     if (layout_.count(weight) > 0) {
-      const auto read = value(fields, weight, line, number);
+      const auto read = value(fields, weight, fields[layout_.index(weight)].text, line, number);
       if (read && !(*read > 0))
         return faults_.add(number, "weight = " + shortest_text(*read), line, "a weight > 0");
       if (!read) return;
@@ -140,26 +144,104 @@ class OrientationReader {
     if (layout_.has_header)
       add(*fall, *azimuth, surveyed, line, number);
     else
-      pairs_.push_back({*fall, *azimuth, number});
+      pairs_.push_back({fall->value, azimuth->value, number});
+  }
+
+  /// The column of the dip, or of the plunge of the pole.
+  [[nodiscard]] OrientationColumn tilt_column() const {
+    using enum OrientationColumn;
+    return layout_.count(dip) > 0 ? dip : pole_plunge;
+  }
+
+  [[nodiscard]] OrientationColumn azimuth_column() const {
+    using enum OrientationColumn;
+    for (const OrientationColumn column : {direction, right_strike, strike})
+      if (layout_.count(column) > 0) return column;
+    return pole_trend;
+  }
+
+  /// A number of degrees or in quadrant notation; nothing after a fault.
+  [[nodiscard]] std::optional<WrittenAngle> angle(const std::vector<TraceField>& fields,
+                                                  OrientationColumn column, const std::string& line,
+                                                  std::size_t number) {
+    using enum OrientationColumn;
+    const TraceField& field = fields[layout_.index(column)];
+    const auto parts = quadrant_text(field.text);
+    const bool is_tilt = column == dip || column == pole_plunge;
+    if (!parts || column == pole_plunge ||
+        (column == dip && !parts->before.empty() && !parts->number.empty() && layout_.has_header)) {
+      std::string_view text = field.text;
+      if (layout_.turn == 360 && text.ends_with("\xC2\xB0")) text.remove_suffix(2);
+      const auto read = value(fields, column, text, line, number);
+      return read ? std::optional<WrittenAngle>({*read, false, ""}) : std::nullopt;
+    }
+    const std::string name = field_name(fields, column);
+    const auto refuse = [&](const std::string& what, const std::string& accepted) {
+      faults_.add(number, name + what, line, accepted);
+      return std::nullopt;
+    };
+    if (!layout_.has_header)
+      return refuse("is in quadrant notation, and there is no header",
+                    std::string("a header: ") + orientation_names);
+    if (layout_.turn != 360)
+      return refuse("is in quadrant notation, which is in degrees; the header says " + layout_.unit,
+                    "quadrant notation in a file of degrees");
+    WrittenAngle read;
+    if (is_tilt) {
+      const auto side = azimuth_of_letters(parts->after);
+      if (parts->number.empty()) return refuse("has no angle before its letters", forms_of(column));
+      if (!side) return refuse("ends with no point of the compass", forms_of(column));
+      read.side = parts->after;
+    } else {
+      const std::string fault =
+          fault_of_bearing(*parts, column == strike || column == right_strike);
+      if (!fault.empty()) return refuse(fault, forms_of(column));
+      read.is_bearing = true;
+    }
+    if (parts->number.empty()) {
+      read.value = azimuth_of_letters(parts->before.substr(0, 1)).value_or(0);
+    } else {
+      const auto written = value(fields, column, parts->number, line, number);
+      if (!written) return std::nullopt;
+      if (!is_tilt && *written > 90) return refuse("has an angle above 90", forms_of(column));
+      read.value =
+          is_tilt ? *written : azimuth_of_bearing(parts->before[0], *written, parts->after[0]);
+    }
+    return read;
+  }
+
+  [[nodiscard]] std::string field_name(const std::vector<TraceField>& fields,
+                                       OrientationColumn column) const {
+    const std::size_t k = layout_.index(column);
+    return "field " + std::to_string(k + 1) + " (column " + std::to_string(fields[k].column) +
+           ", \"" + shown(fields[k].text) + "\") ";
+  }
+
+  /// What a column may have, for messages.
+  [[nodiscard]] std::string forms_of(OrientationColumn column) const {
+    using enum OrientationColumn;
+    std::string forms = "a number in each column of angles or weights";
+    if (!layout_.has_header || layout_.turn != 360) return forms;
+    if (column == dip) forms += ", a dip also with the side to which it is, as 60SE";
+    if (column == strike || column == right_strike)
+      forms += ", a strike also as N45E, S30W, N, E, NS or EW";
+    if (column == direction || column == pole_trend) forms += ", a direction also as S45E";
+    if (column == direction) forms += "; a side alone, SE, stands behind a dip beside its strike";
+    return forms;
   }
 
   /// A number of a row; nothing after a fault.
+  /// @param text  of the field, or of the number in it
   [[nodiscard]] std::optional<double> value(const std::vector<TraceField>& fields,
-                                            OrientationColumn column, const std::string& line,
-                                            std::size_t number) {
-    const std::size_t k = layout_.index(column);
-    std::string_view text = fields[k].text;
-    if (is_angle(column) && layout_.turn == 360 && text.ends_with("\xC2\xB0"))
-      text.remove_suffix(2);
+                                            OrientationColumn column, std::string_view text,
+                                            const std::string& line, std::size_t number) {
     WrittenNumber read = written_number(text);
-    const std::string field = "field " + std::to_string(k + 1) + " (column " +
-                              std::to_string(fields[k].column) + ", \"" + shown(fields[k].text) +
-                              "\") ";
+    const std::string field = field_name(fields, column);
     for (const auto& [trace, angle] : {std::pair("x1 [m]", "dip [deg]"), {"512291.5", "45.5"}})
       if (const std::size_t at = read.fault.find(trace); at != std::string::npos)
         read.fault.replace(at, std::string_view(trace).size(), angle);
     if (!read.fault.empty()) {
-      faults_.add(number, field + read.fault, line, "a number in each column of angles or weights");
+      faults_.add(number, field + read.fault, line, forms_of(column));
       return std::nullopt;
     }
     if (read.has_comma && comma_line_ == 0) comma_line_ = number;
@@ -176,30 +258,23 @@ class OrientationReader {
   }
 
   /// A plane of these angles, in the unit of the file.
-  void add(double dip, double azimuth, SurveyedPlane surveyed, const std::string& line,
-           std::size_t number) {
-    const double turn = layout_.turn, quarter = 0.25 * turn;
-    const bool by_strike = layout_.count(OrientationColumn::right_strike) > 0;
-    const double slack = turn < 10 ? 1e-3 : 0;  // 1.571 rad is what is left of a right angle
-    const std::string unit = " " + layout_.unit;
-    const auto text = [](double angle) { return trimmed_text(angle, 4); };
-    if (!(azimuth >= 0 && azimuth <= turn + slack))
-      return faults_.add(number, (by_strike ? "strike = " : "dip direction = ") + text(azimuth),
-                         line, "0 to " + text(turn) + unit + ", clockwise from North");
-    const auto within = [&](double angle) { return angle >= turn ? angle - turn : angle; };
-    const double towards = within(std::min(azimuth, turn));
-    const double direction = by_strike ? within(towards + quarter) : towards;
-    if (!(dip >= 0 && dip <= quarter + slack)) {
-      std::string what = "dip = " + text(dip);
-      if (dip > quarter && dip <= 2 * quarter)
-        what += ", beyond upright: the same plane dips " + text(2 * quarter - dip) + " towards " +
-                text(within(direction + 2 * quarter));
-      return faults_.add(number, what, line, "0 to " + text(quarter) + unit + ", downward");
+  void add(const WrittenAngle& tilt, const WrittenAngle& azimuth, SurveyedPlane surveyed,
+           const std::string& line, std::size_t number) {
+    const WrittenPlane plane = plane_of(tilt, azimuth, azimuth_column(), layout_);
+    if (plane.lacks_rule && quadrants_ == 0) {  // that is the fault of the header
+      faults_.add(layout_.header_line, "strike without rule", layout_.header,
+                  "a column named strike (RHR), with the dip to the right of the strike, or a dip "
+                  "direction, or dips with the letters of their side, as 60SE");
+      faults_.finish();
     }
-    const double radians = 2 * std::numbers::pi / turn;
-    surveyed.plane = {std::min(dip * radians, 0.5 * std::numbers::pi), direction * radians};
-    steepest_ = std::max(steepest_, dip);
-    farthest_ = std::max(farthest_, azimuth);
+    if (!plane.fault.empty()) return faults_.add(number, plane.fault, line, plane.accepted);
+    quadrants_ += azimuth.is_bearing || !tilt.side.empty() ? 1u : 0u;
+    sided_ += tilt.side.empty() ? 0u : 1u;
+    const double radians = 2 * std::numbers::pi / layout_.turn;
+    surveyed.plane = {std::min(plane.dip * radians, 0.5 * std::numbers::pi),
+                      plane.direction * radians};
+    steepest_ = std::max(steepest_, tilt.value);
+    farthest_ = std::max(farthest_, azimuth.value);
     file_.planes.push_back(surveyed);
   }
 
@@ -225,8 +300,8 @@ class OrientationReader {
     }
     const bool is_second = large[1] != nullptr;
     for (const Pair& pair : pairs_)
-      add(is_second ? pair.first : pair.second, is_second ? pair.second : pair.first, {},
-          text(pair), pair.line);
+      add({is_second ? pair.first : pair.second, false, ""},
+          {is_second ? pair.second : pair.first, false, ""}, {}, text(pair), pair.line);
     file_.notes.push_back(std::string("without a header, the ") + (is_second ? "second" : "first") +
                           " column is taken for the dip direction: only there are values above 90");
   }
@@ -254,7 +329,11 @@ class OrientationReader {
 
   void say() {
     const char s = layout_.separator;
-    const bool by_strike = layout_.count(OrientationColumn::right_strike) > 0;
+    const OrientationColumn column = azimuth_column();
+    const char* planes = ", dip direction";
+    if (column == OrientationColumn::pole_trend) planes = ", poles by trend and plunge";
+    if (column == OrientationColumn::right_strike) planes = ", strike with the dip to its right";
+    if (column == OrientationColumn::strike) planes = ", strike with the side of the dip";
     file_.layout = std::string("fields separated by ") +
                    (s == '\t'  ? "tabs"
                     : s == ' ' ? "blanks"
@@ -262,8 +341,20 @@ class OrientationReader {
                    (comma_line_ != 0 ? ", decimal comma" : "") +
                    (std::string_view(lines_.encoding()) == "UTF-8" ? "" : ", UTF-16") +
                    (layout_.has_header ? ", columns by the header" : ", two columns, no header") +
-                   (by_strike ? ", strike with the dip to its right" : ", dip direction") +
-                   ", angles in " + layout_.unit;
+                   planes + (quadrants_ > 0 ? ", quadrant notation" : "") + ", angles in " +
+                   layout_.unit;
+    const bool by_pole = column == OrientationColumn::pole_trend;
+    if (by_pole)
+      file_.notes.push_back(
+          "poles by trend and plunge: each plane dips 90 degrees less the plunge, opposite to the "
+          "trend");
+    if (quadrants_ > 0)
+      file_.notes.push_back("quadrant notation in " + std::to_string(quadrants_) + " of " +
+                            std::to_string(file_.planes.size()) + " planes" +
+                            (sided_ > 0 && column != OrientationColumn::direction
+                                 ? ": the letters of a dip tell its side of the strike, "
+                                   "across which it is taken"
+                                 : ""));
     std::string ignored;
     for (std::size_t k = 0; k < layout_.names.size(); ++k)
       if (layout_.columns[k] == OrientationColumn::other && !layout_.names[k].empty())
@@ -273,10 +364,16 @@ class OrientationReader {
                                     [](const auto& surveyed) { return surveyed.set < 0; });
     if (!file_.set_names.empty() && none > 0)
       file_.notes.push_back(std::to_string(none) + " planes of no set");
-    if (layout_.turn > 10 && file_.planes.size() > 2 && steepest_ < 1.58 && farthest_ < 6.29)
-      file_.notes.push_back(
-          "no dip is above 1.58, no direction above 6.29: if these are radians, "
-          "the header must say so: dip [rad]");
+    const char* small =
+        "no dip is above 1.58, no direction above 6.29: if these are radians, "
+        "the header must say so: dip [rad]";
+    if (by_pole)
+      small =
+          "no plunge is above 1.58, no trend above 6.29: if these are radians, the header must "
+          "say so: pole plunge [rad]";
+    if (quadrants_ == 0 && layout_.turn > 10 && file_.planes.size() > 2 && steepest_ < 1.58 &&
+        farthest_ < 6.29)
+      file_.notes.emplace_back(small);
   }
 
   const std::string& name_;
@@ -289,6 +386,8 @@ class OrientationReader {
   std::vector<Pair> pairs_;  ///< without a header
   SetNames sets_;
   std::size_t rows_ = 0;
+  std::size_t quadrants_ = 0;                    ///< planes with letters in the azimuth or the dip
+  std::size_t sided_ = 0;                        ///< planes with letters in the dip
   std::size_t comma_line_ = 0, point_line_ = 0;  ///< where a decimal sign was seen first
   double steepest_ = 0, farthest_ = 0;           ///< largest dip and direction, as written
 };

@@ -13,8 +13,21 @@
 
 namespace voussoir::detail {
 
-/// What stands in a column of a table of orientations. A `strike` follows no rule that is told.
-enum class OrientationColumn { other, dip, direction, strike, right_strike, set, weight };
+/// What stands in a column of a table of orientations. A `strike` follows no rule that is told, a
+/// `trend` and a `plunge` are of a line that is not told to be a pole.
+enum class OrientationColumn {
+  other,
+  dip,
+  direction,
+  strike,
+  right_strike,
+  trend,
+  plunge,
+  pole_trend,
+  pole_plunge,
+  set,
+  weight
+};
 
 /// How a table of orientations is written, as its header shows.
 struct OrientationLayout {
@@ -24,6 +37,8 @@ struct OrientationLayout {
   std::vector<std::string> names;  ///< of the columns, as the header has them
   std::string unit = "degrees";    ///< of angles
   double turn = 360;               ///< a full one in that unit
+  std::string header;              ///< the line that has it
+  std::size_t header_line = 0;     ///< its number, from 1
   std::vector<std::string> notes;
   [[nodiscard]] std::size_t count(OrientationColumn column) const {
     return static_cast<std::size_t>(std::count(columns.begin(), columns.end(), column));
@@ -35,12 +50,21 @@ struct OrientationLayout {
 };
 
 inline constexpr const char* orientation_names =
-    "columns dip and dip direction (or strike (RHR), with the dip to its right), and set and weight "
-    "if wanted, in any order, with a unit in brackets where it is not degrees: dip [rad]";
+    "columns dip and dip direction (or strike (RHR), with the dip to its right), or strike and dip "
+    "as N45E and 60SE, or pole trend and pole plunge, and set and weight if wanted, in any order, "
+    "with a unit in brackets where it is not degrees: dip [rad]";
 
 /// What tells, in brackets, that a strike has the dip to its right.
 inline constexpr std::string_view right_hand_rules =
     " rhr rh right righthand righthanded righthandrule rhrule dipright diptoright diptotheright ";
+
+/// What tells, in brackets, that a strike has the dip to its left.
+inline constexpr std::string_view left_hand_rules =
+    " lhr lh left lefthand lefthanded lefthandrule lhrule dipleft diptoleft diptotheleft ";
+
+/// What tells, in brackets, that a trend or a plunge is of a pole.
+inline constexpr std::string_view pole_words =
+    " pole poles ofpole topole normal ofnormal poletoplane poleofplane normaltoplane ";
 
 #if VOUSSOIR_BODIES
 
@@ -100,12 +124,44 @@ struct HeaderWord {
   return word;
 }
 
+/// Trends and plunges, as "Trend of pole", "Pole plunge", "trend (pole)"; or `other`.
+[[nodiscard]] VOUSSOIR_INLINE OrientationColumn column_of_line(const HeaderWord& word) {
+  std::string name = word.name;
+  bool is_pole = false;
+  for (const std::string& remark : word.remarks) {
+    const std::string letters = " " + letters_of(remark) + " ";
+    is_pole = is_pole || (letters.size() > 2 && pole_words.find(letters) != std::string_view::npos);
+  }
+  for (const std::string_view pole : {"poles", "pole", "normals", "normal"})
+    if (const std::size_t at = name.find(pole); at != std::string::npos) {
+      name.erase(at, pole.size());
+      is_pole = true;
+    }
+  if (is_pole)
+    for (const std::string_view between :
+         {"totheplane", "toplane", "oftheplane", "ofplane", "ofthe", "of"})
+      if (const std::size_t at = name.find(between); at != std::string::npos)
+        name.erase(at, between.size());
+  if (name == "plunge" || name == "plungeangle")
+    return is_pole ? OrientationColumn::pole_plunge : OrientationColumn::plunge;
+  if (name == "trend" || name == "trendazimuth" || name == "trendangle" || name == "plungetrend" ||
+      name == "plungeazimuth" || name == "plungedirection")
+    return is_pole ? OrientationColumn::pole_trend : OrientationColumn::trend;
+  constexpr std::string_view azimuths = " azimuth azimut az azi bearing direction ";
+  if (is_pole && azimuths.find(" " + name + " ") != std::string_view::npos && !name.empty())
+    return OrientationColumn::pole_trend;
+  return OrientationColumn::other;
+}
+
 /// @param weak  gets whether the name may mean something else where a clearer one stands beside it
 [[nodiscard]] VOUSSOIR_INLINE OrientationColumn orientation_column(const HeaderWord& word,
                                                                    bool& weak) {
   const auto is_one_of = [](std::string_view name, std::string_view known) {
     return !name.empty() && known.find(" " + std::string(name) + " ") != std::string_view::npos;
   };
+  weak = false;
+  if (const OrientationColumn line = column_of_line(word); line != OrientationColumn::other)
+    return line;
   weak = is_one_of(word.name, " azimuth azimut az azi bearing direction n ");
   if (is_one_of(word.name,
                 " dip dipangle dipamount dipmag dipmagnitude truedip inclination incl dipvalue "
@@ -166,7 +222,8 @@ struct HeaderWord {
     const std::string pair =
         " " + header_word(names[k]).name + "-" + header_word(names[k + 1]).name + " ";
     constexpr std::string_view known =
-        " dip-direction dip-dir dip-dirn dip-azimuth dip-angle strike-rhr strike-right joint-set "
+        " dip-direction dip-dir dip-dirn dip-azimuth dip-angle strike-rhr strike-right pole-trend "
+        "pole-plunge pole-azimuth normal-trend normal-plunge trend-pole plunge-pole joint-set "
         "set-no set-nr set-id set-name set-number ";
     if (known.find(pair) == std::string_view::npos) continue;
     names[k] += " " + names[k + 1];
@@ -186,6 +243,10 @@ struct HeaderWord {
     OrientationColumn& column = layout.columns[k];
     const bool is_northing = column == OrientationColumn::weight && has_easting;
     if (weak[k] && (is_northing || layout.count(column) > 1)) column = OrientationColumn::other;
+    // An azimuth beside a plunge is that of the line.
+    if (weak[k] && column == OrientationColumn::direction &&
+        layout.count(OrientationColumn::plunge) > 0 && layout.count(OrientationColumn::dip) == 0)
+      column = OrientationColumn::trend;
   }
   layout.names = std::move(names);
   return layout;
