@@ -24,8 +24,8 @@
 #include <voussoir/io/detail/interaction_panel.hpp>
 #include <voussoir/io/detail/mass_layers.hpp>
 #include <voussoir/io/detail/painting_order.hpp>
-#include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/io/detail/rib_strips.hpp>
+#include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/io/detail/side_column.hpp>
 #include <voussoir/io/detail/support_diagrams.hpp>
 #include <voussoir/io/interaction_picture.hpp>
