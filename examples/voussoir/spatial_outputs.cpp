@@ -142,6 +142,8 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   TunnelPictureText words;
   if (!input.title.empty()) words.title = input.title;
   words.axes = {"right", "along", "up"};
+  words.crown = shown_convergence(input, run).crown;
+  words.crown_name = "crown, middle third";
   if (input.lining) words.strip_width = strips_of(input).width;
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include <voussoir/drawing/number_text.hpp>
 
 #include "analysis.hpp"
 #include "harness.hpp"
@@ -180,6 +181,12 @@ TEST_SUITE("program/spatial") {
     CHECK(contains(run.files.at("blocks.vtu"), "Name=\"displacement_m\""));
     for (const char* const file : {"blocks.vtu", "joints.vtu", "bolts.vtu", "lining.vtu"})
       CHECK(contains(run.files.at("tunnel.vtm"), std::string("file=\"") + file + "\""));
+    // One answer on screen, in run.json and in the picture.
+    const std::string crown =
+        voussoir::fixed_text(number(run.json, "convergence", "crown_mm"), 2) + " mm";
+    CHECK(contains(run.outcome.out, "of the middle third: crown " + crown));
+    CHECK(contains(run.files.at("blocks.svg"), crown));
+    CHECK(contains(run.files.at("blocks.svg"), "crown, middle third"));
     for (const char* const panel : {"thrust", "moment"})
       CHECK(contains(run.files.at("blocks.svg"), panel));
   }

@@ -35,6 +35,10 @@ struct TunnelPictureText {
   double lining_thickness = 0;            ///< [m]; 0: that of each section. Without meaning in 3-D
   std::vector<std::string> remarks = {};  ///< below the verdict, a line each
   std::array<std::string, 3> axes = detail::compass;  ///< in 3-D: what they are called
+  /// Convergence of the crown [m] and what it is of, in place of that of the last stage, which in
+  /// 3-D is of the whole length.
+  std::optional<double> crown = {};
+  std::string crown_name = "crown convergence";
   double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
 };
 
@@ -95,18 +99,20 @@ VOUSSOIR_INLINE std::optional<PictureBanner> banner_of(Verdict verdict, double f
 namespace detail {
 
 /// Crown, blocks and what the supports carry.
-/// @param strip_width  see `TunnelPictureText`
+/// @param text  see there what they are of
 template <class Solver>
 [[nodiscard]] std::vector<KeyNumber> key_numbers_of(
     const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
-    double strip_width = 0) {
+    const TunnelPictureText& text) {
+  const double strip_width = text.strip_width;
   SupportDemand demand = support_demand(solver);
   const std::string per_metre = Solver::dim == 2 || strip_width > 0 ? "/m" : "";
   if (strip_width > 0)
     for (double* const force : {&demand.largest_thrust, &demand.largest_moment})
       *force /= strip_width;
   std::vector<KeyNumber> numbers{
-      {"crown convergence", millimetres_text(result.stages.back().convergence.crown) + " mm"},
+      {text.crown_name,
+       millimetres_text(text.crown.value_or(result.stages.back().convergence.crown)) + " mm"},
       {"blocks", std::to_string(solver.mass().bodies.size())}};
   if (solver.bolt_count() > 0)
     numbers.push_back(
@@ -171,7 +177,7 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   picture.header.title = text.title;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
-  picture.header.key_numbers = detail::key_numbers_of(solver, result);
+  picture.header.key_numbers = detail::key_numbers_of(solver, result, text);
   picture.banner = banner_of(result.verdict(), fallen, "m²", result.has_lost_lining());
   if (const auto tunnel = detail::rect_of_tunnel(solver.mass()))
     picture.reference_thrust = detail::reference_thrust_of(solver, *tunnel);
@@ -190,7 +196,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
-  view.header.key_numbers = detail::key_numbers_of(solver, result, text.strip_width);
+  view.header.key_numbers = detail::key_numbers_of(solver, result, text);
   view.unrolled = unrolled_lining(solver, text.strip_width);
   view.banner = banner_of(result.verdict(), fallen, "m³", result.has_lost_lining());
   return draw_tunnel_view(solver.mass(), view);

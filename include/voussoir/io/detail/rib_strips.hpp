@@ -142,7 +142,7 @@ VOUSSOIR_INLINE void draw_unrolled_panel(SvgCanvas& canvas, const ViewRect& fram
   canvas.text({frame.low.x(), frame.low.y() + 14}, title, {.size = 14.5, .bold = true});
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double largest = std::max({std::abs(*least), std::abs(*most), 1e-300});
-  const bool has_both = *least < 0;
+  const bool has_both = *least < -1e-3 * largest;  // less is rounding, and has no colour
   static const ColourMap positive({{250, 250, 250}, {150, 190, 225}, {33, 82, 145}}),
       negative({{250, 250, 250}, {240, 180, 140}, {178, 70, 20}});
   const auto colour = [&](double value) {
