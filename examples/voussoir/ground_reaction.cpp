@@ -20,8 +20,8 @@ std::vector<ReactionPoint> points_of(const ConstructionResult<Planar>& built) {
   double fallen = built.fallen_before;
   for (const StageResult& stage : built.stages) {
     fallen += stage.fallen_measure();
-    points.push_back(
-        {stage.name, stage.wall_traction, stage.convergence, stage.last().verdict, fallen});
+    points.push_back({stage.name, stage.wall_traction, stage.convergence, stage.last().verdict,
+                      fallen, stage.last().lacks_lining});
   }
   return points;
 }
@@ -62,7 +62,7 @@ double percent(double part) { return 100 * part; }
 double millimetres(double length) { return 1e3 * length; }
 
 std::string word_of(const ReactionPoint& point) {
-  return to_string(point.verdict, point.fallen, false);
+  return to_string(point.verdict, point.fallen, point.lost_lining);
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ GroundReaction ground_reaction(const Input& input, int steps, const Report& repo
   const RunResult supported = run_tunnel(input, report);
   reaction.supported = points_of(supported.built);
   const ReactionPoint& end = reaction.supported.back();
-  if (end.verdict == Verdict::stable)
+  if (end.verdict == Verdict::stable && !end.lost_lining)
     reaction.equivalent = traction_at(reaction.ground, end.convergence.crown);
   return reaction;
 }

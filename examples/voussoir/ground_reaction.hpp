@@ -16,7 +16,8 @@ struct ReactionPoint {
   double traction;          ///< left on the wall, of the in-situ traction [-]
   Convergence convergence;  ///< [m]
   Verdict verdict;
-  double fallen;  ///< until then [m^2]
+  double fallen;     ///< until then [m^2]
+  bool lost_lining;  ///< it had come off its wall by then
 };
 
 /// In 2-D: ground reaction and how the supports of the file change it.

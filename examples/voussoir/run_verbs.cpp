@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `voussoir run`, `check`, `init`: one input file, one tunnel.
+// `voussoir run`, `check`, `blocks`, `grc`, `init`: one input file, one tunnel.
 #include <filesystem>
 #include <iostream>
 #include <string>
