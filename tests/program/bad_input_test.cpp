@@ -16,6 +16,8 @@
 #endif
 #endif
 
+namespace program_bad_input_test {
+
 namespace {
 
 using namespace voussoir_test;
@@ -367,3 +369,5 @@ TEST_SUITE("program/bad_input") {
     CHECK(contents(folder / "out") == before);
   }
 }
+
+}  // namespace program_bad_input_test

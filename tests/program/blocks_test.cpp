@@ -17,6 +17,8 @@
 #include "support/near.hpp"
 #include "support/reference.hpp"
 
+namespace program_blocks_test {
+
 namespace {
 
 using namespace voussoir_test;
@@ -236,3 +238,5 @@ TEST_SUITE("program/blocks") {
           std::string::npos);
   }
 }
+
+}  // namespace program_blocks_test

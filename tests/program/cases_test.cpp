@@ -28,6 +28,8 @@
 #include "harness.hpp"
 #include "support/near.hpp"
 
+namespace program_cases_test {
+
 using namespace voussoir_test;
 using namespace voussoir::program;
 using voussoir::InvalidInput;
@@ -813,3 +815,5 @@ TEST_SUITE("program/cases") {
 
 #endif
 }
+
+}  // namespace program_cases_test

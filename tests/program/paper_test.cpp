@@ -21,6 +21,8 @@
 #include "study.hpp"
 #include "verification.hpp"
 
+namespace program_paper_test {
+
 using namespace voussoir::paper;
 using voussoir::InvalidInput;
 using voussoir_test::Folder;
@@ -338,3 +340,5 @@ TEST_SUITE("program/paper") {
   }
 #endif
 }
+
+}  // namespace program_paper_test

@@ -11,6 +11,8 @@
 #include "io/xml_check.hpp"
 #include "support/near.hpp"
 
+namespace program_patterns_test {
+
 using namespace voussoir::program;
 
 namespace {
@@ -79,3 +81,5 @@ TEST_SUITE("program/patterns") {
     CHECK(!wall_agrees(the_case(2), result));
   }
 }
+
+}  // namespace program_patterns_test

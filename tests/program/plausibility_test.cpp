@@ -13,6 +13,8 @@
 #include "harness.hpp"
 #include "support/near.hpp"
 
+namespace program_plausibility_test {
+
 using namespace voussoir::program;
 using namespace voussoir_test;
 
@@ -309,3 +311,5 @@ TEST_SUITE("program/plausibility") {
   }
 #endif
 }
+
+}  // namespace program_plausibility_test

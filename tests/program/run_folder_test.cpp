@@ -16,6 +16,8 @@
 
 #include "harness.hpp"
 
+namespace program_run_folder_test {
+
 using namespace voussoir_test;
 using voussoir::program::RunFolder;
 using voussoir::program::RunId;
@@ -202,3 +204,5 @@ TEST_SUITE("program/run_folder") {
     CHECK_THROWS_AS(RunFolder(""), voussoir::InvalidInput);
   }
 }
+
+}  // namespace program_run_folder_test

@@ -20,6 +20,8 @@
 #include "support/near.hpp"
 #include "support/reference.hpp"
 
+namespace program_run_test {
+
 namespace {
 
 /// A table without its last column, which differs between runs of different inputs.
@@ -677,3 +679,5 @@ TEST_SUITE("program/run") {
     CHECK(read_file(folder / "out/blocks.svg").find(">COLLAPSE<") != std::string::npos);
   }
 }
+
+}  // namespace program_run_test

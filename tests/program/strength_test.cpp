@@ -12,6 +12,8 @@
 #include "harness.hpp"
 #include "support/near.hpp"
 
+namespace program_strength_test {
+
 #ifdef VOUSSOIR_TEST_PROGRAM
 
 using namespace voussoir_test;
@@ -197,3 +199,5 @@ TEST_SUITE("program/strength") {
 }
 
 #endif
+
+}  // namespace program_strength_test
