@@ -10,6 +10,7 @@
 #include <mutex>
 #include <numbers>
 #include <thread>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/memory.hpp>
 #include <voussoir/core/parallel.hpp>
 #include <voussoir/core/units.hpp>
@@ -21,6 +22,7 @@
 #include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "mapped_rock.hpp"
+#include "openings.hpp"
 #include "plausibility.hpp"
 #include "spatial_analysis.hpp"
 #include "survey.hpp"
@@ -37,13 +39,6 @@ std::string number(double value, const char* format = "%.3g") {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-Domain<2> domain_of(const Input& input) {
-  Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
-                                   input.model.below_invert);
-  domain.site_origin = Vec2(input.model.origin[0], input.model.origin[1]);
-  return domain;
 }
 
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
@@ -82,8 +77,10 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   for (const LiningInput* const made : linings) {
     if (run.tunnel.first_lining_node() < 0) break;
     const LiningInput& lining = *made;
+    if (!is_modelled(input, lining.opening)) continue;
+    const SimplePolygon outline = outline_of(outline_input(input, lining.opening));
     const double node_spacing =
-        run.opening.perimeter() / lining_nodes(input, lining, mass, run.opening, lining.thickness);
+        outline.perimeter() / lining_nodes(input, lining, mass, lining.thickness);
     const double joint_spacing = radial_spacing(mass, Vec2::Zero(), input.tunnel.half_width(),
                                                 2 * input.tunnel.half_width());
     if (node_spacing > joint_spacing)
@@ -97,7 +94,7 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
            number(coarsest_moment_spacing) + " L = " + number(coarsest_moment_spacing * length) +
            " m, L = (4 E I / kn)^(1/4): moments under a block may come out too small; "
            "take " +
-           number(node_count_for(run.opening.perimeter(), length, coarsest_moment_spacing)) +
+           number(node_count_for(outline.perimeter(), length, coarsest_moment_spacing)) +
            " nodes or more");
   }
   return warnings;
@@ -105,16 +102,15 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
 
 }  // namespace
 
-SimplePolygon opening_of(const Input& input) {
-  const TunnelInput& t = input.tunnel;
-  switch (t.shape) {
+SimplePolygon outline_of(const OutlineInput& outline) {
+  switch (outline.shape) {
     case TunnelShape::circle:
-      return circular_opening(t.diameter, t.facets);
+      return circular_opening(outline.diameter, outline.facets);
     case TunnelShape::horseshoe:
-      return horseshoe_opening(t.width, t.wall_height, t.facets);
+      return horseshoe_opening(outline.width, outline.wall_height, outline.facets);
     case TunnelShape::polygon: {
       std::vector<Vec2> vertices;
-      for (const Point& p : t.vertices) vertices.emplace_back(p[0], p[1]);
+      for (const Point& p : outline.vertices) vertices.emplace_back(p[0], p[1]);
       return SimplePolygon(std::move(vertices));
     }
   }
@@ -122,14 +118,13 @@ SimplePolygon opening_of(const Input& input) {
 }
 
 GeneratedRock rock_of(const Input& input, const Progress& progress) {
-  const Domain<2> domain = domain_of(input);
+  const Domain<2> domain = section_domain(input);
   std::vector<JointSet> sets;
   std::vector<int> index;  // of a random set among those of the input
-  const double trend = input.tunnel.trend.value_or(0);
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     const JointSetInput& s = input.joint_sets[k];
     if (!s.is_random()) continue;
-    const auto shown = section_set(s, trend);
+    const auto shown = section_set(s, input.tunnel);
     if (!shown) continue;  // it runs along the section, and the run says so
     sets.push_back(*shown);
     index.push_back(static_cast<int>(k));
@@ -161,9 +156,13 @@ GeneratedRock rock_of(const Input& input, const Progress& progress) {
   for (const Joint& joint : rock.mass.joints) set_of.push_back(joint.set);
   add_random_sources(input, set_of.size() - random.size(), set_of, rock.mass.slicing, rock.joints,
                      rock.warnings);
+  if (const double acts = elementary::cosine(input.tunnel.plunge); acts < 0.99)
+    rock.warnings.push_back("the tunnel plunges: a section takes gravity whole, of which " +
+                            number(100 * acts) +
+                            " % act in its plane; model.dimension = 3 has it as it is");
   for (const JointSetInput& set : input.joint_sets)
-    if (std::string text = section_text(set, trend); !text.empty())
-      (section_set(set, trend) ? rock.in_section : rock.warnings).push_back(std::move(text));
+    if (std::string text = section_text(set, input.tunnel); !text.empty())
+      (section_set(set, input.tunnel) ? rock.in_section : rock.warnings).push_back(std::move(text));
   return rock;
 }
 
@@ -203,23 +202,35 @@ ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& 
           rock.in_section};
 }
 
+namespace {
+
+template <int Dim, class Bars>
+void check_ends(const Input& input, std::size_t pattern, const Bars& bars,
+                const Domain<Dim>& domain) {
+  const BoltsInput& bolts = *input.bolt_patterns()[pattern];
+  for (const auto& bar : bars)
+    for (const Vec<Dim>& end : {bar.start, bar.end})
+      if ((end.array() < domain.low.array()).any() || (end.array() > domain.high.array()).any())
+        throw InvalidInput(
+            input.bolts_key(pattern) +
+            (bolts.bars.empty() ? ".length = " + number(bolts.length) + " m" : ".bars") +
+            ": a bolt would end at " + text_of<Dim>(end) + " m, outside the rock" +
+            unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
+            "\n   = accepted: bolts that end within " + text_of<Dim>(domain.low) + " and " +
+            text_of<Dim>(domain.high) + " m");
+}
+
+}  // namespace
+
 void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
-  // Along the tunnel the rows lie inside; the section says the rest.
-  const Domain<2> domain = domain_of(input);
-  const SimplePolygon opening = opening_of(input);
   const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
   const auto check = [&](std::size_t k, const BoltSpacing& spacing) {
-    for (const Segment& bar : bars_of_pattern(*patterns[k], spacing, opening))
-      for (const Vec2& end : {bar.start, bar.end})
-        if ((end.array() < domain.low.array()).any() || (end.array() > domain.high.array()).any())
-          throw InvalidInput(input.bolts_key(k) +
-                             (patterns[k]->bars.empty()
-                                  ? ".length = " + number(patterns[k]->length) + " m"
-                                  : ".bars") +
-                             ": a bolt would end at " + text_of<2>(end) + " m, outside the rock" +
-                             unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
-                             "\n   = accepted: bolts that end within " + text_of<2>(domain.low) +
-                             " and " + text_of<2>(domain.high) + " m");
+    const BoltsInput& bolts = *patterns[k];
+    // Along the tunnel the rows lie inside; the section says the rest.
+    if (bolts.opening == 0 || (!input.is_spatial() && is_modelled(input, bolts.opening)))
+      check_ends<2>(input, k, bars_of_pattern(input, bolts, spacing), section_domain(input));
+    else if (input.is_spatial())
+      check_ends<3>(input, k, rows_of_pattern(input, bolts, spacing), spatial_domain(input));
   };
   for (const auto& spacing : spacings)
     if (spacing && input.bolts) check(0, *spacing);
@@ -280,21 +291,40 @@ RunResult computed_run(const Input& input, const Report& report) {
   const SupportChoice supports = supports_of(input);
   // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
   const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  run.built = construct(run.tunnel,
-                        construction_of(input, run.tunnel, !input.has_rounds, run.opening, supports,
-                                        linear, RangeSought::all),
-                        report);
+  run.built = construct(
+      run.tunnel,
+      construction_of(input, run.tunnel, !input.has_rounds, supports, linear, RangeSought::all),
+      report);
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
   for (const LiningInput* lining : input.linings())
     if (!lining->nodes && lining->tensile_bond > 0)
-      run.bonded_nodes = std::max(run.bonded_nodes, lining_nodes(input, *lining, run.tunnel.mass(),
-                                                                 run.opening, lining->thickness));
+      run.bonded_nodes = std::max(
+          run.bonded_nodes, lining_nodes(input, *lining, run.tunnel.mass(), lining->thickness));
   run.warnings = warnings_of(input, run);
   return run;
 }
 
 }  // namespace
+
+std::vector<OpeningConvergence> other_convergences(const Input& input, const Tunnel& tunnel) {
+  std::vector<OpeningConvergence> found;
+  for (std::size_t k = 1; k <= input.openings.size(); ++k)
+    if (is_modelled(input, k))
+      found.push_back({opening_name(input, k), convergence(tunnel, opening_in_section(input, k))});
+  return found;
+}
+
+std::vector<OpeningConvergence> other_convergences(const Input& input,
+                                                   const SpatialTunnel& tunnel) {
+  std::vector<OpeningConvergence> found;
+  for (std::size_t k = 1; k <= input.openings.size(); ++k) {
+    const SimplePolygon section = outline_of(outline_input(input, k));
+    found.push_back(
+        {opening_name(input, k), convergence(tunnel, opening_in_space(input, k, section))});
+  }
+  return found;
+}
 
 RunResult run_tunnel(const Input& input, const Report& report) {
   return naming_unusual_values(input, [&] { return computed_run(input, report); });
@@ -325,7 +355,7 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
     result.reason = built.last().reason;
     result.demand = support_demand(tunnel);
     if constexpr (std::is_same_v<decltype(tunnel), SpatialTunnel>) {
-      result.convergence = middle_convergence(input, tunnel, rock.opening);
+      result.convergence = middle_convergence(input, tunnel);
       result.demand = per_metre(input, result.demand);
       result.fallen /= input.round_count() * input.stretch();
       if (result.fallen > 0 && !built.rockfall_range())
@@ -344,11 +374,11 @@ TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
   const LinearSettings linear{.memory_limit = memory_of_a_case};
   try {
     if (const auto* section = std::get_if<Tunnel>(&rock.tunnel))
-      compute(*section, construction_of(input, *section, !input.has_rounds, rock.opening, supports,
-                                        linear, RangeSought::until_marginal));
+      compute(*section, construction_of(input, *section, !input.has_rounds, supports, linear,
+                                        RangeSought::until_marginal));
     else
       compute(std::get<SpatialTunnel>(rock.tunnel),
-              construction_of(input, rock.opening, supports, linear, RangeSought::until_marginal));
+              construction_of(input, supports, linear, RangeSought::until_marginal));
   } catch (const NumericalFault& fault) {
     result.failed = true;
     result.reason = fault.what();

@@ -81,8 +81,18 @@ using GeneratedRock = GeneratedRockIn<Planar>;
 [[nodiscard]] SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report);
 
 /// Of the middle third of a tunnel that has been driven, 3-D [m].
-[[nodiscard]] Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel,
-                                             const SimplePolygon& section);
+[[nodiscard]] Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel);
+
+/// Of an opening besides the tunnel.
+struct OpeningConvergence {
+  std::string name;
+  Convergence convergence;  ///< [m]; 3-D: of its whole length
+};
+/// Of those that the model has, in the order of the file.
+[[nodiscard]] std::vector<OpeningConvergence> other_convergences(const Input& input,
+                                                                 const Tunnel& tunnel);
+[[nodiscard]] std::vector<OpeningConvergence> other_convergences(const Input& input,
+                                                                 const SpatialTunnel& tunnel);
 
 /// The rock of an input under its in-situ stress, nothing moved: the start of every tunnel that
 /// differs in its supports only. A section that is taken out at once is out.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -19,11 +20,13 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/rockmass/statistics.hpp>
+#include <voussoir/tunnel/construction_checks.hpp>
 
 #include "boundary.hpp"
 #include "construction_plan.hpp"
 #include "joint_laws.hpp"
 #include "mapped_rock.hpp"
+#include "openings.hpp"
 #include "output_parts.hpp"
 #include "plausibility.hpp"
 #include "spatial_analysis.hpp"
@@ -39,19 +42,24 @@ std::string metres(double value) { return significant_text(value, 4) + " m"; }
 /// @return  how many, and joints that they cross
 std::pair<int, int> install_bolts(Tunnel& tunnel, const Input& input) {
   std::pair<int, int> made{0, 0};
-  for (const BoltsInput* pattern : input.bolt_patterns())
-    for (const Segment& bar : bars_of_pattern(*pattern, pattern->spacing, opening_of(input))) {
+  for (const BoltsInput* pattern : input.bolt_patterns()) {
+    if (!is_modelled(input, pattern->opening)) continue;
+    for (const Segment& bar : bars_of_pattern(input, *pattern, pattern->spacing)) {
       made.second +=
           tunnel.install_bolt(bar, bolt_of(*pattern), pattern->out_of_plane, anchors_of(*pattern));
       ++made.first;
     }
+  }
   return made;
 }
 
 /// With all taken out that the rounds take out.
 Tunnel whole_section(const Input& input, const Tunnel& in_situ) {
   Tunnel whole = in_situ;
-  if (input.has_rounds) whole.excavate(opening_of(input), input.blocks.min_wall_area);
+  if (!input.has_rounds) return whole;
+  for (std::size_t k = 0; k <= input.openings.size(); ++k)
+    if (is_modelled(input, k))
+      whole.excavate(opening_in_section(input, k), input.blocks.min_wall_area);
   return whole;
 }
 
@@ -65,12 +73,44 @@ std::string rock_line(const Solver& tunnel, const char* unit, double seconds) {
          fixed_text(seconds, 2) + " s\n";
 }
 
+std::string shape_text(const OutlineInput& outline) {
+  const char* const shapes[] = {"circle", "horseshoe", "outline"};
+  return std::string(shapes[static_cast<int>(outline.shape)]) + " " +
+         metres(2 * outline.half_width()) + " wide, " + metres(outline.crown() - outline.invert()) +
+         " high";
+}
+
+std::string degrees(double angle) {
+  return significant_text(angle * 180 / std::numbers::pi, 3) + " deg";
+}
+
+std::string opening_lines(const Input& input) {
+  std::string out;
+  for (std::size_t k = 1; k <= input.openings.size(); ++k) {
+    const OpeningInput& opening = input.openings[k - 1];
+    out += "opening  " + opening.name + ": " + shape_text(opening) + ", at " +
+           text_of<2>(centre_in_section(input, k)) + " m";
+    if (!is_modelled(input, k)) {
+      out += ": turns away from the tunnel, and is not in the section";
+    } else if (input.is_spatial()) {
+      const Drive drive = drive_of(input, k);
+      if (opening.turn != 0) out += ", turned by " + degrees(opening.turn);
+      if (opening.plunge) out += ", plunging " + degrees(*opening.plunge);
+      out += ", " + metres(drive.length()) + " along its axis from " +
+             metres(drive.from + (opening.is_along_tunnel(input.tunnel) ? opening.place : 0)) +
+             ", in " + counted(static_cast<std::size_t>(drive.count), "round");
+    }
+    out += "\n";
+  }
+  return out;
+}
+
 std::string tunnel_line(const Input& input) {
   const TunnelInput& t = input.tunnel;
-  const char* const shapes[] = {"circle", "horseshoe", "outline"};
-  std::string text = std::string("tunnel   ") + shapes[static_cast<int>(t.shape)] + " " +
-                     metres(2 * t.half_width()) + " wide, " + metres(t.crown() - t.invert()) +
-                     " high, " + metres(t.cover) + " under the surface of the model\n";
+  std::string text =
+      "tunnel   " + shape_text(t) + ", " + metres(t.cover) + " under the surface of the model";
+  if (t.plunge != 0) text += ", plunging " + degrees(t.plunge);
+  text += "\n";
   text += "model    " + metres(input.model.width) + " wide, " +
           metres(input.domain_top() - input.domain_bottom()) + " high";
   if (input.is_spatial()) {
@@ -95,15 +135,20 @@ std::string stress_line(const Input& input) {
 
 std::string stage_plan(const Input& input) {
   std::string out;
-  const double area = opening_of(input).area();
+  std::vector<double> taken(input.openings.size() + 1, 0.0);  // of the area of each opening
   for (const StageInput& stage : input.stages) {
     out += "stage    " + stage.name + ": ";
     std::vector<std::string> does;
     if (stage.part) {
-      const double part = outline_of_part(opening_of(input), *stage.part)->area();
+      const double area = outline_of(outline_input(input, stage.opening)).area();
+      const double part =
+          stage.takes_rest ? area - taken[stage.opening] : outline_of_round(input, stage)->area();
+      taken[stage.opening] += part;
       does.push_back("excavates " + significant_text(part, 3) + " m2" +
-                     (part < area * (1 - 1e-9) ? " of " + significant_text(area, 3) : ""));
+                     (part < area * (1 - 1e-9) ? " of " + significant_text(area, 3) : "") +
+                     (stage.opening > 0 ? " of the " + opening_name(input, stage.opening) : ""));
     }
+    if (!is_modelled(input, stage.opening)) does.emplace_back("not in the section");
     const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
     for (const std::size_t k : stage.bolts)
       does.push_back("installs " +
@@ -131,14 +176,17 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   if (input.bolts) check_bolts(input, {input.bolts->spacing});
   CheckedModel model{excavated_rock(input, false, report)};
   if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
+    check_construction(construction_of(input, *section, !input.has_rounds, supports_of(input), {},
+                                       RangeSought::none),
+                       section->mass());
     Tunnel whole = whole_section(input, *section);
     std::tie(model.bolts, model.joints_crossed) = install_bolts(whole, input);
     model.section = std::move(whole);
   } else {
+    check_construction(construction_of(input, supports_of(input), {}, RangeSought::none),
+                       std::get<SpatialTunnel>(model.rock.tunnel).mass());
     for (const BoltsInput* pattern : input.bolt_patterns())
-      model.bolts += static_cast<int>(bars_of_pattern(input, *pattern, pattern->spacing,
-                                                      driven_opening(input, model.rock.opening))
-                                          .size());
+      model.bolts += static_cast<int>(rows_of_pattern(input, *pattern, pattern->spacing).size());
   }
   model.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   model.warnings = model.rock.warnings;
@@ -149,8 +197,42 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   return model;
 }
 
+ExpectedCost expected_cost(int dimension, std::size_t blocks) {
+  const auto n = static_cast<double>(blocks);
+  if (dimension == 2) return {1e7 + 3100 * n, 8e-6 * n, 1.3e-3 * n};
+  return {1.5e7 + 9000 * n, 4e-5 * n, 1.7e-2 * n};
+}
+
+namespace {
+
+std::size_t block_count(const CheckedModel& model) {
+  return std::visit([](const auto& tunnel) { return tunnel.mass().bodies.size(); },
+                    model.rock.tunnel);
+}
+
+/// Steps at whose end the rock comes to rest.
+std::size_t stage_count(const Input& input) {
+  if (!input.is_spatial() || !input.tunnel.round_length) return input.stages.size();
+  return static_cast<std::size_t>(advance_count(input));
+}
+
+std::string cost_line(const Input& input, const CheckedModel& model) {
+  const ExpectedCost cost = expected_cost(input.model.dimension, block_count(model));
+  const auto seconds = [](double value) {
+    return significant_text(std::max(value, 0.01), 1) + " s";
+  };
+  const std::size_t stages = stage_count(input);
+  return "expected some " + significant_text(1e-6 * cost.memory, 1) + " MB; " +
+         seconds(static_cast<double>(stages) * cost.standing_stage) + " for " +
+         counted(stages, "stage") + " while all rock stands, " + seconds(cost.falling_stage) +
+         " for one in which rock comes off\n";
+}
+
+}  // namespace
+
 std::string check_text(const Input& input, const CheckedModel& model) {
-  std::string out = "models   " + composition_of(input) + "\n" + tunnel_line(input);
+  std::string out =
+      "models   " + composition_of(input) + "\n" + tunnel_line(input) + opening_lines(input);
   if (!input.tunnel.drawn.empty()) out += "outline  " + input.tunnel.drawn + "\n";
   out += survey_lines(input);
   if (!model.rock.joints_read.empty()) out += "traces   " + model.rock.joints_read + "\n";
@@ -170,7 +252,7 @@ std::string check_text(const Input& input, const CheckedModel& model) {
                                 counted(static_cast<std::size_t>(model.joints_crossed), "joint")
                           : " in all rows") +
            "\n";
-  out += stage_plan(input);
+  out += stage_plan(input) + cost_line(input, model);
   for (const std::string& warning : model.warnings) out += "warning  " + warning + "\n";
   return out + "checked  the file can be run\n";
 }
@@ -209,11 +291,17 @@ std::string check_json(const Input& input, const CheckedModel& model) {
                         {"largest_block_" + measure, sizes.largest}};
       },
       model.rock.tunnel);
+  const ExpectedCost cost = expected_cost(input.model.dimension, block_count(model));
+  json["expected"] = {{"memory_MB", 1e-6 * cost.memory},
+                      {"stages", stage_count(input)},
+                      {"time_s_of_a_stage_that_stands", cost.standing_stage},
+                      {"time_s_of_a_stage_with_rockfall", cost.falling_stage}};
   if (model.section) json["joints_crossed_by_bolts"] = model.joints_crossed;
   if (input.survey) json["survey"] = survey_json(input);
   for (const StageInput& stage : input.stages)
     json["stages"].push_back({{"name", stage.name},
                               {"wall_traction", stage.wall_traction},
+                              {"opening", opening_name(input, stage.opening)},
                               {"rounds_behind_face", stage.behind},
                               {"duration_d", stage.duration / 86400}});
   return json.dump(2) + "\n";
@@ -222,7 +310,6 @@ std::string check_json(const Input& input, const CheckedModel& model) {
 std::string check_svg(const Input& input, const CheckedModel& model) {
   const std::string title = input.title.empty() ? "Tunnel in jointed rock" : input.title;
   const std::string line = "The rock as it is before anything moves: no verdict, no forces.";
-  const SimplePolygon outline = opening_of(input);
   if (model.section) {
     BlocksPicture picture =
         picture_of(state_of(*model.section), model.section->mass(), bars_of(*model.section), 0.0);
@@ -242,7 +329,11 @@ std::string check_svg(const Input& input, const CheckedModel& model) {
   for (const JointSetInput& set : input.joint_sets) picture.set_names.push_back(set.name);
   if (!input.has_rounds) return draw_mass_picture(tunnel.mass(), picture);
   const double smallest = input.blocks.min_wall_area * std::sqrt(input.blocks.min_wall_area);
-  return draw_mass_picture(carve(tunnel.mass(), driven_opening(input, outline), smallest), picture);
+  RockMass<Spatial> mass = tunnel.mass();
+  for (std::size_t k = 0; k <= input.openings.size(); ++k)
+    mass = carve(std::move(mass), opening_in_space(input, k, outline_of(outline_input(input, k))),
+                 smallest);
+  return draw_mass_picture(mass, picture);
 }
 
 }  // namespace voussoir::program

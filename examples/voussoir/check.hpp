@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,15 @@ struct CheckedModel {
   double seconds = 0;                  ///< that it took
   std::vector<std::string> warnings = {};
 };
+
+/// What a run is expected to take, by what others took (docs/performance.md): one processor at
+/// 2.6 GHz of an optimised build, within a factor of two or three.
+struct ExpectedCost {
+  double memory;          ///< [bytes]
+  double standing_stage;  ///< a stage in which all rock stands [s]
+  double falling_stage;   ///< one in which some comes off, and is followed in motion [s]
+};
+[[nodiscard]] ExpectedCost expected_cost(int dimension, std::size_t blocks);
 
 /// @throws as `run_tunnel`, but for what only a search finds
 /// @pre  the input has a tunnel

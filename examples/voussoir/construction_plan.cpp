@@ -22,27 +22,43 @@ BoltPattern pattern_of(const BoltsInput& bolts, const BoltSpacing& spacing) {
           .to = bolts.arc.to};
 }
 
-std::vector<Segment> bars_of_pattern(const BoltsInput& bolts, const BoltSpacing& spacing,
-                                     const SimplePolygon& opening) {
-  if (bolts.bars.empty()) return bolt_bars(pattern_of(bolts, spacing), opening);
+namespace {
+
+/// About the centre of the opening.
+std::vector<Segment> local_bars(const Input& input, const BoltsInput& bolts,
+                                const BoltSpacing& spacing) {
+  if (bolts.bars.empty())
+    return bolt_bars(pattern_of(bolts, spacing), outline_of(outline_input(input, bolts.opening)));
   std::vector<Segment> bars;
   for (const auto& [head, tip] : bolts.bars)
     bars.push_back({Vec2(head[0], head[1]), Vec2(tip[0], tip[1])});
   return bars;
 }
 
-std::vector<SpatialLine> bars_of_pattern(const Input& input, const BoltsInput& bolts,
-                                         const BoltSpacing& spacing,
-                                         const PrismaticOpening& opening) {
-  const double driven = input.round_count() * input.stretch();
+}  // namespace
+
+std::vector<Segment> bars_of_pattern(const Input& input, const BoltsInput& bolts,
+                                     const BoltSpacing& spacing) {
+  std::vector<Segment> bars = local_bars(input, bolts, spacing);
+  const Vec2 centre = centre_in_section(input, bolts.opening);
+  if (bolts.opening != 0)
+    for (Segment& bar : bars) bar = {bar.start + centre, bar.end + centre};
+  return bars;
+}
+
+std::vector<SpatialLine> rows_of_pattern(const Input& input, const BoltsInput& bolts,
+                                         const BoltSpacing& spacing) {
+  const PrismaticOpening opening =
+      opening_in_space(input, bolts.opening, outline_of(outline_input(input, bolts.opening)));
+  const Drive drive = drive_of(input, bolts.opening);
   if (bolts.bars.empty())
-    return bolt_bars(pattern_of(bolts, spacing), opening, bolts.out_of_plane, 0, driven);
+    return bolt_bars(pattern_of(bolts, spacing), opening, bolts.out_of_plane, drive.from, drive.to);
   std::vector<SpatialLine> bars;
-  const auto rows = static_cast<int>(std::floor(driven / bolts.out_of_plane + 1e-9));
+  const auto rows = static_cast<int>(std::floor(drive.length() / bolts.out_of_plane + 1e-9));
   for (int k = 0; k < rows; ++k)
-    for (const Segment& bar : bars_of_pattern(bolts, spacing, opening.section())) {
-      const double y = (k + 0.5) * bolts.out_of_plane;
-      bars.push_back({opening.in_space(bar.start, y), opening.in_space(bar.end, y)});
+    for (const Segment& bar : local_bars(input, bolts, spacing)) {
+      const double along = drive.from + (k + 0.5) * bolts.out_of_plane;
+      bars.push_back({opening.in_space(bar.start, along), opening.in_space(bar.end, along)});
     }
   return bars;
 }
@@ -77,14 +93,13 @@ std::optional<BoltSpacing> spacing_of(const BoltsInput& pattern, std::size_t num
 std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
                                                 const std::vector<Segment>& bars) {
   return patterns_of(input, bars, [&](const BoltsInput& pattern) {
-    return bars_of_pattern(pattern, pattern.spacing, opening_of(input));
+    return bars_of_pattern(input, pattern, pattern.spacing);
   });
 }
 std::vector<const BoltsInput*> patterns_of_bars(const Input& input,
                                                 const std::vector<SpatialLine>& bars) {
   return patterns_of(input, bars, [&](const BoltsInput& pattern) {
-    return bars_of_pattern(input, pattern, pattern.spacing,
-                           driven_opening(input, opening_of(input)));
+    return rows_of_pattern(input, pattern, pattern.spacing);
   });
 }
 
@@ -103,13 +118,16 @@ std::vector<const LiningInput*> linings_as_installed(const Input& input,
 }
 
 int lining_nodes(const Input& input, const LiningInput& lining, const RockMass<Planar>& mass,
-                 const SimplePolygon& opening, double thickness) {
+                 double thickness) {
   if (lining.nodes) return *lining.nodes;
-  const double half_width = input.tunnel.half_width();
-  const double joint_spacing = radial_spacing(mass, Vec2::Zero(), half_width, 2 * half_width);
+  const OutlineInput& outline = outline_input(input, lining.opening);
+  const SimplePolygon opening = outline_of(outline);
+  const double half_width = outline.half_width();
+  const double joint_spacing =
+      radial_spacing(mass, centre_in_section(input, lining.opening), half_width, 2 * half_width);
   const double needed = std::ceil(opening.perimeter() / joint_spacing);
   const int count = static_cast<int>(
-      std::clamp(needed, static_cast<double>(std::max(input.tunnel.facets, 8)), 2000.0));
+      std::clamp(needed, static_cast<double>(std::max(outline.facets, 8)), 2000.0));
   if (!(lining.tensile_bond > 0)) return count;
   return std::max(
       count, *with_chosen_nodes<2>({}, opening, section_of(lining, thickness), interface_of(lining))
@@ -118,14 +136,7 @@ int lining_nodes(const Input& input, const LiningInput& lining, const RockMass<P
 
 std::optional<int> rib_nodes(const Input& input, const LiningInput& lining) {
   if (lining.nodes || lining.tensile_bond > 0) return lining.nodes;
-  return std::max(input.tunnel.facets, 8);
-}
-
-StripsOfStretch strips_of(const Input& input) {
-  const double stretch = input.stretch();
-  const double asked = input.lining->rib_spacing.value_or(std::min(1.0, stretch));
-  const int count = std::max(1, static_cast<int>(std::floor(stretch / asked + 1e-9)));
-  return {count, stretch / count};
+  return std::max(outline_input(input, lining.opening).facets, 8);
 }
 
 LiningRing ring_of(const LiningInput& lining, std::optional<int> nodes) {
@@ -149,36 +160,39 @@ std::optional<FootBearing> feet_of(const LiningInput& lining) {
       .friction_angle = feet->friction_angle});
 }
 
-PrismaticOpening driven_opening(const Input& input, const SimplePolygon& section) {
-  const double end = input.round_count() * input.stretch();
-  return PrismaticOpening(section, -PrismaticOpening::endless,
-                          end < input.model.length * (1 - 1e-9) ? end : PrismaticOpening::endless);
+PrismaticOpening driven_tunnel(const Input& input) {
+  return opening_in_space(input, 0, opening_of(input));
 }
 
 Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, bool is_excavated,
-                                     const SimplePolygon& opening, const SupportChoice& supports,
-                                     const LinearSettings& linear, RangeSought range) {
+                                     const SupportChoice& supports, const LinearSettings& linear,
+                                     RangeSought range) {
   Construction<Tunnel> construction;
   construction.method = method_of(input, linear, range);
+  const SimplePolygon opening = opening_of(input);
   construction.acceptance = acceptance_of(input, opening);
+  if (!input.openings.empty()) construction.measured = opening;
   for (const StageInput& stage : input.stages) {
+    if (!is_modelled(input, stage.opening)) continue;
     auto& made = construction.add_stage(stage.name, stage.wall_traction);
     made.duration = stage.duration;
     if (stage.part && !is_excavated)
-      made.excavate(*outline_of_part(opening, *stage.part), input.blocks.min_wall_area);
+      made.excavate(in_section(input, stage.opening, *outline_of_round(input, stage)),
+                    input.blocks.min_wall_area);
     const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
     for (const std::size_t k : stage.bolts)
       if (const auto spacing = spacing_of(*patterns[k], k, supports))
-        made.install_bolts({bars_of_pattern(*patterns[k], *spacing, opening), bolt_of(*patterns[k]),
+        made.install_bolts({bars_of_pattern(input, *patterns[k], *spacing), bolt_of(*patterns[k]),
                             patterns[k]->out_of_plane, anchors_of(*patterns[k])});
     for (const std::size_t k : stage.linings) {
       const LiningInput& asked = *input.linings()[k];
       const double thickness = thickness_of(input, asked, supports);
       if (!(thickness > 0)) continue;
-      const int nodes = lining_nodes(input, asked, tunnel.mass(), opening, thickness);
+      const int nodes = lining_nodes(input, asked, tunnel.mass(), thickness);
       LiningInstallation<Tunnel> lining{
           ring_of(asked, nodes), {section_of(asked, thickness)}, interface_of(asked)};
-      if (!is_excavated) lining.opening = opening;
+      if (asked.opening != 0) lining.layout.centre = centre_in_section(input, asked.opening);
+      if (!is_excavated) lining.opening = opening_in_section(input, asked.opening);
       lining.feet = feet_of(asked);
       made.install_lining(std::move(lining));
     }
@@ -188,48 +202,48 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, b
 
 namespace {
 
-/// What one entry of the file does in one stretch of the tunnel.
+/// What one entry of the file does in one stretch of its opening.
 class StretchWork {
  public:
-  StretchWork(const Input& input, const SimplePolygon& section, const SupportChoice& supports)
-      : input_(input),
-        whole_(driven_opening(input, section)),
-        supports_(supports),
-        patterns_(input.bolt_patterns()) {
+  StretchWork(const Input& input, const SupportChoice& supports)
+      : input_(input), supports_(supports), patterns_(input.bolt_patterns()) {
     for (std::size_t k = 0; k < patterns_.size(); ++k) {
       const auto spacing = spacing_of(*patterns_[k], k, supports);
-      bars_.push_back(spacing ? bars_of_pattern(input, *patterns_[k], *spacing, whole_)
+      bars_.push_back(spacing ? rows_of_pattern(input, *patterns_[k], *spacing)
                               : std::vector<SpatialLine>{});
     }
   }
 
   /// @param k  number of the stretch, from 0
   void add(const StageInput& entry, int k, ConstructionStage<SpatialTunnel>& stage) const {
-    const int last = input_.round_count() - 1;
-    const double from = k * input_.stretch(), to = (k + 1) * input_.stretch();
+    const Drive drive = drive_of(input_, entry.opening);
+    const double from = drive.begin_of(k), to = drive.end_of(k);
+    const PrismaticOpening whole =
+        opening_in_space(input_, entry.opening, outline_of(outline_input(input_, entry.opening)));
     if (entry.part)
-      stage.excavate(PrismaticOpening(*outline_of_part(whole_.section(), *entry.part),
-                                      k == 0 ? whole_.from() : from, k == last ? whole_.to() : to),
+      stage.excavate(stretch_in_space(input_, entry.opening, *outline_of_round(input_, entry), k),
                      input_.blocks.min_wall_area * std::sqrt(input_.blocks.min_wall_area));
     for (const std::size_t pattern : entry.bolts) {
       BoltInstallation<SpatialTunnel> bolts{
           {}, bolt_of(*patterns_[pattern]), 1, anchors_of(*patterns_[pattern])};
       for (const SpatialLine& bar : bars_[pattern]) {
-        const double y = whole_.along(bar.start);
-        if (y >= from && y < to) bolts.bars.push_back(bar);
+        const double along = whole.along(bar.start);
+        if (along >= from && along < to) bolts.bars.push_back(bar);
       }
       if (!bolts.bars.empty()) stage.install_bolts(std::move(bolts));
     }
     for (const std::size_t number : entry.linings) {
       const LiningInput& asked = *input_.linings()[number];
-      if (thickness_of(input_, asked, supports_) > 0) stage.install_lining(lining(asked, from, to));
+      if (thickness_of(input_, asked, supports_) > 0)
+        stage.install_lining(lining(asked, whole, from, to));
     }
   }
 
  private:
-  [[nodiscard]] LiningInstallation<SpatialTunnel> lining(const LiningInput& lining, double from,
+  [[nodiscard]] LiningInstallation<SpatialTunnel> lining(const LiningInput& lining,
+                                                         const PrismaticOpening& whole, double from,
                                                          double to) const {
-    const double width = strips_of(input_).width;
+    const double width = strips_of(input_, lining.opening).width;
     const double thickness = thickness_of(input_, lining, supports_);
     LiningInstallation<SpatialTunnel> made{{.ring = ring_of(lining, rib_nodes(input_, lining)),
                                             .spacing = width,
@@ -237,19 +251,18 @@ class StretchWork {
                                             .to = to},
                                            {strip_of(lining, thickness, width)},
                                            interface_of(lining)};
-    const SimplePolygon& section = whole_.section();
+    const SimplePolygon& section = whole.section();
     const int nodes = made.layout.ring.nodes.value_or(
         with_chosen_nodes<3>(made.layout.ring, section, made.sections.front(), made.interface_law,
                              width)
             .nodes.value_or(72));
     made.sections.push_back(strip_of(lining, thickness, section.perimeter() / nodes));
-    made.opening = whole_;
+    made.opening = whole;
     made.feet = feet_of(lining);
     return made;
   }
 
   const Input& input_;
-  PrismaticOpening whole_;
   SupportChoice supports_;
   std::vector<const BoltsInput*> patterns_;
   std::vector<std::vector<SpatialLine>> bars_;  ///< of each pattern
@@ -257,15 +270,15 @@ class StretchWork {
 
 }  // namespace
 
-Construction<SpatialTunnel> construction_of(const Input& input, const SimplePolygon& section,
-                                            const SupportChoice& supports,
+Construction<SpatialTunnel> construction_of(const Input& input, const SupportChoice& supports,
                                             const LinearSettings& linear, RangeSought range) {
   Construction<SpatialTunnel> construction;
   // Every round in which rock comes off would be followed five times, half a minute each.
   construction.method =
       method_of(input, linear, input.tunnel.round_length ? RangeSought::none : range);
-  construction.acceptance = acceptance_of(input, section);
-  const StretchWork work(input, section, supports);
+  construction.acceptance = acceptance_of(input, opening_of(input));
+  if (!input.openings.empty()) construction.measured = driven_tunnel(input);
+  const StretchWork work(input, supports);
   if (!input.tunnel.round_length) {
     for (const StageInput& entry : input.stages) {
       auto& stage = construction.add_stage(entry.name, entry.wall_traction);
@@ -274,15 +287,17 @@ Construction<SpatialTunnel> construction_of(const Input& input, const SimplePoly
     }
     return construction;
   }
-  int farthest = 0;
-  for (const StageInput& entry : input.stages) farthest = std::max(farthest, entry.behind);
   const int rounds = input.round_count();
-  for (int face = 0; face < rounds + farthest; ++face) {
+  const auto stretches = [&](const StageInput& entry) {
+    return drive_of(input, entry.opening).count;
+  };
+  const int advances = advance_count(input);
+  for (int face = 0; face < advances; ++face) {
     auto& stage = construction.add_stage(face < rounds ? "round " + std::to_string(face + 1)
                                                        : "behind the face " +
                                                              std::to_string(face - rounds + 1));
     for (const StageInput& entry : input.stages)
-      if (const int k = face - entry.behind; k >= 0 && k < rounds) {
+      if (const int k = face - entry.behind; k >= 0 && k < stretches(entry)) {
         work.add(entry, k, stage);
         stage.duration = std::max(stage.duration, entry.duration);  // they work side by side
       }

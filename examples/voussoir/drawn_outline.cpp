@@ -57,7 +57,7 @@ void read_drawing_unit(Section& s, double& unit) {
                          Need::optional);
 }
 
-std::string outline_fault(const std::vector<Point>& points) {
+std::string outline_fault(const std::vector<Point>& points, bool holds_centre) {
   BoostPolygon polygon;
   for (const Point& p : points) bg::append(polygon.outer(), BoostPoint(p[0], p[1]));
   bg::correct(polygon);
@@ -65,11 +65,11 @@ std::string outline_fault(const std::vector<Point>& points) {
   std::string message;
   (void)bg::is_valid(polygon, message);
   if (bg::is_valid(polygon, failure)) {
-    if (bg::covered_by(BoostPoint(0, 0), polygon)) return "";
+    if (!holds_centre || bg::covered_by(BoostPoint(0, 0), polygon)) return "";
     bg::model::box<BoostPoint> box;
     bg::envelope(polygon, box);
     const BoostPoint &low = box.min_corner(), &high = box.max_corner();
-    return "does not contain the tunnel centre (0, 0): it lies at x " + metres(low.x()) + " to " +
+    return "does not contain its centre (0, 0): it lies at x " + metres(low.x()) + " to " +
            metres(high.x()) + ", y " + metres(low.y()) + " to " + metres(high.y());
   }
   switch (failure) {
@@ -89,8 +89,8 @@ std::string outline_fault(const std::vector<Point>& points) {
   }
 }
 
-std::vector<Point> drawn_outline(Section& s, Input& input, const std::filesystem::path& file,
-                                 const std::string& layer, double unit) {
+std::vector<Point> drawn_outline(Section& s, std::string& layout, const std::filesystem::path& file,
+                                 const DrawnOutline& asked) {
   const auto refuse = [&](const std::string& why, const std::string& accepted) {
     s.complain("file", why, accepted);
     return std::vector<Point>{};
@@ -101,7 +101,9 @@ std::vector<Point> drawn_outline(Section& s, Input& input, const std::filesystem
     return refuse("is no drawing that is read", form + ": its name ends in .dxf");
   if (const std::string fault = open_regular(file, in); !fault.empty()) return refuse(fault, form);
   const std::string name = utf8_text(file);
-  const Vec2 origin(input.model.origin[0], input.model.origin[1]);
+  const std::string& layer = asked.layer;
+  const double unit = asked.unit;
+  const Vec2 origin(asked.centre[0], asked.centre[1]);
   std::vector<Point> points;
   try {
     DxfLimits limits;
@@ -110,9 +112,8 @@ std::vector<Point> drawn_outline(Section& s, Input& input, const std::filesystem
     const DxfFile drawing = read_dxf(in, name, origin, limits);
     for (const Vec2& p : outline_from_lines(lines_of(drawing, layer)))
       points.push_back({p.x(), p.y()});
-    input.tunnel.drawn =
-        name + ": " + std::to_string(points.size()) + " points, in " + drawing.unit;
-    for (const std::string& note : drawing.notes) input.tunnel.drawn += "; " + note;
+    layout = name + ": " + std::to_string(points.size()) + " points, in " + drawing.unit;
+    for (const std::string& note : drawing.notes) layout += "; " + note;
   } catch (const InvalidInput& fault) {
     return refuse(std::string("cannot be used: ") + fault.what(),
                   layer.empty() ? "a closed outline; where there is more in the drawing, its layer"
@@ -121,7 +122,8 @@ std::vector<Point> drawn_outline(Section& s, Input& input, const std::filesystem
   if (points.size() > 2000)
     return refuse("has an outline of " + std::to_string(points.size()) + " points",
                   "2000 or fewer");
-  if (std::string fault = outline_fault(points); !fault.empty()) {
+  if (std::string fault = outline_fault(points, asked.holds_centre); !fault.empty()) {
+    if (!asked.holds_centre) return refuse(fault, "a simple outline");
     double low = points[0][0], high = low, bottom = points[0][1], top = bottom;
     for (const Point& p : points) {
       low = std::min(low, p[0]);

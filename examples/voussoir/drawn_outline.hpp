@@ -20,15 +20,23 @@ namespace voussoir::program {
 /// @param unit  of the drawing [m]; 0: as it says itself
 void read_drawing_unit(Section& s, double& unit);
 
-/// The outline of the opening as it is drawn, relative to `model.origin`; empty where it is none,
-/// which is noted at the key `file`.
-/// @param layer  of the drawing; empty: all
-[[nodiscard]] std::vector<Point> drawn_outline(Section& s, Input& input,
-                                               const std::filesystem::path& file,
-                                               const std::string& layer, double unit);
+/// An outline in a drawing, and how it is to be read.
+struct DrawnOutline {
+  std::string layer;  ///< of the drawing; empty: all
+  double unit = 0;    ///< of the drawing [m]; 0: as it says itself
+  Point centre;       ///< on the site, to which its points are relative [m]
+  bool holds_centre;  ///< it must
+};
 
-/// What keeps points from being the outline of an opening about (0, 0), and where; empty if they
-/// are one.
-[[nodiscard]] std::string outline_fault(const std::vector<Point>& points);
+/// The points of an outline as it is drawn; empty where it is none, which is noted at the key
+/// `file`.
+/// @param layout  takes how it was read, in words
+[[nodiscard]] std::vector<Point> drawn_outline(Section& s, std::string& layout,
+                                               const std::filesystem::path& file,
+                                               const DrawnOutline& asked);
+
+/// What keeps points from being the outline of an opening, and where; empty if they are one.
+/// @param holds_centre  it must contain (0, 0)
+[[nodiscard]] std::string outline_fault(const std::vector<Point>& points, bool holds_centre = true);
 
 }  // namespace voussoir::program

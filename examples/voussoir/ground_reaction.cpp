@@ -34,6 +34,7 @@ Input bare(const Input& input, int steps) {
   made.lining.reset();
   made.further_linings.clear();
   made.has_rounds = false;
+  made.openings.clear();
   made.stages.clear();
   for (int k = 1; k <= steps; ++k) {
     StageInput& stage = made.stages.emplace_back();
@@ -75,6 +76,8 @@ GroundReaction ground_reaction(const Input& input, int steps, const Report& repo
   if (input.has_rounds)
     reaction.warnings.emplace_back(
         "the rock without support is taken out at once, not in the rounds of the file");
+  if (!input.openings.empty())
+    reaction.warnings.emplace_back("the rock without support has the tunnel alone in it");
   reaction.stress =
       alone.tunnel.in_situ().vertical(alone.tunnel.mass().domain.depth(zeros<Vec2>()));
   if (input.bolt_patterns().empty() && !input.lining) return reaction;
@@ -104,7 +107,7 @@ std::string grc_text(const GroundReaction& reaction) {
                "what ",
                percent(*reaction.equivalent)) +
            format_quantity(*reaction.equivalent * reaction.stress, dimension::pressure) +
-           " on the wall would\n";
+           " on the crown would\n";
   else if (!reaction.supported.empty())
     out +=
         "equal    no traction moves the bare crown as far as the supported one while all of "
@@ -127,6 +130,26 @@ std::string grc_csv(const GroundReaction& reaction) {
   rows("ground", reaction.ground);
   rows("supported", reaction.supported);
   return table.text();
+}
+
+std::string grc_json(const GroundReaction& reaction) {
+  const auto rows = [](const std::vector<ReactionPoint>& points) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const ReactionPoint& p : points)
+      list.push_back({{"stage", p.stage},
+                      {"wall_traction", p.traction},
+                      {"convergence", convergence_json(p.convergence)},
+                      {"verdict", word_of(p)},
+                      {"detached_area_m2", p.fallen}});
+    return list;
+  };
+  nlohmann::json json = {{"schema", 1},
+                         {"ground", rows(reaction.ground)},
+                         {"supported", rows(reaction.supported)},
+                         {"vertical_stress_at_centre_kPa", 1e-3 * reaction.stress},
+                         {"equivalent_wall_traction", number_json(reaction.equivalent)},
+                         {"warnings", reaction.warnings}};
+  return json.dump(2) + "\n";
 }
 
 std::string grc_svg(const Input& input, const GroundReaction& reaction) {
@@ -162,7 +185,7 @@ std::string grc_svg(const Input& input, const GroundReaction& reaction) {
     picture.header.lines.push_back(
         "Supports do what " +
         format_quantity(*reaction.equivalent * reaction.stress, dimension::pressure) +
-        " on the wall would.");
+        " on the crown would.");
   }
   return draw_curve_picture(picture);
 }
@@ -174,7 +197,7 @@ LongitudinalProfile longitudinal_profile(const Input& input, const Report& repor
   profile.fallen = run.fallen_measure();
   profile.warnings = run.rock_warnings;
   const double driven = input.round_count() * input.stretch();
-  const PrismaticOpening opening = driven_opening(input, run.opening);
+  const PrismaticOpening opening = driven_tunnel(input);
   // Twice a round, each over as much wall as lies between two.
   const double step = 0.5 * std::min(input.stretch(), driven / 6);
   const int count = std::max(1, static_cast<int>(std::floor(driven / step + 1e-9)));
@@ -206,6 +229,18 @@ std::string profile_csv(const LongitudinalProfile& profile) {
                   millimetres(p.convergence.right_springing),
                   millimetres(p.convergence.left_springing), millimetres(p.convergence.invert));
   return table.text();
+}
+
+std::string profile_json(const LongitudinalProfile& profile) {
+  nlohmann::json json = {{"schema", 1},
+                         {"verdict", to_string(profile.verdict, profile.fallen, false)},
+                         {"detached_volume_m3", profile.fallen},
+                         {"profile", nlohmann::json::array()},
+                         {"warnings", profile.warnings}};
+  for (const ProfilePoint& p : profile.points)
+    json["profile"].push_back(
+        {{"behind_face_m", p.behind_face}, {"convergence", convergence_json(p.convergence)}});
+  return json.dump(2) + "\n";
 }
 
 std::string profile_svg(const Input& input, const LongitudinalProfile& profile) {

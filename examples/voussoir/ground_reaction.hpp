@@ -50,9 +50,11 @@ struct LongitudinalProfile {
 [[nodiscard]] LongitudinalProfile longitudinal_profile(const Input& input, const Report& report);
 
 [[nodiscard]] std::string grc_text(const GroundReaction& reaction);
+[[nodiscard]] std::string grc_json(const GroundReaction& reaction);
 [[nodiscard]] std::string grc_csv(const GroundReaction& reaction);
 [[nodiscard]] std::string grc_svg(const Input& input, const GroundReaction& reaction);
 [[nodiscard]] std::string profile_text(const LongitudinalProfile& profile);
+[[nodiscard]] std::string profile_json(const LongitudinalProfile& profile);
 [[nodiscard]] std::string profile_csv(const LongitudinalProfile& profile);
 [[nodiscard]] std::string profile_svg(const Input& input, const LongitudinalProfile& profile);
 

@@ -15,6 +15,7 @@
 #include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "key_catalogue.hpp"
+#include "openings.hpp"
 #include "plausibility.hpp"
 #include "rock_input.hpp"
 #include "support_input.hpp"
@@ -85,6 +86,12 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   }
   file.table("model", [&](Section& s) { read_model(s, input); });
   file.table("tunnel", [&](Section& s) { read_tunnel(s, input, directory); });
+  file.tables("opening", [&](Section& s, std::size_t i) {
+    OpeningInput& opening = input.openings.emplace_back();
+    opening.name = "opening " + std::to_string(i + 1);
+    read_opening(s, input, opening, directory);
+    if (!is_modelled(input, i + 1)) input.unused.push_back(opening_key(i + 1));
+  });
   rock();
   file.table("stress", [&](Section& s) { read_stress(s, input); });
   file.table("boundary", [&](Section& s) { read_boundary(s, input.boundary); });
@@ -108,7 +115,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     support.table_or_tables("bolts", [&](Section& s, std::size_t k) {
       BoltsInput& pattern = k == 0 ? input.bolts.emplace() : input.further_bolts.emplace_back();
       pattern.name = "bolts " + std::to_string(k + 1);
-      read_bolts(s, pattern);
+      read_bolts(s, input, pattern);
     });
     input.lists_linings = support.has_list("lining");
     support.table_or_tables("lining", [&](Section& s, std::size_t k) {
@@ -127,7 +134,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
             R"([[round]] alone; a stage without excavation is one with excavate = "nothing")");
       StageInput& stage = input.stages.emplace_back();
       stage.name = std::string(table).append(" ").append(std::to_string(i + 1));
-      read_stage(s, input, stage, is_round);
+      read_stage(s, input, stage, is_round, directory);
       if (!is_round && i == 0) stage.part = SectionPart{};
     });
   refuse_loads_on_blocks(file);
@@ -137,7 +144,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
 
 }  // namespace
 
-double TunnelInput::half_width() const {
+double OutlineInput::half_width() const {
   if (shape == TunnelShape::circle) return diameter / 2;
   if (shape == TunnelShape::horseshoe) return width / 2;
   const auto [low, high] = std::minmax_element(
@@ -145,14 +152,14 @@ double TunnelInput::half_width() const {
   return vertices.empty() ? 0 : ((*high)[0] - (*low)[0]) / 2;
 }
 
-double TunnelInput::crown() const {
+double OutlineInput::crown() const {
   if (shape != TunnelShape::polygon) return half_width();
   double y = vertices.empty() ? 0 : vertices.front()[1];
   for (const Point& vertex : vertices) y = std::max(y, vertex[1]);
   return y;
 }
 
-double TunnelInput::invert() const {
+double OutlineInput::invert() const {
   if (shape == TunnelShape::circle) return -half_width();
   if (shape == TunnelShape::horseshoe) return -wall_height;
   double y = vertices.empty() ? 0 : vertices.front()[1];
@@ -161,6 +168,9 @@ double TunnelInput::invert() const {
 }
 
 bool names_a_file(std::string_view line) {
+  for (const std::string_view table : {"opening[", "round["})
+    if (line.starts_with(table) && line.substr(0, line.find(" = ")).ends_with("].file"))
+      return true;
   for (const std::string_view key :
        {"joints.file", "joints.orientations", "blocks.file", "tunnel.file"})
     if (line.starts_with(std::string(key).append(" = "))) return true;
@@ -169,9 +179,11 @@ bool names_a_file(std::string_view line) {
 
 int Input::round_count() const {
   if (!tunnel.round_length) return 1;
-  return tunnel.rounds.value_or(
-      std::max(1, static_cast<int>(std::floor(model.length / *tunnel.round_length * (1 + 1e-9)))));
+  return tunnel.rounds.value_or(std::max(
+      1, static_cast<int>(std::floor(tunnel_length() / *tunnel.round_length * (1 + 1e-9)))));
 }
+
+double Input::tunnel_length() const { return model.length / elementary::cosine(tunnel.plunge); }
 
 std::vector<const BoltsInput*> Input::bolt_patterns() const {
   std::vector<const BoltsInput*> patterns;
@@ -229,7 +241,7 @@ SizeEstimate estimate_spatial_size(const Input& input) {
   std::vector<Set> sets;
   for (const JointSetInput& set : input.joint_sets) {
     const double extent = std::min(mean_extent(set), across);
-    sets.push_back({p32_of(set, input.tunnel.trend.value_or(0)),
+    sets.push_back({p32_of(set, input.tunnel),
                     extent * std::min(set.strike_extent.value_or(extent), across),
                     upward_normal(set.plane)});
   }
@@ -263,7 +275,7 @@ SizeEstimate estimate_size(const Input& input) {
   };
   std::vector<Set> sets;
   for (const JointSetInput& set : input.joint_sets) {
-    const auto shown = section_set(set, input.tunnel.trend.value_or(0));
+    const auto shown = section_set(set, input.tunnel);
     if (!shown) continue;
     const double extent = std::min(shown->extent, std::max(input.model.width, height));
     const double frequency = shown->spacing > 0 ? 1 / shown->spacing : shown->intensity * extent;
@@ -309,10 +321,17 @@ Input read_input_text(std::string_view text, const std::string& name,
       input.content.push_back(set.name + " (surveyed) = " + shortest_text(set.plane.dip) + ", " +
                               shortest_text(set.plane.dip_direction) + ", " +
                               shortest_text(set.fisher.value_or(0)));
-  if (!input.tunnel.drawn.empty())
-    for (const Point& p : input.tunnel.vertices)
-      input.content.push_back("tunnel.file (a point) = " + shortest_text(p[0]) + ", " +
+  const auto add_points = [&](const std::string& key, const std::vector<Point>& points) {
+    for (const Point& p : points)
+      input.content.push_back(key + " (a point) = " + shortest_text(p[0]) + ", " +
                               shortest_text(p[1]));
+  };
+  for (std::size_t k = 0; k <= input.openings.size(); ++k)
+    if (const OutlineInput& outline = outline_input(input, k); !outline.drawn.empty())
+      add_points(opening_key(k) + ".file", outline.vertices);
+  for (std::size_t k = 0; k < input.stages.size(); ++k)
+    if (input.stages[k].is_drawn)
+      add_points("round[" + std::to_string(k) + "].file", input.stages[k].outline);
   return input;
 }
 

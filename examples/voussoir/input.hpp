@@ -56,28 +56,53 @@ struct ModelInput {
   Point origin = {0.0, 0.0};  ///< site coordinates of the tunnel centre, for files of joints [m]
 };
 
-/// [tunnel] The opening. The centre is that of the circle; of the roof's half circle for the
+/// The outline of an opening. Its centre is that of the circle; of the roof's half circle for the
 /// horseshoe (so the springing is at y = 0 and the floor at -wall_height); (0, 0) of the polygon.
-struct TunnelInput {
+struct OutlineInput {
   TunnelShape shape = TunnelShape::circle;
   double diameter = 0;          ///< circle [m], > 0
   double width = 0;             ///< horseshoe: between its walls, = diameter of its roof [m], > 0
   double wall_height = 0;       ///< horseshoe: floor to springing [m], > 0
   std::vector<Point> vertices;  ///< polygon: simple, anticlockwise whatever the file's order
   std::string drawn = {};  ///< how these were read from a drawing, in words; empty: they were not
-  double cover = 0;        ///< crown to ground surface [m], > 0
   int facets = 72;         ///< chords on a full circle, for the curved parts, 12 to 720
-  /// Of its axis, clockwise from North [rad], 0 to 2 pi; none: to the North, and only "E" and "W"
-  /// say where joints dip.
-  std::optional<double> trend;
-  /// 3-D: it is driven in rounds of this length [m], > 0; none: its whole length at once.
-  std::optional<double> round_length;
-  /// 3-D: rounds driven, 1 to 1000; none: as many as the domain has room for.
-  std::optional<int> rounds;
 
   [[nodiscard]] double half_width() const;  ///< half the breadth of the opening [m]
   [[nodiscard]] double crown() const;       ///< y of the highest point [m]
   [[nodiscard]] double invert() const;      ///< y of the lowest point [m]
+};
+
+/// [tunnel] The first opening, in whose centre the model has its origin.
+struct TunnelInput : OutlineInput {
+  double cover = 0;  ///< crown to ground surface, where it begins [m], > 0
+  /// Of its axis, clockwise from North [rad], 0 to 2 pi; none: to the North, and only "E" and "W"
+  /// say where joints dip.
+  std::optional<double> trend;
+  double plunge = 0;  ///< of its axis below the horizontal [rad], -pi/4 to pi/4
+  /// 3-D: it is driven in rounds of this length [m], > 0; none: its whole length at once.
+  std::optional<double> round_length;
+  /// 3-D: rounds driven, 1 to 1000; none: as many as the domain has room for.
+  std::optional<int> rounds;
+};
+
+/// [[opening]] Another tunnel, a cross-drift, a shaft or a niche.
+struct OpeningInput : OutlineInput {
+  std::string name;       ///< default "opening 1", ...
+  Point at = {0.0, 0.0};  ///< of its centre, or of the point where its axis begins [m]
+  double place = 0;       ///< 3-D: of that point along the tunnel [m]
+  double turn = 0;        ///< of its axis against the tunnel's, clockwise from above [rad]
+  /// Of its axis below the horizontal [rad], -pi/2 to pi/2; none: that of the tunnel for one that
+  /// has no turn against it, else level.
+  std::optional<double> plunge;
+  /// 3-D: where it begins and ends along its axis [m]; none, of one along the tunnel: at the ends
+  /// of the domain.
+  std::optional<double> from, to;
+  std::optional<double> round_length;  ///< 3-D: of its own rounds [m]; none: all at once
+
+  /// It runs beside the tunnel: the section shows its outline.
+  [[nodiscard]] bool is_along_tunnel(const TunnelInput& tunnel) const {
+    return turn == 0 && plunge.value_or(tunnel.plunge) == tunnel.plunge;
+  }
 };
 
 /// [rock]
@@ -233,7 +258,8 @@ struct ArcInput {
 
 /// [support.bolts], or one of [[support.bolts]].
 struct BoltsInput {
-  std::string name;  ///< default "bolts 1", "bolts 2", ...
+  std::string name;         ///< default "bolts 1", "bolts 2", ...
+  std::size_t opening = 0;  ///< in which they are: 0 the tunnel, else one of `Input::openings`
   /// Head and tip of each bar of the section, in place of length, spacing and arc [m].
   std::vector<std::array<Point, 2>> bars = {};
   double length = 0;  ///< [m], > 0
@@ -271,6 +297,7 @@ struct FeetInput {
 /// [support.lining], or one of [[support.lining]].
 struct LiningInput {
   std::string name;            ///< default "lining 1", "lining 2", ...
+  std::size_t opening = 0;     ///< as of bolts
   double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
   double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
   double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
@@ -296,10 +323,14 @@ struct LiningInput {
 
 /// [[stage]] or [[round]] One step of the construction, in the order of the file.
 struct StageInput {
-  std::string name;  ///< default "stage 1", "round 1", ...
+  std::string name;         ///< default "stage 1", "round 1", ...
+  std::size_t opening = 0;  ///< in which it works: 0 the tunnel, else one of `Input::openings`
   /// What of the section is excavated at the start; none: nothing. Of stages the first excavates
   /// all of it.
   std::optional<SectionPart> part;
+  std::vector<Point> outline = {};  ///< in place of limits: what of the section lies in it [m]
+  bool is_drawn = false;            ///< that is from a drawing
+  bool takes_rest = false;          ///< what rounds before it have left of the section
   /// 3-D, with tunnel.round_length: so many rounds behind the face, 0 to 1000.
   int behind = 0;
   double wall_traction = 0;  ///< left on the wall at the end / in-situ traction [-], 0 to 1
@@ -333,6 +364,7 @@ struct Input {
   std::string title;
   ModelInput model;
   TunnelInput tunnel;
+  std::vector<OpeningInput> openings;
   RockInput rock;
   StressInput stress;
   BoundaryInput boundary;
@@ -372,8 +404,10 @@ struct Input {
   [[nodiscard]] std::string bolts_key(std::size_t pattern) const;
   /// Horizontal over vertical stress across the tunnel, without the constant part [-].
   [[nodiscard]] double K0_across() const;
+  /// 3-D: of the tunnel in the domain, along its axis [m].
+  [[nodiscard]] double tunnel_length() const;
   /// 3-D: what is excavated at a time along the tunnel [m].
-  [[nodiscard]] double stretch() const { return tunnel.round_length.value_or(model.length); }
+  [[nodiscard]] double stretch() const { return tunnel.round_length.value_or(tunnel_length()); }
   /// 3-D: how often, one behind the other.
   [[nodiscard]] int round_count() const;
   [[nodiscard]] double domain_top() const;     ///< y of the ground surface [m]
@@ -384,8 +418,12 @@ struct Input {
 /// it lies and whatever it is called.
 [[nodiscard]] bool names_a_file(std::string_view line);
 
-/// The outline of the tunnel. @pre its keys are read without fault
-[[nodiscard]] SimplePolygon opening_of(const Input& input);
+/// An outline about its own centre. @pre its keys are read without fault
+[[nodiscard]] SimplePolygon outline_of(const OutlineInput& outline);
+/// That of the tunnel.
+[[nodiscard]] inline SimplePolygon opening_of(const Input& input) {
+  return outline_of(input.tunnel);
+}
 
 /// Of joints and of blocks: minutes and gigabytes beyond.
 inline constexpr double largest_count = 1e6;

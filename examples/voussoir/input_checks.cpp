@@ -7,13 +7,17 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/lining/node_spacing.hpp>
 #include <voussoir/solver/creep.hpp>
+#include <voussoir/tunnel/ring_nodes.hpp>
+#include <voussoir/tunnel/section_part.hpp>
 
 #include "joint_laws.hpp"
+#include "openings.hpp"
 #include "plausibility.hpp"
 
 namespace voussoir::program {
@@ -43,7 +47,7 @@ void check_opening(Checker& checker, const Input& input) {
   const std::vector<const LiningInput*> linings = input.linings();
   for (std::size_t k = 0; k < linings.size(); ++k)
     if (const std::string key = input.lining_key(k) + ".thickness";
-        !checker.faulty(key) && !(linings[k]->thickness < half_width))
+        linings[k]->opening == 0 && !checker.faulty(key) && !(linings[k]->thickness < half_width))
       checker.report(key, "fills the opening" + opening, below);
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
@@ -66,11 +70,13 @@ std::string counted(double count) {
 /// The arc of a word, and whether feet can stand where it ends.
 void check_arc(Checker& checker, const Input& input, LiningInput& lining,
                const std::string& table) {
-  if (checker.faulty("tunnel") || checker.faulty("support.lining")) return;
+  if (checker.faulty("tunnel") || checker.faulty("opening") || checker.faulty("support.lining"))
+    return;
   const std::string key = table + ".arc";
+  const OutlineInput& outline = outline_input(input, lining.opening);
   try {
-    const SimplePolygon opening = opening_of(input);
-    LiningRing ring{.nodes = lining.nodes.value_or(std::max(input.tunnel.facets, 8))};
+    const SimplePolygon opening = outline_of(outline);
+    LiningRing ring{.nodes = lining.nodes.value_or(std::max(outline.facets, 8))};
     if (lining.part && *lining.part != LinedPart::all) {
       ring = lined_part(opening, *lining.part, ring);
       lining.arc = ArcInput{ring.from, ring.to};
@@ -83,15 +89,16 @@ void check_arc(Checker& checker, const Input& input, LiningInput& lining,
       const std::string begin = "lining: ", mark = "; accepted: ";
       const std::size_t at = end.refusal.find(mark);
       std::string why = end.refusal.substr(begin.size(), at - begin.size());
-      if (input.tunnel.shape == TunnelShape::horseshoe)
-        why += " (tunnel.wall_height = " +
-               format_quantity(input.tunnel.wall_height, dimension::length) + ")";
+      if (outline.shape == TunnelShape::horseshoe)
+        why += " (" + opening_key(lining.opening) +
+               ".wall_height = " + format_quantity(outline.wall_height, dimension::length) + ")";
       checker.report(key, "is too long for feet: " + why,
                      end.refusal.substr(at + mark.size()) + R"(; "roof and walls" ends there)");
       return;
     }
   } catch (const InvalidInput& fault) {
-    checker.report(key, std::string("does not fit the tunnel: ") + fault.what(),
+    checker.report(key,
+                   "does not fit the " + opening_name(input, lining.opening) + ": " + fault.what(),
                    R"(two angles, "roof", "roof and walls" or "all")");
   }
 }
@@ -100,7 +107,7 @@ void check_arc(Checker& checker, const Input& input, LiningInput& lining,
 void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
                 const std::string& table) {
   if (!(lining.tensile_bond > 0)) return;
-  for (const char* key : {"support.lining", "tunnel", "diagram"})
+  for (const char* key : {"support.lining", "tunnel", "opening", "diagram"})
     if (checker.faulty(key)) return;
   double thinnest = lining.thickness;
   if (input.diagram && &lining == &*input.lining)
@@ -109,7 +116,7 @@ void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
   const double length =
       bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
                      lining.interface_normal_stiffness);
-  const double perimeter = opening_of(input).perimeter();
+  const double perimeter = outline_of(outline_input(input, lining.opening)).perimeter();
   const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
                chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
   const auto metres = [](double value) { return format_quantity(value, dimension::length); };
@@ -160,42 +167,98 @@ void check_spatial(Checker& checker, const Input& input) {
                      "stands for what happens between ribs, which are there" + here,
                      "no such table");
   if (checker.faulty("model") || checker.faulty("tunnel")) return;
+  const double length = input.tunnel_length();
+  const double slope = elementary::tangent(input.tunnel.plunge);
+  if (const double rise = -slope * input.model.length; rise >= input.tunnel.cover)
+    checker.report("tunnel.plunge",
+                   "is so steep a rise that the crown comes out of the ground: it climbs " +
+                       format_quantity(rise, dimension::length) + " under " +
+                       format_quantity(input.tunnel.cover, dimension::length) + " of cover",
+                   "a flatter tunnel, more cover or a shorter model");
   if (const auto& round = input.tunnel.round_length) {
-    const std::string within = "the tunnel of " +
-                               format_quantity(input.model.length, dimension::length) +
-                               " (model.length)";
-    if (!input.tunnel.rounds && input.model.length / *round > 1000) {
+    const std::string within =
+        "the tunnel of " + format_quantity(length, dimension::length) + " (model.length)";
+    if (!input.tunnel.rounds && length / *round > 1000) {
       checker.report("tunnel.round_length", "makes more than 1000 rounds of " + within,
                      "1000 rounds or fewer: a longer one, or tunnel.rounds");
       return;
     }
-    if (*round > input.model.length)
+    if (*round > length)
       checker.report("tunnel.round_length", "is longer than " + within,
-                     "at most " + format_quantity(input.model.length, dimension::length));
-    else if (input.round_count() * *round > input.model.length * (1 + 1e-9))
+                     "at most " + format_quantity(length, dimension::length));
+    else if (input.round_count() * *round > length * (1 + 1e-9))
       checker.report(
           "tunnel.rounds",
           "rounds of " + format_quantity(*round, dimension::length) + " are longer than " + within,
-          "1 to " + std::to_string(
-                        static_cast<int>(std::floor(input.model.length / *round * (1 + 1e-9)))));
+          "1 to " + std::to_string(static_cast<int>(std::floor(length / *round * (1 + 1e-9)))));
   }
-  const double driven = input.round_count() * input.stretch();
+  if (checker.faulty("opening")) return;
   const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
   for (std::size_t k = 0; k < patterns.size() && !checker.faulty("support.bolts"); ++k)
-    if (patterns[k]->out_of_plane > driven)
-      checker.report(input.bolts_key(k) + ".out_of_plane", "leaves no row of bolts in the tunnel",
+    if (const double driven = drive_of(input, patterns[k]->opening).length();
+        patterns[k]->out_of_plane > driven)
+      checker.report(input.bolts_key(k) + ".out_of_plane",
+                     "leaves no row of bolts in the " + opening_name(input, patterns[k]->opening),
                      "at most " + format_quantity(driven, dimension::length) + ", what is driven");
   for (std::size_t k = 0; k < linings.size(); ++k) {
     const auto& asked = linings[k]->rib_spacing;
     const std::string key = input.lining_key(k) + ".rib_spacing";
-    if (asked && *asked > input.stretch())
+    const double stretch = drive_of(input, linings[k]->opening).stretch;
+    if (asked && *asked > stretch)
       checker.report(key,
-                     "is longer than what is lined at a time, tunnel.round_length or model.length",
-                     "at most " + format_quantity(input.stretch(), dimension::length));
+                     "is longer than what is lined at a time, round_length or the whole length",
+                     "at most " + format_quantity(stretch, dimension::length));
     else if (asked != linings[0]->rib_spacing)
       checker.report(key, "is not that of the first lining: forces are given per strip",
                      "the same rib_spacing in all linings");
+    else if (const double width = strips_of(input, linings[k]->opening).width,
+             first = strip_width(input);
+             std::abs(width - first) > 1e-6 * first)
+      checker.report(
+          input.lining_key(k),
+          "is of strips " + format_quantity(width, dimension::length) + " wide in the " +
+              opening_name(input, linings[k]->opening) + ", those of the first of " +
+              format_quantity(first, dimension::length) + ": forces are given per strip",
+          "a rib_spacing of which both have a whole number in a round, or in their length");
   }
+}
+
+/// Where other openings lie, and that they are excavated.
+void check_openings(Checker& checker, const Input& input) {
+  if (input.openings.empty()) return;
+  for (const char* key : {"model", "tunnel", "opening", "round", "stage"})
+    if (checker.faulty(key)) return;
+  for (std::size_t k = 1; k <= input.openings.size(); ++k) {
+    const OpeningInput& opening = input.openings[k - 1];
+    const std::string key = opening_key(k);
+    for (std::size_t other = 0; other < k; ++other)
+      if (opening_name(input, other) == opening.name)
+        return checker.report(key + ".name", "is that of another opening", "a name of its own");
+    if (input.is_spatial() && !opening.to && !opening.is_along_tunnel(input.tunnel))
+      return checker.report(key, "turns away from the tunnel and does not say where it ends",
+                            R"(to = "12 m", along its axis)");
+    if (input.is_spatial() && opening.place > input.tunnel_length())
+      return checker.report(key + ".place", "is beyond the end of the model",
+                            "0 to " + format_quantity(input.tunnel_length(), dimension::length));
+    if (input.is_spatial() && !(drive_of(input, k).length() > 0))
+      return checker.report(key, "has no length: it begins where it ends, or beyond",
+                            "from below to; places along its axis");
+    if (input.is_spatial() && drive_of(input, k).count > 1000)
+      return checker.report(key + ".round_length", "makes more than 1000 rounds",
+                            "1000 rounds or fewer");
+    if (input.blocks.min_inscribed_radius > opening.half_width() && !checker.faulty("blocks"))
+      return checker.report(key, "is smaller than the smallest blocks",
+                            "an opening wider than blocks.min_inscribed_radius");
+    const bool is_excavated =
+        std::any_of(input.stages.begin(), input.stages.end(),
+                    [&](const StageInput& stage) { return stage.opening == k && stage.part; });
+    if (!is_excavated)
+      return checker.report(key, "is excavated by no round",
+                            "a [[round]] with opening = \"" + opening.name + "\"");
+  }
+  if (const auto fault = fault_of_openings(input))
+    checker.report(opening_key(fault->opening), fault->text,
+                   "openings beside each other, within the domain");
 }
 
 /// Linings have names of their own, and what is printed of a foot's beam is of one lining.
@@ -219,10 +282,67 @@ void check_linings(Checker& checker, Input& input) {
   }
 }
 
-/// Rounds take the section out, all of it, without leaving rock that hangs in the opening.
+/// Rounds take the section of an opening out, all of it, without leaving rock that hangs in it.
+void check_rounds_of(Checker& checker, const Input& input, std::size_t opening,
+                     std::vector<std::size_t> order) {
+  const auto key = [&](std::size_t k) { return "round[" + std::to_string(k) + "]"; };
+  std::erase_if(order, [&](std::size_t k) { return input.stages[k].opening != opening; });
+  if (order.empty()) return;
+  if (!input.stages[order.front()].part) {
+    checker.report(key(order.front()), "excavates nothing, and there is no opening yet",
+                   "an excavation first");
+    return;
+  }
+  std::erase_if(order, [&](std::size_t k) { return !input.stages[k].part; });
+  const SimplePolygon section = outline_of(outline_input(input, opening));
+  const std::string nothing = "excavates nothing: no part of the section lies in it",
+                    crossing = "limits or an outline that cross the section";
+  std::vector<ExcavatedPart> parts;
+  for (const std::size_t k : order) {
+    const StageInput& round = input.stages[k];
+    try {
+      const auto outline = outline_of_round(input, round);
+      if (!outline) return checker.report(key(k), nothing, crossing);
+      parts.push_back({*outline, round.takes_rest, !round.outline.empty()});
+    } catch (const InvalidInput& fault) {
+      return checker.report(key(k),
+                            round.outline.empty() ? "takes several pieces of the section at once"
+                                                  : std::string(fault.what()),
+                            "limits or an outline within which the section is in one piece");
+    }
+  }
+  const auto fault = fault_of_parts(section, parts);
+  if (!fault) return;
+  const auto place = [&] {
+    const SectionPart& at = fault->where;
+    const auto metres = [](double value) { return significant_text(value, 3) + " m"; };
+    return "x " + metres(at.left) + " to " + metres(at.right) + ", y " + metres(at.bottom) +
+           " to " + metres(at.top);
+  };
+  const std::string where = key(order[fault->part]);
+  using Kind = SectionFault::Kind;
+  switch (fault->kind) {
+    case Kind::empty:
+      return checker.report(
+          where, parts[fault->part].takes_rest ? "finds nothing left to excavate" : nothing,
+          parts[fault->part].takes_rest ? R"(excavate = "nothing")" : crossing);
+    case Kind::twice:
+      return checker.report(
+          where, "excavates once more what a round before it has taken out: " + place(),
+          R"(limits (above, below, left_of, right_of) that leave that out, excavate = "rest" or excavate = "nothing")");
+    case Kind::undermined:
+      return checker.report(where, "leaves rock of the section hanging above it: " + place(),
+                            "the rock above first: a heading before its bench");
+    case Kind::left_over:
+      return checker.report(opening == 0 ? "round" : opening_key(opening),
+                            "leaves rock in the section: " + place(),
+                            "rounds that take out all of it");
+  }
+}
+
 void check_rounds(Checker& checker, const Input& input) {
   if (!input.has_rounds) return;
-  for (const char* key : {"round", "stage", "tunnel"})
+  for (const char* key : {"round", "stage", "tunnel", "opening"})
     if (checker.faulty(key)) return;
   std::vector<std::size_t> order(input.stages.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -231,47 +351,11 @@ void check_rounds(Checker& checker, const Input& input) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return input.stages[a].behind < input.stages[b].behind;
     });
-  const auto key = [&](std::size_t k) { return "round[" + std::to_string(k) + "]"; };
-  if (!input.stages[order.front()].part) {
-    checker.report(key(order.front()), "excavates nothing, and there is no opening yet",
-                   "an excavation first");
-    return;
-  }
-  std::erase_if(order, [&](std::size_t k) { return !input.stages[k].part; });
-  std::vector<SectionPart> parts;
-  for (const std::size_t k : order) parts.push_back(*input.stages[k].part);
-  const SimplePolygon section = opening_of(input);
-  const auto fault = fault_of_parts(section, parts);
-  if (!fault) return;
-  const auto metres = [](double value) { return format_quantity(value, dimension::length); };
-  const auto place = [&] {
-    const SectionPart& at = fault->where;
-    const auto end = [&](double value, const char* open) {
-      return std::isfinite(value) ? metres(value) : std::string(open);
-    };
-    return "x " + end(at.left, "the left wall") + " to " + end(at.right, "the right wall") +
-           ", y " + end(at.bottom, "the floor") + " to " + end(at.top, "the roof");
-  };
-  const std::string where = key(order[fault->part]);
-  using Kind = SectionFault::Kind;
-  switch (fault->kind) {
-    case Kind::empty:
-      return checker.report(where, "excavates nothing: no part of the section lies in it",
-                            "limits that cross the section");
-    case Kind::in_pieces:
-      return checker.report(where, "takes several pieces of the section at once",
-                            "limits between which the section is in one piece");
-    case Kind::twice:
-      return checker.report(
-          where, "excavates once more what a round before it has taken out: " + place(),
-          R"(limits (above, below, left_of, right_of) that leave that out, or excavate = "nothing")");
-    case Kind::undermined:
-      return checker.report(where, "leaves rock of the section hanging above it: " + place(),
-                            "the rock above first: a heading before its bench");
-    case Kind::left_over:
-      return checker.report("round", "leaves rock in the section: " + place(),
-                            "rounds that take out all of it");
-  }
+  for (std::size_t k = 0; k <= input.openings.size(); ++k)
+    check_rounds_of(checker, input, k, order);
+  if (std::none_of(order.begin(), order.end(),
+                   [&](std::size_t k) { return input.stages[k].opening == 0; }))
+    checker.report("round", "excavates other openings, and not the tunnel", "rounds of the tunnel");
 }
 
 void check_boundary(Checker& checker, const Input& input) {
@@ -433,6 +517,7 @@ void check_together(Checker& checker, Input& input) {
   check_boundary(checker, input);
   check_spatial(checker, input);
   check_rounds(checker, input);
+  check_openings(checker, input);
   check_size(checker, input);
   check_bolts(checker, input);
   check_stages(checker, input);

@@ -23,7 +23,7 @@ std::string number(double value) {
 
 /// A set that runs along the section.
 bool is_left_out(const Input& input, std::size_t set) {
-  return !input.is_spatial() && !section_set(input.joint_sets[set], input.tunnel.trend.value_or(0));
+  return !input.is_spatial() && !section_set(input.joint_sets[set], input.tunnel);
 }
 
 /// What became of the joints: how often one went into a block, and why a cut was not made.

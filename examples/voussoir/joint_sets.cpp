@@ -15,12 +15,18 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+TraceInSection trace_of(const JointSetInput& set, const TunnelInput& tunnel) {
+  return trace_in_section(set.plane, tunnel.trend.value_or(0), tunnel.plunge);
+}
+
 /// Standard deviation of the dip of the traces, to first order [rad].
-double trace_deviation(const JointSetInput& set, double trend, const TraceInSection& trace) {
+double trace_deviation(const JointSetInput& set, const TunnelInput& tunnel,
+                       const TraceInSection& trace) {
   // The normals of Fisher's distribution stray by 1 / sqrt(K) to either side.
   if (set.fisher) return std::min(1 / (std::sqrt(*set.fisher) * trace.sine), 45 * degree);
   if (trace.sine == 1) return set.sd;
-  const double across = std::abs(elementary::sine(set.plane.dip_direction - trend));
+  const double across =
+      std::abs(elementary::sine(set.plane.dip_direction - tunnel.trend.value_or(0)));
   return std::min(set.sd * across / (trace.sine * trace.sine), 45 * degree);
 }
 
@@ -44,16 +50,16 @@ double mean_extent(const JointSetInput& set) {
   return set.strike_extent ? set.extent : set.extent * 4 / std::numbers::pi;
 }
 
-double p32_of(const JointSetInput& set, double trend) {
+double p32_of(const JointSetInput& set, const TunnelInput& tunnel) {
   if (const auto given = given_p32(set)) return *given;
   if (set.spacing) return 1 / parted_spacing(set);
-  return set.intensity.value_or(0) * set.extent / trace_in_section(set.plane, trend).sine;
+  return set.intensity.value_or(0) * set.extent / trace_of(set, tunnel).sine;
 }
 
-std::optional<JointSet> section_set(const JointSetInput& set, double trend) {
-  const TraceInSection trace = trace_in_section(set.plane, trend);
+std::optional<JointSet> section_set(const JointSetInput& set, const TunnelInput& tunnel) {
+  const TraceInSection trace = trace_of(set, tunnel);
   if (trace.sine < elementary::sine(least_angle_to_section)) return std::nullopt;
-  JointSet shown{set.name, trace.dip, trace.direction, trace_deviation(set, trend, trace)};
+  JointSet shown{set.name, trace.dip, trace.direction, trace_deviation(set, tunnel, trace)};
   shown.extent = set.extent;
   shown.spacing_law = set.spacing_law;
   if (set.spacing_sd) shown.spacing_deviation = *set.spacing_sd / *set.spacing;
@@ -62,20 +68,20 @@ std::optional<JointSet> section_set(const JointSetInput& set, double trend) {
   else if (set.spacing)
     shown.spacing = parted_spacing(set) / trace.sine;
   else if (std::isinf(set.extent))
-    shown.spacing = 1 / (p32_of(set, trend) * trace.sine);
+    shown.spacing = 1 / (p32_of(set, tunnel) * trace.sine);
   else
-    shown.intensity = p32_of(set, trend) * trace.sine / set.extent;
+    shown.intensity = p32_of(set, tunnel) * trace.sine / set.extent;
   return shown;
 }
 
-std::string section_text(const JointSetInput& set, double trend) {
+std::string section_text(const JointSetInput& set, const TunnelInput& tunnel) {
   const auto degrees = [](double angle) { return significant_text(angle / degree, 3) + " deg"; };
   if (!set.is_random()) return "";
-  const auto shown = section_set(set, trend);
+  const auto shown = section_set(set, tunnel);
   if (!shown)
     return set.name + ": runs along the section, within " + degrees(least_angle_to_section) +
            ": it has no traces there, and is left out";
-  const TraceInSection trace = trace_in_section(set.plane, trend);
+  const TraceInSection trace = trace_of(set, tunnel);
   if (trace.sine == 1) return "";
   std::string text = set.name + ": dip " + degrees(set.plane.dip) + " towards " +
                      degrees(set.plane.dip_direction) + " is an apparent dip of " +
@@ -89,8 +95,8 @@ bool is_of_section(const Input& input, const JointSetInput& set) {
   return !set.is_azimuth && !input.tunnel.trend;
 }
 
-SpatialJointSet spatial_set(const JointSetInput& set, double trend) {
-  double towards = set.plane.dip_direction - trend;
+SpatialJointSet spatial_set(const JointSetInput& set, const TunnelInput& tunnel) {
+  double towards = set.plane.dip_direction - tunnel.trend.value_or(0);
   if (towards < 0) towards += 2 * std::numbers::pi;
   SpatialJointSet made{set.name, set.plane.dip, towards};
   if (set.fisher)
@@ -102,7 +108,7 @@ SpatialJointSet spatial_set(const JointSetInput& set, double trend) {
   if (set.spacing)
     made.spacing = parted_spacing(set);
   else
-    made.area_per_volume = p32_of(set, trend);
+    made.area_per_volume = p32_of(set, tunnel);
   if (std::isfinite(set.extent)) {
     if (set.strike_extent)
       made.shape = RectangularJoints{*set.strike_extent, set.extent};

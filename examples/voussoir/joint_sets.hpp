@@ -15,17 +15,17 @@ namespace voussoir::program {
 inline constexpr double least_angle_to_section = 0.0872664625997165;
 
 /// Area of joints per volume [1/m]. @pre the set is random
-[[nodiscard]] double p32_of(const JointSetInput& set, double trend);
+[[nodiscard]] double p32_of(const JointSetInput& set, const TunnelInput& tunnel);
 /// Of the discs whose traces have the extent of the set in the mean, or down the dip of
 /// rectangles [m].
 [[nodiscard]] double mean_extent(const JointSetInput& set);
 
 /// The traces of a set in the section; none where it runs along the section within
 /// `least_angle_to_section`.
-/// @param trend  of the tunnel [rad]
-[[nodiscard]] std::optional<JointSet> section_set(const JointSetInput& set, double trend);
+[[nodiscard]] std::optional<JointSet> section_set(const JointSetInput& set,
+                                                  const TunnelInput& tunnel);
 /// How a set that was given by azimuth shows in the section, a line; empty for others.
-[[nodiscard]] std::string section_text(const JointSetInput& set, double trend);
+[[nodiscard]] std::string section_text(const JointSetInput& set, const TunnelInput& tunnel);
 
 /// Whether a set is drawn in the section alone, "E" or "W" without a tunnel.trend: in 3-D its
 /// joints go on along the tunnel, and one file is one rock in both.
@@ -33,6 +33,6 @@ inline constexpr double least_angle_to_section = 0.0872664625997165;
 
 /// The planes of a set, their azimuths counted from the tunnel, which runs to the North of the
 /// model.
-[[nodiscard]] SpatialJointSet spatial_set(const JointSetInput& set, double trend);
+[[nodiscard]] SpatialJointSet spatial_set(const JointSetInput& set, const TunnelInput& tunnel);
 
 }  // namespace voussoir::program

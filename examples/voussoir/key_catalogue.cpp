@@ -17,8 +17,10 @@ namespace {
 /// Documents whose readers ask for different things.
 std::vector<std::string> asking_documents() {
   std::vector<std::string> documents{
-      "schema = 1\n", "model.dimension = 3\n",
+      "schema = 1\n",
+      "model.dimension = 3\n",
       "[tunnel]\nshape = \"polygon\"\nfile = \"\"\n[joints]\norientations = \"\"\n",
+      "[[opening]]\nshape = \"polygon\"\nfile = \"\"\n[[round]]\nfile = \"\"\n",
       "[joints]\nfile = \"\"\n[[joint_set]]\nintensity = \"1 /m^2\"\n[[joint_set]]\n",
       "[[block]]\n[[load]]\nforce = [\"0 N/m\", \"0 N/m\"]\n"};
   for (const JointLawRow& row : joint_law_rows())

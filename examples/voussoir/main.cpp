@@ -210,7 +210,7 @@ int run_program(int argc, char** argv) {
   completion->add_option("SHELL", shell, "bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));
-  for (CLI::App* verb : {run, check, blocks})
+  for (CLI::App* verb : {run, check, blocks, grc})
     verb->add_flag("--json", options.json, "print JSON in place of words");
   CLI::App* diff = app.add_subcommand("diff", "what differs between two runs");
   std::vector<std::string> compared;

@@ -113,6 +113,27 @@ nlohmann::json convergence_json(const Convergence& c) {
           {"rise_of_opening_mm", 1e3 * c.rise}};
 }
 
+nlohmann::json openings_json(const std::vector<OpeningConvergence>& openings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const OpeningConvergence& opening : openings)
+    list.push_back(
+        {{"name", opening.name}, {"convergence", convergence_json(opening.convergence)}});
+  return list;
+}
+
+std::string convergence_text(const Convergence& c) {
+  return "crown " + millimetres_text(c.crown) + " mm, springings " +
+         millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
+         " mm, invert " + millimetres_text(c.invert) + " mm";
+}
+
+std::string opening_lines(const std::vector<OpeningConvergence>& openings) {
+  std::string out;
+  for (const OpeningConvergence& opening : openings)
+    out += "         of the " + opening.name + ": " + convergence_text(opening.convergence) + "\n";
+  return out;
+}
+
 std::string margin_text(const std::optional<RockfallRange>& range, const std::string& unit) {
   if (!range || !range->is_marginal()) return "";
   return text("%.2f", range->low) + text(" to %.2f ", range->high) + unit +

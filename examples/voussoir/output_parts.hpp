@@ -9,6 +9,7 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/tunnel/construction.hpp>
 
+#include "analysis.hpp"
 #include "joint_report.hpp"
 
 /// What outputs of runs in 2-D and 3-D, and of blocks that are laid, have in common.
@@ -38,6 +39,11 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 [[nodiscard]] nlohmann::json rockfall_json(const RockfallRange& range, const std::string& measure);
 [[nodiscard]] nlohmann::json joints_json(const std::vector<JointSource>& sources);
 [[nodiscard]] nlohmann::json convergence_json(const Convergence& c);
+/// Of openings besides the tunnel: a list, and a line each.
+[[nodiscard]] nlohmann::json openings_json(const std::vector<OpeningConvergence>& openings);
+[[nodiscard]] std::string opening_lines(const std::vector<OpeningConvergence>& openings);
+/// "crown 1.2 mm, springings 0.3 and 0.2 mm, invert 0.9 mm"
+[[nodiscard]] std::string convergence_text(const Convergence& c);
 
 /// How much would come off otherwise; empty where that is the same.
 /// @param unit  "m2", "m3"

@@ -14,10 +14,12 @@
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/page_map.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "openings.hpp"
 #include "output_parts.hpp"
 #include "survey.hpp"
 
@@ -86,24 +88,31 @@ double opening_diameter(const RunResult& run) {
 
 namespace {
 
-/// Where at the opening a block was.
-const char* place_of(const RunResult& run, const Vec2& centre) {
-  const std::vector<Vec2>& wall = run.opening.vertices();
-  double low = wall.front().y(), high = low;
-  for (const Vec2& v : wall) {
-    low = std::min(low, v.y());
-    high = std::max(high, v.y());
-  }
-  const double half_width = 0.5 * opening_diameter(run);
-  if (centre.y() < low && std::abs(centre.x()) < half_width) return "invert";
+/// Where at an opening a block was.
+std::string place_at(const SimplePolygon& opening, const Vec2& centre) {
+  const auto [low, high] = *bounding_rect(opening.vertices());
+  const double half_width = 0.5 * (high.x() - low.x()),
+               aside = std::abs(centre.x() - 0.5 * (low.x() + high.x()));
+  if (centre.y() < low.y() && aside < half_width) return "invert";
   // Above a line at 45 degrees through the corners of the crown's box.
-  if (centre.y() > 0.5 * (low + high) &&
-      std::abs(centre.x()) - half_width < centre.y() - high + 0.5 * half_width)
+  if (centre.y() > 0.5 * (low.y() + high.y()) &&
+      aside - half_width < centre.y() - high.y() + 0.5 * half_width)
     return "crown";
-  return centre.x() < 0 ? "left wall" : "right wall";
+  return centre.x() < 0.5 * (low.x() + high.x()) ? "left wall" : "right wall";
 }
 
-nlohmann::json detached_json(const RunResult& run) {
+/// At the opening that is nearest by its centre.
+std::string place_of(const Input& input, const Vec2& centre) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k <= input.openings.size(); ++k)
+    if (is_modelled(input, k) && (centre - centre_in_section(input, k)).norm() <
+                                     (centre - centre_in_section(input, nearest)).norm())
+      nearest = k;
+  return place_at(opening_in_section(input, nearest), centre) +
+         (nearest > 0 ? " of the " + opening_name(input, nearest) : std::string());
+}
+
+nlohmann::json detached_json(const Input& input, const RunResult& run) {
   nlohmann::json blocks = nlohmann::json::array();
   for (const int b : run.tunnel.fallen()) {
     const Vec2 centre = run.tunnel.system().body(b).centre;
@@ -112,17 +121,17 @@ nlohmann::json detached_json(const RunResult& run) {
          {"x_m", centre.x()},
          {"y_m", centre.y()},
          {"area_m2", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure},
-         {"from", place_of(run, centre)}});
+         {"from", place_of(input, centre)}});
   }
   return blocks;
 }
 
 /// How much rock has come off, where, whether the rest stands without it, and how sure that is.
-std::string rockfall_sentence(const RunResult& run) {
+std::string rockfall_sentence(const Input& input, const RunResult& run) {
   std::map<std::string, int> places;
   double largest = 0;
   for (const int b : run.tunnel.fallen()) {
-    ++places[place_of(run, run.tunnel.system().body(b).centre)];
+    ++places[place_of(input, run.tunnel.system().body(b).centre)];
     largest =
         std::max(largest, run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure);
   }
@@ -182,7 +191,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"lost_lining", run.built.has_lost_lining()},
       {"error_estimate", run.last().error_estimate},
       {"detached_area_m2", run.fallen_measure()},
-      {"detached_blocks", detached_json(run)},
+      {"detached_blocks", detached_json(input, run)},
       {"convergence", convergence_json(run.convergence())},
       {"boundary", boundary_json(run.boundary)},
       {"stages", stages_json(run.built.stages, "area_m2")},
@@ -211,6 +220,8 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (!input.openings.empty())
+    json["openings"] = openings_json(other_convergences(input, run.tunnel));
   if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
   if (run.tunnel.bolt_count() > 0)
@@ -258,7 +269,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   if (!input.title.empty()) text.title = input.title;
   if (input.linings().size() == 1) text.lining_thickness = input.lining->thickness;
   if (run.fallen_measure() > 0) {
-    text.remarks.push_back(with_superscripts(rockfall_sentence(run)));
+    text.remarks.push_back(with_superscripts(rockfall_sentence(input, run)));
   }
   if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
     text.remarks.push_back(
@@ -287,19 +298,17 @@ std::string run_summary(const Input& input, const RunResult& run) {
   out += verdict_lines(last, {run.fallen_measure(), "m2", run.built.has_lost_lining(), margin},
                        run.equilibrium_seconds);
   if (run.fallen_measure() > 0)
-    out += "detached " + rockfall_sentence(run) + "\n";
+    out += "detached " + rockfall_sentence(input, run) + "\n";
   else if (!margin.empty())
     out += "marginal " + margin + " come off\n";
-  out += "wall     crown " + millimetres_text(c.crown) + " mm, springings " +
-         millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
-         " mm, invert " + millimetres_text(c.invert) + " mm";
+  out += "wall     " + convergence_text(c);
   const bool has_gap = !std::isfinite(c.crown + c.right_springing + c.left_springing + c.invert);
   if (run.boundary.field.at(Side::bottom) == Boundary::elastic)
     out += ", against the opening as a whole, which rises by " + millimetres_text(c.rise) + " mm";
   if (has_gap)
     out += run.fallen_measure() > 0 ? " (-: the wall there is detached)"
                                     : " (-: there is no wall there)";
-  out += "\n";
+  out += "\n" + opening_lines(other_convergences(input, run.tunnel));
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +

@@ -107,9 +107,10 @@ double signed_area(const std::vector<Point>& v) {
   return sum;
 }
 
-void read_vertices(Section& s, std::vector<Point>& vertices, Need need) {
+void read_vertices(Section& s, std::vector<Point>& vertices, bool holds_centre, Need need) {
   const std::string form =
-      R"(3 to 2000 points [["-2 m", "-2 m"], ["2 m", "-2 m"], ["0 m", "3 m"]] around the tunnel centre, sides that do not cross)";
+      R"(3 to 2000 points [["-2 m", "-2 m"], ["2 m", "-2 m"], ["0 m", "3 m"]])" +
+      std::string(holds_centre ? " around the tunnel centre" : "") + ", sides that do not cross";
   const auto value = s.find("vertices", need, form);
   if (!value) return;
   const auto points = value->as_list(3, 2000, form);
@@ -120,15 +121,17 @@ void read_vertices(Section& s, std::vector<Point>& vertices, Need need) {
   // Closed by its first point, or with a point twice, it is the same outline.
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   if (vertices.size() > 1 && vertices.front() == vertices.back()) vertices.pop_back();
-  if (const std::string fault = outline_fault(vertices); !fault.empty())
+  if (const std::string fault = outline_fault(vertices, holds_centre); !fault.empty())
     return s.checker().report(value->node().place, value->key(), value->key() + " " + fault, form);
   if (signed_area(vertices) < 0) std::reverse(vertices.begin(), vertices.end());
 }
 
-/// The outline by its points, or from a drawing.
-void read_outline(Section& s, Input& input, const std::filesystem::path& directory) {
+/// The outline by its points, or from a drawing, whose place on the site is `centre` [m].
+void read_outline(Section& s, OutlineInput& outline, const Point& centre, bool holds_centre,
+                  bool is_required, const std::filesystem::path& directory) {
   const bool has_file = s.has("file");
-  read_vertices(s, input.tunnel.vertices, has_file ? Need::optional : Need::required);
+  read_vertices(s, outline.vertices, holds_centre,
+                is_required && !has_file ? Need::required : Need::optional);
   const std::filesystem::path file = read_path(s, "file", Need::optional, directory);
   std::string layer;
   double unit = 0;
@@ -138,15 +141,14 @@ void read_outline(Section& s, Input& input, const std::filesystem::path& directo
   });
   if (file.empty() || s.faulty("unit") || s.checker().faulty("model")) return;
   if (s.has("vertices"))
-    return s.complain("vertices", "are given besides tunnel.file", "one of the two");
-  input.tunnel.vertices = drawn_outline(s, input, file, layer, unit);
+    return s.complain("vertices", "are given besides " + s.full("file"), "one of the two");
+  outline.vertices = drawn_outline(s, outline.drawn, file, {layer, unit, centre, holds_centre});
 }
 
-}  // namespace
-
-void read_tunnel(Section& s, Input& input, const std::filesystem::path& directory) {
-  TunnelInput& tunnel = input.tunnel;
-  const bool known = s.choice<TunnelShape>("shape", tunnel.shape,
+/// @param centre  on the site [m]
+void read_shape(Section& s, OutlineInput& outline, const Point& centre,
+                const std::filesystem::path& directory) {
+  const bool known = s.choice<TunnelShape>("shape", outline.shape,
                                            {{"circle", TunnelShape::circle},
                                             {"horseshoe", TunnelShape::horseshoe},
                                             {"polygon", TunnelShape::polygon}},
@@ -154,24 +156,68 @@ void read_tunnel(Section& s, Input& input, const std::filesystem::path& director
   const auto of_shape = [&](TunnelShape shape, const std::string& word,
                             const std::function<void()>& declare) {
     if (!known) return s.unread(declare);
-    s.only_with(tunnel.shape == shape, "shape = \"" + word + "\"", declare);
+    s.only_with(outline.shape == shape, "shape = \"" + word + "\"", declare);
   };
   of_shape(TunnelShape::circle, "circle", [&] {
-    s.quantity("diameter", tunnel.diameter, dimension::length, above(0), Need::required);
+    s.quantity("diameter", outline.diameter, dimension::length, above(0), Need::required);
   });
   of_shape(TunnelShape::horseshoe, "horseshoe", [&] {
-    s.quantity("width", tunnel.width, dimension::length, above(0), Need::required);
-    s.quantity("wall_height", tunnel.wall_height, dimension::length, above(0), Need::required);
+    s.quantity("width", outline.width, dimension::length, above(0), Need::required);
+    s.quantity("wall_height", outline.wall_height, dimension::length, above(0), Need::required);
   });
-  of_shape(TunnelShape::polygon, "polygon", [&] { read_outline(s, input, directory); });
+  of_shape(TunnelShape::polygon, "polygon",
+           [&] { read_outline(s, outline, centre, true, true, directory); });
+  s.integer("facets", outline.facets, 12, 720);
+}
+
+}  // namespace
+
+void read_tunnel(Section& s, Input& input, const std::filesystem::path& directory) {
+  TunnelInput& tunnel = input.tunnel;
+  read_shape(s, tunnel, input.model.origin, directory);
   s.quantity("cover", tunnel.cover, dimension::length, above(0), Need::required);
-  s.integer("facets", tunnel.facets, 12, 720);
   s.quantity("trend", tunnel.trend, dimension::angle, between(0, radians(360)));
+  s.quantity("plunge", tunnel.plunge, dimension::angle, between(-radians(45), radians(45)),
+             Need::optional);
   s.quantity("round_length", tunnel.round_length, dimension::length, above(0));
   s.only_with(s.has("round_length"), "round_length",
               [&] { s.integer("rounds", tunnel.rounds, 1, 1000); });
   if (input.is_spatial()) return;
   for (const char* const key : {"round_length", "rounds"}) note_unused(input, s, key);
+}
+
+void read_opening(Section& s, Input& input, OpeningInput& opening,
+                  const std::filesystem::path& directory) {
+  s.text("name", opening.name);
+  if (const auto value = s.find("at", Need::required, point_form))
+    opening.at = value->as_point().value_or(opening.at);
+  read_shape(s, opening,
+             {input.model.origin[0] + opening.at[0], input.model.origin[1] + opening.at[1]},
+             directory);
+  s.quantity("turn", opening.turn, dimension::angle, between(-radians(180), radians(180)),
+             Need::optional);
+  s.quantity("plunge", opening.plunge, dimension::angle, between(-radians(90), radians(90)));
+  s.quantity("place", opening.place, dimension::length, at_least(0), Need::optional);
+  s.quantity("from", opening.from, dimension::length, Range{});
+  s.quantity("to", opening.to, dimension::length, Range{});
+  s.only_with(input.tunnel.round_length.has_value(), "tunnel.round_length", [&] {
+    s.quantity("round_length", opening.round_length, dimension::length, above(0));
+  });
+  if (input.is_spatial() || !opening.is_along_tunnel(input.tunnel)) return;
+  for (const char* const key : {"place", "from", "to", "round_length"}) note_unused(input, s, key);
+}
+
+void read_round_outline(Section& s, const Input& input, StageInput& round,
+                        const std::filesystem::path& directory) {
+  OutlineInput outline;
+  Point centre = input.model.origin;
+  if (round.opening > 0) {
+    const Point& at = input.openings[round.opening - 1].at;
+    centre = {centre[0] + at[0], centre[1] + at[1]};
+  }
+  read_outline(s, outline, centre, false, false, directory);
+  round.outline = outline.vertices;
+  round.is_drawn = !outline.drawn.empty();
 }
 
 namespace {

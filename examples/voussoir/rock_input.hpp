@@ -14,6 +14,12 @@ void read_model(Section& s, Input& input);
 /// After the model: an outline that is drawn lies on the site grid.
 /// @param directory  where paths in the file are relative to
 void read_tunnel(Section& s, Input& input, const std::filesystem::path& directory);
+/// After the tunnel.
+void read_opening(Section& s, Input& input, OpeningInput& opening,
+                  const std::filesystem::path& directory);
+/// What a round takes out, as an outline of its own. After its key `opening`.
+void read_round_outline(Section& s, const Input& input, StageInput& round,
+                        const std::filesystem::path& directory);
 /// After the tunnel, whose trend two horizontal stresses need.
 void read_stress(Section& s, Input& input);
 void read_boundary(Section& s, BoundaryInput& boundary);

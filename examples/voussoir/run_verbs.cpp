@@ -170,25 +170,28 @@ int grc_verb(const Options& options, int steps) {
     return line.show(what, fraction);
   };
   const std::string id = RunId("grc").add(input).add(steps).text();
-  std::string said, name;
+  std::string said, json, name;
   if (input.is_spatial()) {
     const LongitudinalProfile profile = longitudinal_profile(input, report);
     name = "profile";
     said = profile_text(profile);
+    json = profile_json(profile);
     outputs.add("profile.csv", profile_csv(profile), id);
     outputs.add("profile.svg", profile_svg(input, profile), id);
   } else {
     const GroundReaction reaction = ground_reaction(input, steps, report);
     name = "grc";
     said = grc_text(reaction);
+    json = grc_json(reaction);
     outputs.add("grc.csv", grc_csv(reaction), id);
     outputs.add("grc.svg", grc_svg(input, reaction), id);
   }
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
-  if (!options.quiet) std::cout << said;
-  publish(outputs, options, name + ".csv, " + name + ".svg");
+  outputs.add(name + ".json", json, id);
+  say(options, said, with_run_id(name + ".json", json, id));
+  publish(outputs, options, name + ".json, " + name + ".csv, " + name + ".svg");
   return finished;
 }
 

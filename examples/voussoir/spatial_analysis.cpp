@@ -16,6 +16,7 @@
 #include "joint_laws.hpp"
 #include "joint_sets.hpp"
 #include "mapped_rock.hpp"
+#include "openings.hpp"
 #include "plausibility.hpp"
 #include "survey.hpp"
 
@@ -25,15 +26,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The section is that of 2-D; the tunnel begins at the face of the domain.
-Domain<3> domain_of(const Input& input) {
-  const Domain<2> section = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
-                                          input.model.below_invert);
-  return {{section.low.x(), 0, section.low.y()},
-          {section.high.x(), input.model.length, section.high.y()},
-          {input.model.origin[0], 0, input.model.origin[1]}};
 }
 
 std::vector<std::string> warnings_of(const Input& input, const SpatialRunResult& run) {
@@ -91,8 +83,7 @@ InSitu in_situ_of(const Input& input) {
 }
 
 GeneratedRockIn<Spatial> spatial_rock_of(const Input& input, const Progress& progress) {
-  const double trend = input.tunnel.trend.value_or(0);
-  const Domain<3> domain = domain_of(input);
+  const Domain<3> domain = spatial_domain(input);
   const Domain<2> section = section_of(domain);
   std::vector<SpatialJoint> joints;
   int index = 0;  // among the random sets, as in the section
@@ -104,11 +95,11 @@ GeneratedRockIn<Spatial> spatial_rock_of(const Input& input, const Progress& pro
     };
     if (is_of_section(input, set))
       for (const Joint& joint :
-           generate(*section_set(set, trend), index, section, input.model.seed, progress))
+           generate(*section_set(set, input.tunnel), index, section, input.model.seed, progress))
         add(along_the_tunnel(joint.trace, set, domain));
     else
       for (SpatialJoint& joint :
-           generate(spatial_set(set, trend), index, domain, input.model.seed, progress))
+           generate(spatial_set(set, input.tunnel), index, domain, input.model.seed, progress))
         add(std::move(joint.trace));
     ++index;
   }
@@ -140,15 +131,14 @@ ExcavatedRock spatial_rock_in_situ(const Input& input, const Report& report) {
           {}};
 }
 
-Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel,
-                               const SimplePolygon& section) {
+Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel) {
   const double driven = input.round_count() * input.stretch();
-  return convergence(tunnel, driven_opening(input, section), 0.5 * driven, driven / 6);
+  return convergence(tunnel, driven_tunnel(input), 0.5 * driven, driven / 6);
 }
 
 SupportDemand per_metre(const Input& input, SupportDemand demand) {
   if (!input.lining) return demand;
-  const double width = strips_of(input).width;
+  const double width = strip_width(input);
   for (double* const force : {&demand.largest_thrust, &demand.mean_thrust, &demand.largest_moment})
     *force /= width;
   return demand;
@@ -168,8 +158,7 @@ SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report) {
     const auto search = std::chrono::steady_clock::now();
     const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
     run.built = construct(
-        run.tunnel,
-        construction_of(input, run.opening, supports_of(input), linear, RangeSought::all), report);
+        run.tunnel, construction_of(input, supports_of(input), linear, RangeSought::all), report);
     if (run.last().stopped) throw Stopped();
     run.equilibrium_seconds = seconds_since(search);
     run.warnings = warnings_of(input, run);

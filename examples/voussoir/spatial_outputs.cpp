@@ -21,7 +21,7 @@ namespace {
 
 /// Of the middle third; the whole tunnel where that has no wall.
 Convergence shown_convergence(const Input& input, const SpatialRunResult& run) {
-  return middle_convergence(input, run.tunnel, run.opening);
+  return middle_convergence(input, run.tunnel);
 }
 
 double driven_length(const Input& input) { return input.round_count() * input.stretch(); }
@@ -103,6 +103,8 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};
+  if (!input.openings.empty())
+    json["openings"] = openings_json(other_convergences(input, run.tunnel));
   if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "volume_m3");
   if (run.tunnel.bolt_count() > 0)
@@ -114,7 +116,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"strength", not_checked},
                       {"of_its_strength", nullptr},
-                      {"strip_width_m", strips_of(input).width},
+                      {"strip_width_m", strip_width(input)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
@@ -144,14 +146,14 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   words.axes = {"right", "along", "up"};
   words.crown = shown_convergence(input, run).crown;
   words.crown_name = "crown, middle third";
-  if (input.lining) words.strip_width = strips_of(input).width;
+  if (input.lining) words.strip_width = strip_width(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 
 std::vector<NamedDocument> paraview_files(const Input& input, const SpatialRunResult& run) {
-  return voussoir::paraview_files(run.tunnel, input.lining ? strips_of(input).width : 0.0);
+  return voussoir::paraview_files(run.tunnel, input.lining ? strip_width(input) : 0.0);
 }
 
 std::string run_summary(const Input& input, const SpatialRunResult& run) {
@@ -179,16 +181,15 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
     out += "detached " + rockfall_sentence(run) + "\n";
   else if (!margin.empty())
     out += "marginal " + margin + " come off\n";
-  out += "wall     of the middle third: crown " + millimetres_text(c.crown) + " mm, springings " +
-         millimetres_text(c.right_springing) + " and " + millimetres_text(c.left_springing) +
-         " mm, invert " + millimetres_text(c.invert) + " mm\n";
+  out += "wall     of the middle third: " + convergence_text(c) + "\n" +
+         opening_lines(other_convergences(input, run.tunnel));
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
            text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
   if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
-    out += text("lining   strips %.3g m wide: thrust up to ", strips_of(input).width) +
+    out += text("lining   strips %.3g m wide: thrust up to ", strip_width(input)) +
            text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);

@@ -7,6 +7,8 @@
 #include <voussoir/core/units.hpp>
 
 #include "input_checks.hpp"
+#include "openings.hpp"
+#include "rock_input.hpp"
 
 namespace voussoir::program {
 
@@ -99,10 +101,22 @@ void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
   }
 }
 
+/// In which opening something is: the tunnel, or one by its name.
+void read_opening_name(Section& s, const Input& input, std::size_t& opening) {
+  KeyForm form = R"("tunnel", or the name of an [[opening]])";
+  form.otherwise = "tunnel";
+  const auto value = s.find("opening", Need::optional, form);
+  if (!value) return;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k <= input.openings.size(); ++k) names.push_back(opening_name(input, k));
+  opening = value->as_word(names).value_or(opening);
+}
+
 }  // namespace
 
-void read_bolts(Section& s, BoltsInput& bolts) {
+void read_bolts(Section& s, const Input& input, BoltsInput& bolts) {
   s.text("name", bolts.name);
+  read_opening_name(s, input, bolts.opening);
   const bool has_bars = s.has("bars");
   if (const auto value = s.find("bars", Need::optional, bars_form)) read_bars(*value, bolts.bars);
   bolts.arc = {0, radians(180)};
@@ -155,6 +169,7 @@ void read_bolts(Section& s, BoltsInput& bolts) {
 
 void read_lining(Section& s, Input& input, LiningInput& lining) {
   s.text("name", lining.name);
+  read_opening_name(s, input, lining.opening);
   s.quantity("thickness", lining.thickness, dimension::length, thickness_range, Need::required);
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
@@ -214,36 +229,50 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
 
 namespace {
 
-/// What a round excavates: all of the section, or what lies between the limits given.
-void read_part(Section& s, StageInput& round) {
-  bool excavates = true;
-  const bool known = s.choice<bool>("excavate", excavates, {{"section", true}, {"nothing", false}},
-                                    Need::optional);
+enum class Excavated { section, rest, nothing };
+
+/// What a round excavates: of the section what lies between the limits or in the outline given, or
+/// what rounds before it have left.
+void read_part(Section& s, const Input& input, StageInput& round,
+               const std::filesystem::path& directory) {
+  Excavated excavated = Excavated::section;
+  const bool known = s.choice<Excavated>(
+      "excavate", excavated,
+      {{"section", Excavated::section}, {"rest", Excavated::rest}, {"nothing", Excavated::nothing}},
+      Need::optional);
   SectionPart part;
-  const auto limits = [&] {
+  const char* const limits[] = {"above", "below", "right_of", "left_of"};
+  const auto read = [&] {
     s.quantity("above", part.bottom, dimension::length, Range{}, Need::optional);
     s.quantity("below", part.top, dimension::length, Range{}, Need::optional);
     s.quantity("right_of", part.left, dimension::length, Range{}, Need::optional);
     s.quantity("left_of", part.right, dimension::length, Range{}, Need::optional);
+    read_round_outline(s, input, round, directory);
   };
-  if (!known) return s.unread(limits);
-  s.only_with(excavates, R"(excavate = "section")", limits);
-  if (!excavates) return;
+  if (!known) return s.unread(read);
+  s.only_with(excavated == Excavated::section, R"(excavate = "section")", read);
+  round.takes_rest = excavated == Excavated::rest;
+  if (excavated == Excavated::nothing) return;
   if (!(part.bottom < part.top) && !s.faulty("above") && !s.faulty("below"))
     s.complain("above", "leaves nothing: it is not lower than below", "an elevation under below");
   if (!(part.left < part.right) && !s.faulty("right_of") && !s.faulty("left_of"))
     s.complain("right_of", "leaves nothing: it is not left of left_of", "a place left of left_of");
+  for (const char* const key : limits)
+    if (s.has(key) && (s.has("vertices") || s.has("file")))
+      s.complain(key, "is given besides an outline", "limits, or an outline (vertices, file)");
   round.part = part;
 }
 
 }  // namespace
 
-void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
+void read_stage(Section& s, Input& input, StageInput& stage, bool is_round,
+                const std::filesystem::path& directory) {
   s.text("name", stage.name);
   s.quantity("wall_traction", stage.wall_traction, dimension::number, between(0, 1),
              is_round ? Need::optional : Need::required);
   if (is_round) {
-    read_part(s, stage);
+    read_opening_name(s, input, stage.opening);
+    read_part(s, input, stage, directory);
     s.only_with(input.tunnel.round_length.has_value(), "tunnel.round_length",
                 [&] { s.integer("behind", stage.behind, 0, 1000); });
     if (!input.is_spatial()) note_unused(input, s, "behind");
@@ -254,7 +283,7 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
   const auto value = s.find("install", Need::optional, form);
   if (!value) return;
   std::vector<std::string> words{"bolts", "lining"};  // all of a kind, or one by its name
-  const std::size_t patterns = input.bolt_patterns().size(), linings = input.linings().size();
+  const std::size_t patterns = input.bolt_patterns().size();
   for (const BoltsInput* pattern : input.bolt_patterns()) words.push_back(pattern->name);
   for (const LiningInput* lining : input.linings()) words.push_back(lining->name);
   const auto items = value->as_list(0, words.size(), form);
@@ -264,19 +293,27 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round) {
     if (!word) continue;
     bool is_again = false;
     // Supports that no table describes are said of the whole file, below.
-    const auto install = [&](std::vector<std::size_t>& installed, bool are_all, std::size_t count,
-                             std::size_t number) {
+    const auto install = [&](std::vector<std::size_t>& installed, bool are_all,
+                             const auto& supports, std::size_t number) {
       const std::size_t first = are_all ? 0 : number,
-                        last = are_all ? std::max<std::size_t>(count, 1) : number + 1;
+                        last = are_all ? std::max<std::size_t>(supports.size(), 1) : number + 1;
       for (std::size_t k = first; k < last; ++k) {
+        // All of a kind are those of the opening in which the round works.
+        if (k < supports.size() && supports[k]->opening != stage.opening) {
+          if (!are_all)
+            item.refuse("is of the " + opening_name(input, supports[k]->opening) +
+                            ", and the round works in the " + opening_name(input, stage.opening),
+                        "what is of the opening of the round");
+          continue;
+        }
         is_again = is_again || std::find(installed.begin(), installed.end(), k) != installed.end();
         installed.push_back(k);
       }
     };
     if (*word == 0 || (*word >= 2 && *word < 2 + patterns))
-      install(stage.bolts, *word == 0, patterns, *word - 2);
+      install(stage.bolts, *word == 0, input.bolt_patterns(), *word - 2);
     else
-      install(stage.linings, *word == 1, linings, *word - 2 - patterns);
+      install(stage.linings, *word == 1, input.linings(), *word - 2 - patterns);
     if (is_again) item.refuse("is in the list twice", "each support once");
   }
 }

@@ -130,6 +130,11 @@ TEST_SUITE("program/grc") {
     }
     CHECK(share > 0);
     CHECK(share < 60);
+    const auto json = nlohmann::json::parse(files.at("grc.json"));
+    CHECK(json.at("ground").size() == 20);
+    CHECK(json.at("supported").size() == 2);
+    // One decimal is said.
+    CHECK(std::abs(100 * json.at("equivalent_wall_traction").get<double>() - share) <= 0.051);
   }
 
   TEST_CASE("along a tunnel in 3-D the wall has moved less the nearer the face") {
@@ -145,6 +150,7 @@ TEST_SUITE("program/grc") {
     REQUIRE(outcome.status == 0);
     const auto rows = rows_of(files.at("profile.csv"));
     REQUIRE(rows.size() >= 10);
+    CHECK(nlohmann::json::parse(files.at("profile.json")).at("profile").size() == rows.size());
     const double near_face = number(rows.front(), "crown_mm"),
                  far = number(rows.back(), "crown_mm");
     CHECK(near_face > 0);

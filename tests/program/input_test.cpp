@@ -17,6 +17,8 @@
 #include "plausibility.hpp"
 #include "support/near.hpp"
 
+namespace program_input_test {
+
 using namespace voussoir::program;
 
 namespace {
@@ -849,7 +851,7 @@ TEST_SUITE("program/input") {
         {circle, polygon(R"([["-3 m","0 m"], ["0 m","0 m"], ["3 m","0 m"]])"), 7,
          "folds back on itself", "points"},
         {circle, polygon(R"([["7 m","-3 m"], ["13 m","-3 m"], ["10 m","3 m"]])"), 7,
-         "does not contain the tunnel centre", "around the tunnel centre"},
+         "does not contain its centre", "around the tunnel centre"},
     });
     // Long joints cross: 100 /m^2 of 40 m would leave nothing but crumbs.
     const auto many =
@@ -1129,3 +1131,5 @@ TEST_SUITE("program/input") {
     CHECK(refused > 0);
   }
 }
+
+}  // namespace program_input_test

@@ -118,9 +118,24 @@ std::vector<Base> bases() {
                 "intensity = \"0.1 /m^2\"\nextent = \"4 m\"\nsd = \"5 deg\"\n") +
        "[tunnel]\nshape = \"circle\"\ndiameter = \"6 m\"\ncover = \"10 m\"\ntrend = \"0 deg\"\n"
        "[joints]\nfile = \"traces.csv\"\nfirst_set = 0\nsnap = \"0.1 m\"\n"},
+      {replaced(ground, "width = \"40 m\"", "dimension = 3\nwidth = \"60 m\"") + joints +
+       horseshoe +
+       "round_length = \"2 m\"\n[[opening]]\nshape = \"circle\"\ndiameter = \"4 m\"\n"
+       "at = [\"18 m\", \"0 m\"]\nround_length = \"3 m\"\n"
+       "[[round]]\n[[round]]\nopening = \"opening 1\"\n"},
+      {replaced(ground, "width = \"40 m\"", "width = \"60 m\"") + joints + horseshoe +
+       "[[opening]]\nshape = \"horseshoe\"\nwidth = \"4 m\"\nwall_height = \"2 m\"\n"
+       "at = [\"18 m\", \"0 m\"]\n[[round]]\n[[round]]\nopening = \"opening 1\"\n"},
       {read_file(examples + "/survey/tunnel.toml"), examples + "/survey"},
       {replaced(read_file(examples + "/survey/tunnel.toml"), "orientations = \"joints.csv\"",
                 "orientations = \"joints.csv\"\nfile = \"faces.dxf\""),
+       examples + "/survey"},
+      // A stretch ahead of the last face, of the same section.
+      {replaced(read_file(examples + "/survey/tunnel.toml"), "name = \"full face\"\n",
+                "name = \"full face\"\nfile = \"section.dxf\"\nlayer = \"PROFILE\"\n") +
+           "[[opening]]\nshape = \"polygon\"\nfile = \"section.dxf\"\nlayer = \"PROFILE\"\n"
+           "at = [\"0 m\", \"0 m\"]\nplace = \"9 m\"\nfrom = \"0 m\"\nto = \"3 m\"\n"
+           "[[round]]\nopening = \"opening 1\"\nbehind = 3\n",
        examples + "/survey"},
       {R"([rock]
 density = "2700 kg/m^3"

@@ -20,6 +20,8 @@
 #include "run_results.hpp"
 #include "support/near.hpp"
 
+namespace program_spatial_test {
+
 namespace {
 
 using namespace voussoir_test;
@@ -218,7 +220,7 @@ TEST_SUITE("program/spatial") {
         replaced(replaced(two_sets, "dip_direction = \"E\"", "dip_direction = \"75 deg\""),
                  "facets = 24\n", "facets = 24\ntrend = \"30 deg\"\n");
     const Input input = read_input_text(text, "case.toml", ".");
-    const auto shown = section_set(input.joint_sets[0], *input.tunnel.trend);
+    const auto shown = section_set(input.joint_sets[0], input.tunnel);
     REQUIRE(shown);
     // tan = tan 70 sin 45; sine^2 = 1 - (sin 70 cos 45)^2
     const double degree = 0.017453292519943295, s70 = std::sin(70 * degree);
@@ -360,3 +362,5 @@ TEST_SUITE("program/spatial") {
                  "round[1] leaves rock of the section hanging above it"));
   }
 }
+
+}  // namespace program_spatial_test

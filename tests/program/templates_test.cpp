@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "check.hpp"
 #include "harness.hpp"
 #include "input.hpp"
 #include "plausibility.hpp"
@@ -54,11 +55,37 @@ TEST_SUITE("program/templates") {
       CHECK(json.at("dimension") == input.model.dimension);
       CHECK(json.at("stages").size() == input.stages.size());
       CHECK(json.at("warnings").empty());
+      CHECK(json.at("expected").at("memory_MB").get<double>() > 10);
+      CHECK(checked.out.find("expected some ") != std::string::npos);
       // As in words.
       CHECK(checked.out.find("rock     " + json.at("rock").at("blocks").dump() + " blocks") !=
             std::string::npos);
     }
     CHECK(contents(folder / "").size() == templates().size());
+  }
+
+  TEST_CASE("what a run is expected to take is near what runs took (docs/performance.md)") {
+    const auto is_near = [](double expected, double took, double times) {
+      return expected < times * took && took < times * expected;
+    };
+    // Bodies, peak memory and seconds to equilibrium, "now" of its first table.
+    const struct {
+      int dimension;
+      std::size_t blocks;
+      double memory, seconds;
+    } rows[] = {{2, 5660, 27e6, 0.03},    {2, 26339, 124e6, 0.2}, {2, 105130, 331e6, 0.65},
+                {2, 860619, 2602e6, 8.6}, {3, 1848, 31e6, 0.11},  {3, 10472, 108e6, 0.32},
+                {3, 28000, 266e6, 1.08},  {3, 85967, 787e6, 4.93}};
+    for (const auto& row : rows) {
+      CAPTURE(row.blocks);
+      const ExpectedCost cost = expected_cost(row.dimension, row.blocks);
+      CHECK(is_near(cost.memory, row.memory, 1.5));
+      CHECK(is_near(cost.standing_stage, row.seconds, 2));
+    }
+    // Seconds of rock that fails, second and third table.
+    CHECK(is_near(expected_cost(2, 5587).falling_stage, 7.5, 2));
+    CHECK(is_near(expected_cost(3, 610).falling_stage, 7.6, 2));
+    CHECK(is_near(expected_cost(3, 2370).falling_stage, 40, 2));
   }
 
   TEST_CASE("what check says is what the run has") {

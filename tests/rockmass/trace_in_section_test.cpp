@@ -49,6 +49,27 @@ TEST_SUITE("rockmass/trace_in_section") {
     }
   }
 
+  TEST_CASE("the same of tunnels that plunge, on the plane at right angles to their axis") {
+    Random random(8, 0);
+    for (int k = 0; k < 1000; ++k) {
+      const Orientation plane{0.5 * std::numbers::pi * random.uniform(),
+                              2 * std::numbers::pi * random.uniform()};
+      const double trend = 2 * std::numbers::pi * random.uniform(),
+                   plunge = (random.uniform() - 0.5) * std::numbers::pi / 2;
+      CAPTURE(k);
+      const Vec3 axis(std::cos(plunge) * along(trend) - Vec3(0, 0, std::sin(plunge))),
+          up = cross(right_of(trend), axis);
+      const TraceInSection trace = trace_in_section(plane, trend, plunge);
+      const Vec3 line = cross(upward_normal(plane), axis);
+      REQUIRE(trace.sine == voussoir_test::near(line.norm()).epsilon(1e-9));
+      const Vec3 down = line.dot(up) > 0 ? Vec3(-line) : line;
+      const double to_the_right = down.dot(right_of(trend));
+      REQUIRE(std::abs(trace.dip - std::atan2(-down.dot(up), std::abs(to_the_right))) < 1e-9);
+      if (std::abs(to_the_right) > 1e-9 && trace.dip > 1e-9)
+        REQUIRE((trace.direction == DipDirection::east) == (to_the_right > 0));
+    }
+  }
+
   TEST_CASE("planes that strike along the tunnel keep their dip to the last bit") {
     for (const double dip : {0.0, 25 * degree, 75 * degree, 90 * degree}) {
       CAPTURE(dip);

@@ -99,6 +99,25 @@ TEST_SUITE("tunnel/construction") {
     CHECK(result.fallen_measure() == first.fallen_measure + second.fallen_measure);
   }
 
+  TEST_CASE("the convergence given is that of the opening asked for, whatever is driven after it") {
+    const SimplePolygon drift({{4, -3}, {6, -3}, {6, -1}, {4, -1}});
+    Construction<Tunnel> made;
+    made.add_stage("tunnel").excavate(circle);
+    made.add_stage("drift").excavate(drift);
+    Tunnel last = rock(), first = rock();
+    const auto of_last = construct(last, made);
+    made.measured = circle;
+    const auto of_first = construct(first, made);
+    REQUIRE(of_last.stages.size() == 2);
+    REQUIRE(of_first.stages.size() == 2);
+    CHECK(of_first.stages[0].convergence.crown == of_last.stages[0].convergence.crown);
+    CHECK(of_first.stages[1].convergence.crown == convergence(first, circle).crown);
+    CHECK(of_last.stages[1].convergence.crown == convergence(last, drift).crown);
+    CHECK(of_first.stages[1].convergence.crown != of_last.stages[1].convergence.crown);
+    REQUIRE(of_first.measured);
+    CHECK_FALSE(of_last.measured);
+  }
+
   TEST_CASE("3-D: bolts and ribs as data and by hand have the same bits") {
     const PrismaticOpening opening(circular_opening(4, 12));
     const Domain<3> ground{{-6, 0, -6}, {6, 4, 7}};

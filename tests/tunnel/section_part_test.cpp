@@ -9,9 +9,12 @@
 #include <voussoir/tunnel/opening.hpp>
 #include <voussoir/tunnel/section_part.hpp>
 
+#include "support/near.hpp"
+
 namespace section_part_test {
 
 using namespace voussoir;
+using voussoir_test::near;
 using Kind = SectionFault::Kind;
 
 namespace {
@@ -35,8 +38,18 @@ double counted_area(const SimplePolygon& section, const SectionPart& part, doubl
   return inside * cell * cell;
 }
 
+std::optional<SectionFault> fault_of(const SimplePolygon& section,
+                                     const std::vector<SectionPart>& parts) {
+  std::vector<ExcavatedPart> excavated;
+  for (const SectionPart& part : parts) {
+    const auto outline = outline_of_part(section, part);
+    // Beside the section: what is in no part of it.
+    excavated.push_back({outline.value_or(SimplePolygon({{90, 0}, {91, 0}, {90, 1}}))});
+  }
+  return fault_of_parts(section, excavated);
+}
 std::optional<Kind> fault(const SimplePolygon& section, const std::vector<SectionPart>& parts) {
-  const auto found = fault_of_parts(section, parts);
+  const auto found = fault_of(section, parts);
   return found ? std::optional(found->kind) : std::nullopt;
 }
 
@@ -81,7 +94,6 @@ TEST_SUITE("tunnel/section_part") {
         {{-4, -2}, {4, -2}, {4, 3}, {2, 3}, {2, 0}, {-2, 0}, {-2, 3}, {-4, 3}});
     CHECK_THROWS_AS(outline_of_part(pillar, above(1)), InvalidInput);
     CHECK(outline_of_part(pillar, below(-1)));
-    CHECK(fault(pillar, {above(1), below(1)}) == Kind::in_pieces);
   }
 
   TEST_CASE("orders of excavation: heading, bench, drifts, and what is wrong with them") {
@@ -100,11 +112,66 @@ TEST_SUITE("tunnel/section_part") {
     CHECK(fault(section, {above(-1)}) == Kind::left_over);
     CHECK(fault(section, {left, right}) == Kind::left_over);
     CHECK(fault(section, {above(10)}) == Kind::empty);
-    const auto twice = fault_of_parts(section, {above(-1), below(-0.5)});
+    const auto twice = fault_of(section, {above(-1), below(-0.5)});
     REQUIRE(twice);
     CHECK(twice->part == 1);
     CHECK(twice->where.bottom == -1);
     CHECK(twice->where.top == -0.5);
+    CHECK(twice->where.right - twice->where.left == near(8).epsilon(1e-9));
+  }
+
+  TEST_CASE("drifts that are drawn, and the rest of the section") {
+    const SimplePolygon section = horseshoe_opening(8, 4, 36);
+    // A side drift whose inner wall leans over, and a pilot that touches no wall.
+    const SimplePolygon drift({{-4, -4}, {-1.5, -4}, {-0.5, -1}, {-1.5, 1}, {-3.8, 1}, {-4, 0}}),
+        pilot = circular_opening(3, 24);
+    const ExcavatedPart rest{section, true};
+    CHECK_FALSE(fault_of_parts(section, {{drift, false, true}, rest}));
+    CHECK_FALSE(fault_of_parts(section, {{pilot, false, true}, rest}));
+    const auto hanging = fault_of_parts(section, {{drift}, rest});
+    REQUIRE(hanging);
+    CHECK(hanging->kind == Kind::undermined);
+    CHECK(hanging->part == 0);
+    const auto all_again = fault_of_parts(section, {{pilot, false, true}, {section}});
+    REQUIRE(all_again);
+    CHECK(all_again->kind == Kind::twice);
+    CHECK(all_again->where.top == near(1.5).epsilon(0.03));  // seen midway between its corners
+    CHECK(fault_of_parts(section, {{section}, rest})->kind == Kind::empty);
+    CHECK(fault_of_parts(section, {{pilot, false, true}})->kind == Kind::left_over);
+  }
+
+  TEST_CASE("faults of random parts are those that counting points finds") {
+    Random random(5, 0);
+    const SimplePolygon section = horseshoe_opening(8, 4, 24);
+    int found[4] = {};
+    for (int n = 0; n < 60; ++n) {
+      // Convex parts about random places, clipped to the section by being small.
+      std::vector<ExcavatedPart> parts;
+      for (int k = 0; k < 3; ++k) {
+        const double x = -2.5 + 5 * random.uniform(), y = -2.8 + 4.5 * random.uniform(),
+                     r = 0.2 + 0.9 * random.uniform();
+        parts.push_back(
+            {SimplePolygon({{x - r, y}, {x, y - r}, {x + 0.8 * r, y}, {x, y + r}}), false, true});
+      }
+      bool overlap = false;
+      for (int i = 0; i < 200; ++i)
+        for (int j = 0; j < 200; ++j) {
+          const Vec2 p(-4 + 8 * (i + 0.5) / 200, -4 + 8 * (j + 0.5) / 200);
+          int in = 0;
+          for (const ExcavatedPart& part : parts) in += part.outline.contains(p) ? 1 : 0;
+          overlap = overlap || in > 1;
+        }
+      const auto fault = fault_of_parts(section, parts);
+      REQUIRE(fault);  // they never take all of it
+      ++found[static_cast<int>(fault->kind)];
+      if (overlap) CHECK(fault->kind == Kind::twice);
+      // Less than a cell of the grid in common may escape the points.
+      if (fault->kind == Kind::twice && !overlap)
+        CHECK((fault->where.right - fault->where.left) * (fault->where.top - fault->where.bottom) <
+              4 * 0.04 * 0.04);
+    }
+    CHECK(found[static_cast<int>(Kind::twice)] > 5);
+    CHECK(found[static_cast<int>(Kind::left_over)] > 5);
   }
 }
 

@@ -40,6 +40,7 @@ struct PictureCrossing {
 struct PictureBolt {
   Vec2 head = zeros<Vec2>(), tip = zeros<Vec2>();  ///< at the opening, in the rock [m]
   std::vector<PictureCrossing> crossings;          ///< from head to tip
+  bool is_elsewhere = false;  ///< in another opening: in no diagram, whose directions are of one
 };
 
 struct PictureLiningNode {
@@ -62,6 +63,7 @@ struct PictureLining {
   bool is_ring = true;                   ///< the last node is joined to the first
   double thickness = 0;                  ///< [m]
   std::vector<PictureFoot> feet{};
+  bool is_elsewhere = false;  ///< as of bolts
 };
 
 /// All that `draw_blocks_picture` shows.
@@ -111,7 +113,14 @@ struct BlocksPicture {
   const std::optional<ViewRect> opening = bounding_rect(corners);
   if (!opening) return view_of_everything(picture);
   const double half = std::max(opening->width(), opening->height()) * diameters / 2;
-  return {opening->centre() - Vec2::Constant(half), opening->centre() + Vec2::Constant(half)};
+  // Where that is more than there is, as around twin tunnels, all that there is in the middle.
+  const ViewRect all = view_of_everything(picture);
+  Vec2 centre = opening->centre();
+  for (int k = 0; k < 2; ++k)
+    if (2 * half > all.high[k] - all.low[k]) centre[k] = all.centre()[k];
+  const double seen =
+      std::min(half, 0.5 * std::max(std::max(all.width(), all.height()), opening->width()));
+  return {centre - Vec2::Constant(seen), centre + Vec2::Constant(seen)};
 }
 
 #if VOUSSOIR_BODIES

@@ -12,6 +12,7 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/drawing/page_map.hpp>
 #include <voussoir/io/support_vtu.hpp>
 #include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
@@ -133,30 +134,49 @@ template <class Solver>
   return solver.in_situ().vertical(depth) * 0.5 * opening.width();
 }
 
+/// Directions and diagrams of a picture become those of one opening; what is around others stays in
+/// the picture.
+inline void look_at(BlocksPicture& picture, const SimplePolygon& opening) {
+  const ViewRect rect = *bounding_rect(opening.vertices());
+  const ViewRect around = rect.grown(0.1 * rect.width());
+  picture.other_openings.push_back(std::exchange(picture.outline, opening.vertices()));
+  picture.centre = rect.centre();
+  for (PictureBolt& bolt : picture.bolts) bolt.is_elsewhere = !around.contains(bolt.head);
+  for (PictureLining& lining : picture.linings)
+    lining.is_elsewhere = !lining.nodes.empty() && !around.contains(lining.nodes.front().point);
+}
+
 }  // namespace detail
 
-/// The ribs of a solver's linings along the axis of its last opening; those along another axis are
-/// left out.
+/// The ribs of a solver's linings on the wall of one opening; those along another axis, and around
+/// another opening, are left out.
 /// @param strip_width  see `UnrolledLining`
+/// @param measured     that opening; none: the last one, with all that are along its axis
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] UnrolledLining
-    unrolled_lining(const Solver& solver, double strip_width) {
+    unrolled_lining(const Solver& solver, double strip_width,
+                    const std::optional<PrismaticOpening>& measured = {}) {
   UnrolledLining unrolled{{}, strip_width};
   const auto& openings = solver.mass().openings;
   if (openings.empty()) return unrolled;
-  const TunnelAxis& axis = openings.back().axis();
+  const PrismaticOpening& shown = measured ? *measured : openings.back();
+  const TunnelAxis& axis = shown.axis();
   // Rounds of one tunnel share the origin of their sections: where one of them has it inside, it is
   // the centre of all.
-  Vec2 centre = centre_of(openings.back());
+  Vec2 centre = centre_of(shown);
   for (const auto& opening : openings)
-    if (opening.axis().is_parallel_to(axis) && opening.section().contains(zeros<Vec2>()))
+    if (!measured && opening.axis().is_parallel_to(axis) &&
+        opening.section().contains(zeros<Vec2>()))
       centre = zeros<Vec2>();
+  const ViewRect around = *bounding_rect(shown.section().vertices());
   const std::vector<Vec3> along = lining_axes(solver);
   const double per = strip_width > 0 ? 1 / strip_width : 1;
   for (const RibForce& node : rib_forces(solver)) {
     if (std::abs(along[static_cast<std::size_t>(node.lining)].dot(axis.along())) < 1 - 1e-9)
       continue;
     const Vec3 seen = axis.local(node.position);
+    if (measured && !around.grown(0.1 * around.width()).contains(Vec2(seen.x(), seen.y())))
+      continue;
     const double angle = detail::angle_in_degrees(Vec2(seen.x(), seen.y()) - centre);
     unrolled.nodes.push_back(
         {seen.z(), angle > 270 ? angle - 360 : angle, per * node.thrust, per * node.moment});
@@ -179,7 +199,9 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result, text);
   picture.banner = banner_of(result.verdict(), fallen, "m²", result.has_lost_lining());
-  if (const auto tunnel = detail::rect_of_tunnel(solver.mass()))
+  if (result.measured) detail::look_at(picture, *result.measured);
+  if (const auto tunnel = result.measured ? bounding_rect(result.measured->vertices())
+                                          : detail::rect_of_tunnel(solver.mass()))
     picture.reference_thrust = detail::reference_thrust_of(solver, *tunnel);
   return draw_blocks_picture(picture);
 }
@@ -197,7 +219,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
   view.header.key_numbers = detail::key_numbers_of(solver, result, text);
-  view.unrolled = unrolled_lining(solver, text.strip_width);
+  view.unrolled = unrolled_lining(solver, text.strip_width, result.measured);
   view.banner = banner_of(result.verdict(), fallen, "m³", result.has_lost_lining());
   return draw_tunnel_view(solver.mass(), view);
 }

@@ -10,9 +10,9 @@
 
 namespace voussoir {
 
-/// How a plane shows in the vertical section at right angles to a level tunnel: as a line.
+/// How a plane shows in the section at right angles to a tunnel: as a line.
 struct TraceInSection {
-  double dip;              ///< apparent, from the horizontal [rad], 0 to pi/2
+  double dip;              ///< apparent, from the horizontal of the section [rad], 0 to pi/2
   DipDirection direction;  ///< east: down to the right, looking along the tunnel
   /// Sine of the angle between plane and section, 0 to 1 [-]. Parallel planes a distance s apart
   /// have traces s / sine apart; joints of the area P32 per volume have traces of the length
@@ -20,18 +20,25 @@ struct TraceInSection {
   double sine;
 };
 
-/// @param trend  of the tunnel, clockwise from North [rad]
-/// @return  the trace; a plane that strikes along the tunnel has its true dip, to the last bit
+/// @param trend   of the tunnel, clockwise from North [rad]
+/// @param plunge  of the tunnel below the horizontal [rad], -pi/2 < . < pi/2
+/// @return  the trace; a plane that strikes along a level tunnel has its true dip, to the last bit
 ///
-/// tan(apparent dip) = tan(dip) sin(dip direction - trend); the normal of the plane makes
-/// sin(dip) cos(dip direction - trend) with the axis.
-[[nodiscard]] inline TraceInSection trace_in_section(const Orientation& plane, double trend) {
+/// Of a level tunnel tan(apparent dip) = tan(dip) sin(dip direction - trend), and the normal of the
+/// plane makes sin(dip) cos(dip direction - trend) with the axis.
+[[nodiscard]] inline TraceInSection trace_in_section(const Orientation& plane, double trend,
+                                                     double plunge = 0) {
   const double turned = plane.dip_direction - trend;
   const double across = elementary::sine(turned), along = elementary::cosine(turned);
-  const DipDirection direction = across < 0 ? DipDirection::west : DipDirection::east;
-  if (std::abs(along) < 1e-12) return {plane.dip, direction, 1};
-  const double fall = elementary::sine(plane.dip) * std::abs(across),
-               level = elementary::cosine(plane.dip);
+  // The upward normal, to the right and upwards in the section.
+  const double right = elementary::sine(plane.dip) * across;
+  double up = elementary::cosine(plane.dip);
+  if (plunge != 0)
+    up = up * elementary::cosine(plunge) +
+         elementary::sine(plane.dip) * along * elementary::sine(plunge);
+  const DipDirection direction = (across < 0) != (up < 0) ? DipDirection::west : DipDirection::east;
+  if (plunge == 0 && std::abs(along) < 1e-12) return {plane.dip, direction, 1};
+  const double fall = std::abs(right), level = std::abs(up);
   const double sine = elementary::length(fall, level);
   const double dip = sine > 0 ? elementary::angle_of(fall, level) : 0.5 * std::numbers::pi;
   return {std::min(dip, 0.5 * std::numbers::pi), direction, std::min(sine, 1.0)};

@@ -99,6 +99,9 @@ struct Construction {
   std::vector<ConstructionStage<Solver>> stages;
   typename Solver::Method method = typename Solver::Method();
   Acceptance acceptance;
+  /// Whose convergence is given, whatever is taken out besides; none: of the last opening and those
+  /// that it is joined to.
+  std::optional<typename Solver::Geometry::Opening> measured = {};
 
   /// @param wall_traction  part of the in-situ traction left at the end [-], 0 to 1
   /// @return  the new stage, until the next is added
@@ -156,6 +159,8 @@ template <class Geometry>
 struct ConstructionResult {
   std::vector<StageResult> stages;  ///< those that were begun
   double fallen_before = 0;         ///< rock that had detached before it began [m^2], [m^3]
+  /// Whose convergence was given, see `Construction::measured`.
+  std::optional<typename Geometry::Opening> measured = {};
 
   /// Of the last stage that was begun. @pre there is one
   [[nodiscard]] const EquilibriumReport& last() const { return stages.back().last(); }
@@ -217,6 +222,13 @@ template <class Solver>
   return lining_frame(mass, opening, layout, solver.fallen());
 }
 
+/// Of the opening that is looked at.
+template <class Solver>
+[[nodiscard]] Convergence measured_convergence(const Solver& solver,
+                                               const Construction<Solver>& construction) {
+  return construction.measured ? convergence(solver, *construction.measured) : convergence(solver);
+}
+
 /// @throws InvalidInput  a stage lasts where no joint creeps, or its duration is out of range
 template <class Solver>
 void check_durations(const Solver& solver, const Construction<Solver>& construction) {
@@ -239,7 +251,7 @@ void let_creep(Solver& solver, const ConstructionStage<Solver>& stage,
                StageResult& end) {
   if constexpr (CreepingLaw<typename Solver::JointLaw, Solver::dim>) {
     const auto seen = [&](const CreepState& state) {
-      end.convergence = convergence(solver);
+      end.convergence = measured_convergence(solver, construction);
       end.crept.push_back({state.time, state.report, end.convergence});
       const bool goes_on = !progress || progress(std::min(state.time / stage.duration, 1.0));
       if (!goes_on && state.time < stage.duration) {
@@ -251,7 +263,8 @@ void let_creep(Solver& solver, const ConstructionStage<Solver>& stage,
     const auto states =
         creep(solver, stage.duration, seen, construction.method, construction.acceptance);
     if (end.crept.size() < states.size())  // one that is not stable is not shown
-      end.crept.push_back({states.back().time, states.back().report, convergence(solver)});
+      end.crept.push_back(
+          {states.back().time, states.back().report, measured_convergence(solver, construction)});
   } else {
     (void)solver, (void)stage, (void)construction, (void)progress, (void)end;
   }
@@ -295,6 +308,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
   detail::check_durations(solver, construction);
   ConstructionResult<typename Solver::Geometry> result;
   result.fallen_before = solver.fallen_measure();
+  result.measured = construction.measured;
   for (const ConstructionStage<Solver>& stage : construction.stages) {
     Progress asked;
     if (progress) asked = [&](double fraction) { return progress(stage.name, fraction); };
@@ -307,7 +321,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
                                       construction.acceptance, asked);
       for (const double left : solver.wall_fractions())
         end.wall_traction = std::max(end.wall_traction, left);
-      end.convergence = convergence(solver);
+      end.convergence = detail::measured_convergence(solver, construction);
       if (stage.duration > 0 && end.report.verdict == Verdict::stable)
         detail::let_creep(solver, stage, construction, asked, end);
     });

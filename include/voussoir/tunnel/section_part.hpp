@@ -24,18 +24,24 @@ struct SectionPart {
   double top = std::numeric_limits<double>::infinity();      ///< to here
 };
 
+/// What is taken out of a section at once.
+struct ExcavatedPart {
+  SimplePolygon outline;      ///< within the section; where it takes the rest, that of the section
+  bool takes_rest = false;    ///< what the parts before it have left
+  bool may_undercut = false;  ///< rock may be left above it: a drift that is drawn by its outline
+};
+
 /// What is wrong with parts that are excavated one after the other.
 struct SectionFault {
   enum class Kind {
     empty,       ///< nothing of the section is in a part
-    in_pieces,   ///< the section falls into several pieces there
     twice,       ///< it has been excavated before
     undermined,  ///< rock of the section is left hanging above it
     left_over    ///< after the last part there is rock left in the section
   };
   Kind kind;
   std::size_t part;   ///< index; of `left_over` that of the last
-  SectionPart where;  ///< a piece of the section that is concerned
+  SectionPart where;  ///< the box around what is concerned
 };
 
 /// @return  the outline of a part; none where nothing of the section is in it
@@ -44,10 +50,13 @@ struct SectionFault {
     const SimplePolygon& section, const SectionPart& part);
 
 /// Looks for the first fault of parts in their order. Rock may stand beside a part and below it,
-/// not above.
-/// @cost  parts^3 x edges
+/// above it only where that is allowed.
+///
+/// Between two neighbouring uprights through corners and crossings of the outlines these run
+/// without meeting: what lies above what is seen on the line midway.
+/// @cost  edges^2
 [[nodiscard]] VOUSSOIR_INLINE std::optional<SectionFault> fault_of_parts(
-    const SimplePolygon& section, const std::vector<SectionPart>& parts);
+    const SimplePolygon& section, const std::vector<ExcavatedPart>& parts);
 
 #if VOUSSOIR_BODIES
 
@@ -93,44 +102,61 @@ namespace detail {
   return polygon;
 }
 
-[[nodiscard]] VOUSSOIR_INLINE bool covers(const SectionPart& part, const SectionPart& cell) {
-  return part.left <= cell.left && cell.right <= part.right && part.bottom <= cell.bottom &&
-         cell.top <= part.top;
+/// What of an upright line lies in an outline: stretches from ... to, rising [m].
+using Stretches = std::vector<std::pair<double, double>>;
+
+[[nodiscard]] VOUSSOIR_INLINE Stretches stretches_at(const SimplePolygon& outline, double x) {
+  std::vector<double> crossings;
+  for (std::size_t e = 0; e < outline.size(); ++e) {
+    const auto [a, b] = outline.edge(e);
+    if ((a.x() < x) == (b.x() < x)) continue;
+    crossings.push_back(a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
+  }
+  std::sort(crossings.begin(), crossings.end());
+  Stretches stretches;
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+    stretches.emplace_back(crossings[k], crossings[k + 1]);
+  return stretches;
 }
 
-/// The cells into which the lines of all parts divide the plane, that have rock of the section.
-[[nodiscard]] VOUSSOIR_INLINE std::vector<SectionPart> cells_of(
-    const SimplePolygon& section, const std::vector<SectionPart>& parts) {
-  std::vector<double> x, y;
-  for (const Vec2& v : section.vertices()) {
-    x.push_back(v.x());
-    y.push_back(v.y());
-  }
-  const auto ends = [](std::vector<double>& v) {
-    const auto [low, high] = std::minmax_element(v.begin(), v.end());
-    v = {*low, *high};
-  };
-  ends(x);
-  ends(y);
-  const double low_x = x[0], high_x = x[1], low_y = y[0], high_y = y[1];
-  for (const SectionPart& part : parts) {
-    for (const double limit : {part.left, part.right})
-      if (limit > low_x && limit < high_x) x.push_back(limit);
-    for (const double limit : {part.bottom, part.top})
-      if (limit > low_y && limit < high_y) y.push_back(limit);
-  }
-  for (auto* lines : {&x, &y}) {
-    std::sort(lines->begin(), lines->end());
-    lines->erase(std::unique(lines->begin(), lines->end()), lines->end());
-  }
-  std::vector<SectionPart> cells;
-  const double least = 1e-9 * section.area();
-  for (std::size_t i = 0; i + 1 < x.size(); ++i)
-    for (std::size_t j = 0; j + 1 < y.size(); ++j) {
-      const SectionPart cell{x[i], x[i + 1], y[j], y[j + 1]};
-      if (0.5 * doubled_area(cut_to_part(section, cell)) > least) cells.push_back(cell);
+/// What is in `a` and not in `b`.
+[[nodiscard]] VOUSSOIR_INLINE Stretches without(const Stretches& a, const Stretches& b) {
+  Stretches left = a;
+  for (const auto& [from, to] : b) {
+    Stretches cut;
+    for (const auto& [low, high] : left) {
+      if (std::min(high, from) > low) cut.emplace_back(low, std::min(high, from));
+      if (high > std::max(low, to)) cut.emplace_back(std::max(low, to), high);
     }
-  return cells;
+    left = std::move(cut);
+  }
+  return left;
+}
+
+/// Uprights between which outlines do not meet, rising [m].
+[[nodiscard]] VOUSSOIR_INLINE std::vector<double> uprights_of(
+    const SimplePolygon& section, const std::vector<ExcavatedPart>& parts) {
+  std::vector<Segment> edges;
+  const auto add = [&](const SimplePolygon& outline) {
+    for (std::size_t e = 0; e < outline.size(); ++e) edges.push_back(outline.edge(e));
+  };
+  add(section);
+  for (const ExcavatedPart& part : parts) add(part.outline);
+  std::vector<double> x;
+  for (const Segment& a : edges) {
+    x.push_back(a.start.x());
+    const Vec2 along = a.end - a.start;
+    for (const Segment& b : edges) {
+      const Vec2 other = b.end - b.start, apart = b.start - a.start;
+      const double turn = along.x() * other.y() - along.y() * other.x();
+      if (turn == 0) continue;
+      const double s = (apart.x() * other.y() - apart.y() * other.x()) / turn,
+                   t = (apart.x() * along.y() - apart.y() * along.x()) / turn;
+      if (s > 0 && s < 1 && t > 0 && t < 1) x.push_back(a.start.x() + s * along.x());
+    }
+  }
+  std::sort(x.begin(), x.end());
+  return x;
 }
 
 }  // namespace detail
@@ -155,33 +181,62 @@ VOUSSOIR_INLINE std::optional<SimplePolygon> outline_of_part(const SimplePolygon
   }
 }
 
-VOUSSOIR_INLINE std::optional<SectionFault> fault_of_parts(const SimplePolygon& section,
-                                                           const std::vector<SectionPart>& parts) {
+VOUSSOIR_INLINE std::optional<SectionFault> fault_of_parts(
+    const SimplePolygon& section, const std::vector<ExcavatedPart>& parts) {
   using Kind = SectionFault::Kind;
-  std::vector<SectionPart> left = detail::cells_of(section, parts);
+  const std::vector<double> x = detail::uprights_of(section, parts);
+  const double apart = 1e-9 * section.perimeter();  // rounding of outlines that share a line
+  struct Upright {
+    double low, high;         // x
+    detail::Stretches left;   // rock of the section
+    detail::Stretches taken;  // by parts before
+  };
+  std::vector<Upright> uprights;
+  for (std::size_t k = 0; k + 1 < x.size(); ++k)
+    if (x[k + 1] - x[k] > apart)
+      uprights.push_back(
+          {x[k], x[k + 1], detail::stretches_at(section, 0.5 * (x[k] + x[k + 1])), {}});
+  std::optional<SectionFault> fault;  // of the part that is looked at
+  const auto note = [&fault](Kind kind, std::size_t part, const Upright& at, double from,
+                             double to) {
+    const SectionPart cell{at.low, at.high, from, to};
+    if (!fault || (kind == Kind::twice && fault->kind != kind))
+      fault = SectionFault{kind, part, cell};
+    else if (fault->kind == kind)
+      fault->where = {
+          std::min(fault->where.left, cell.left), std::max(fault->where.right, cell.right),
+          std::min(fault->where.bottom, cell.bottom), std::max(fault->where.top, cell.top)};
+  };
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    try {
-      if (!outline_of_part(section, parts[k])) return SectionFault{Kind::empty, k, parts[k]};
-    } catch (const InvalidInput&) {
-      return SectionFault{Kind::in_pieces, k, parts[k]};
+    bool takes_rock = false;
+    for (Upright& at : uprights) {
+      const detail::Stretches asked =
+          parts[k].takes_rest ? at.left
+                              : detail::stretches_at(parts[k].outline, 0.5 * (at.low + at.high));
+      for (const auto& [from, to] : asked) {
+        for (const auto& [low, high] : detail::stretches_at(section, 0.5 * (at.low + at.high)))
+          takes_rock = takes_rock || std::min(to, high) - std::max(from, low) > apart;
+        for (const auto& [low, high] : at.taken)
+          if (std::min(to, high) - std::max(from, low) > apart)
+            note(Kind::twice, k, at, std::max(from, low), std::min(to, high));
+      }
+      at.left = detail::without(at.left, asked);
+      at.taken.insert(at.taken.end(), asked.begin(), asked.end());
+      if (parts[k].may_undercut) continue;
+      for (const auto& [low, high] : at.left)
+        for (const auto& [from, to] : asked)
+          if (high - low > apart && to - from > apart && low > to - apart)
+            note(Kind::undermined, k, at, low, high);
     }
-    for (std::size_t before = 0; before < k; ++before) {
-      const SectionPart both{std::max(parts[k].left, parts[before].left),
-                             std::min(parts[k].right, parts[before].right),
-                             std::max(parts[k].bottom, parts[before].bottom),
-                             std::min(parts[k].top, parts[before].top)};
-      if (both.left < both.right && both.bottom < both.top &&
-          0.5 * detail::doubled_area(detail::cut_to_part(section, both)) > 1e-9 * section.area())
-        return SectionFault{Kind::twice, k, both};
-    }
-    std::erase_if(left, [&](const SectionPart& cell) { return detail::covers(parts[k], cell); });
-    for (const SectionPart& cell : left)
-      if (cell.bottom >= parts[k].top && cell.left < parts[k].right && cell.right > parts[k].left)
-        return SectionFault{Kind::undermined, k, cell};
+    if (!takes_rock) return SectionFault{Kind::empty, k, {}};
+    if (fault) return fault;
   }
-  if (!left.empty() && !parts.empty())
-    return SectionFault{Kind::left_over, parts.size() - 1, left.front()};
-  return std::nullopt;
+  if (parts.empty()) return std::nullopt;
+  for (const Upright& at : uprights)
+    for (const auto& [low, high] : at.left)
+      if ((high - low) * (at.high - at.low) > 1e-9 * section.area())
+        note(Kind::left_over, parts.size() - 1, at, low, high);
+  return fault;
 }
 
 #endif

@@ -66,7 +66,10 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     return frame;
   };
   canvas.begin_layer("diagrams");
-  if (std::any_of(picture.linings.begin(), picture.linings.end(),
+  std::vector<PictureLining> linings;
+  for (const PictureLining& lining : picture.linings)
+    if (!lining.is_elsewhere) linings.push_back(lining);
+  if (std::any_of(linings.begin(), linings.end(),
                   [](const PictureLining& lining) { return lining.nodes.size() >= 2; })) {
     LiningDiagram thrust, moment;
     thrust.title = "Lining thrust N [kN/m]";
@@ -79,7 +82,7 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
     moment.negative = "inner fibre in tension (\u2212), drawn inside";
     // A thrust of no account, and the moment that it has at the edge of the core, t / 6.
     thrust.negligible = 0.005 * picture.reference_thrust / 1e3;
-    for (const PictureLining& lining : picture.linings) {
+    for (const PictureLining& lining : linings) {
       moment.negligible = std::max(moment.negligible, thrust.negligible * lining.thickness / 6);
       for (const PictureLiningNode& node : lining.nodes) {
         thrust.values.push_back(node.thrust / 1e3);
@@ -87,10 +90,11 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
       }
     }
     thrust.centre = moment.centre = centre_of(picture);
-    draw_lining_diagram(canvas, next_frame(diagram_height - 9), picture.linings, thrust);
-    draw_lining_diagram(canvas, next_frame(diagram_height + 9), picture.linings, moment);
-  } else if (std::any_of(picture.bolts.begin(), picture.bolts.end(),
-                         [](const PictureBolt& bolt) { return !bolt.crossings.empty(); })) {
+    draw_lining_diagram(canvas, next_frame(diagram_height - 9), linings, thrust);
+    draw_lining_diagram(canvas, next_frame(diagram_height + 9), linings, moment);
+  } else if (std::any_of(picture.bolts.begin(), picture.bolts.end(), [](const PictureBolt& bolt) {
+               return !bolt.is_elsewhere && !bolt.crossings.empty();
+             })) {
     draw_bolt_chart(canvas, next_frame(1.25 * diagram_height), picture);
   }
   canvas.end_layer();

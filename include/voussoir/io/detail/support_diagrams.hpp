@@ -175,7 +175,8 @@ VOUSSOIR_INLINE void draw_bolt_chart(SvgCanvas& canvas, const ViewRect& frame,
   std::vector<std::pair<double, const PictureBolt*>> bars;
   const Vec2 centre = centre_of(picture);
   for (const PictureBolt& bolt : picture.bolts) {
-    if (is_drawable(bolt)) bars.emplace_back(direction_degrees(centre, bolt.head), &bolt);
+    if (is_drawable(bolt) && !bolt.is_elsewhere)
+      bars.emplace_back(direction_degrees(centre, bolt.head), &bolt);
   }
   canvas.text({frame.low.x(), frame.low.y() + 13}, "Greatest force in each bolt [kN]",
               {.size = 14.5, .bold = true});
