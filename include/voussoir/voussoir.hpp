@@ -37,6 +37,7 @@
 #include <voussoir/laboratory/elastic_moduli.hpp>
 #include <voussoir/laboratory/generation_stage.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
+#include <voussoir/lining/any_lining.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/rockmass/block_size_curve.hpp>
 #include <voussoir/rockmass/carving.hpp>
