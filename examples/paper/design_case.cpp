@@ -17,7 +17,6 @@ namespace voussoir::paper {
 
 namespace {
 
-using program::ChosenAnchors;
 using program::ChosenMethod;
 using program::Tunnel;
 
@@ -26,16 +25,16 @@ const SimplePolygon& opening() {
   return circle;
 }
 
-ChosenAnchors anchors_at(AnchorPlace place) {
+AnyAnchors anchors_at(AnchorPlace place) {
   switch (place) {
     case AnchorPlace::mid_block:
-      return ChosenAnchors(GargaWangAnchors{});
+      return GargaWangAnchors{};
     case AnchorPlace::on_joint:
-      return ChosenAnchors(JointFaceAnchors{});
+      return JointFaceAnchors{};
     case AnchorPlace::near_joint:
       break;
   }
-  return ChosenAnchors(LorigAnchors{1.2 * bolt_diameter});
+  return LorigAnchors{1.2 * bolt_diameter};
 }
 
 ChosenMethod method_of(Way way) {
@@ -63,7 +62,6 @@ BoltInstallation<Tunnel> bolts_of(const Bolts& b) {
 LiningInstallation<Tunnel> lining_of(const Lining& lining) {
   LiningSection section = LiningSection::rectangular(lining.thickness, lining_modulus);
   section.bending_stiffness *= lining.bending_factor;
-  section.shear_stiffness = std::numeric_limits<double>::infinity();  // Euler-Bernoulli
   return {{.nodes = lining.nodes},
           {section},
           MohrCoulombJoint({.joint_normal_stiffness = lining.interface_stiffness,

@@ -86,6 +86,7 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
     if (node_spacing > joint_spacing)
       warn("lining nodes are " + number(node_spacing) + " m apart, joints " +
            number(joint_spacing) + " m: take more nodes");
+    if (lining.beam == LiningElement::pinned) continue;  // nothing bends
     // What a block weighs on one rigid stretch bends nothing (docs/decisions.md).
     const double length = bending_length(section_of(lining, lining.thickness).bending_stiffness,
                                          lining.interface_normal_stiffness);
@@ -298,7 +299,7 @@ RunResult computed_run(const Input& input, const Report& report) {
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   run.equilibrium_seconds = seconds_since(search);
   for (const LiningInput* lining : input.linings())
-    if (!lining->nodes && lining->tensile_bond > 0)
+    if (!lining->nodes && lining->bends_on_bond())
       run.bonded_nodes = std::max(
           run.bonded_nodes, lining_nodes(input, *lining, run.tunnel.mass(), lining->thickness));
   run.warnings = warnings_of(input, run);

@@ -128,14 +128,14 @@ int lining_nodes(const Input& input, const LiningInput& lining, const RockMass<P
   const double needed = std::ceil(opening.perimeter() / joint_spacing);
   const int count = static_cast<int>(
       std::clamp(needed, static_cast<double>(std::max(outline.facets, 8)), 2000.0));
-  if (!(lining.tensile_bond > 0)) return count;
+  if (!lining.bends_on_bond()) return count;
   return std::max(
       count, *with_chosen_nodes<2>({}, opening, section_of(lining, thickness), interface_of(lining))
                   .nodes);
 }
 
 std::optional<int> rib_nodes(const Input& input, const LiningInput& lining) {
-  if (lining.nodes || lining.tensile_bond > 0) return lining.nodes;
+  if (lining.nodes || lining.bends_on_bond()) return lining.nodes;
   return std::max(outline_input(input, lining.opening).facets, 8);
 }
 

@@ -17,6 +17,7 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
 #include <voussoir/linear/linear_method.hpp>
+#include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
 #include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/orientation_sets.hpp>
@@ -42,7 +43,6 @@ using Point = std::array<double, 2>;
 enum class TunnelShape { circle, horseshoe, polygon };
 enum class BoltAnchors { lorig, garga_wang, joint_face };
 enum class BoltLaw { axial, axial_shear };
-enum class LiningBeam { euler_bernoulli, timoshenko };
 enum class RunMethod { two_level, relaxation, explicit_ };
 
 /// [model] The block of ground that is modelled.
@@ -301,7 +301,7 @@ struct LiningInput {
   double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
   double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
   double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
-  LiningBeam beam = LiningBeam::euler_bernoulli;
+  LiningElement beam = LiningElement::euler_bernoulli;
   double interface_normal_stiffness = 0;  ///< interface.kn [Pa/m], 1e3 to 1e12
   double interface_shear_stiffness = 0;   ///< interface.ks [Pa/m], 1e3 to 1e12; default kn
   double interface_friction_angle = 0;    ///< interface.friction [rad], 0 <= . < pi/2
@@ -319,6 +319,11 @@ struct LiningInput {
   std::optional<double> rib_spacing;
   std::optional<LinedPart> part;  ///< arc as a word, of which `arc` then has the angles
   std::optional<FeetInput> feet;  ///< of an arc alone
+
+  /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
+  [[nodiscard]] bool bends_on_bond() const {
+    return tensile_bond > 0 && beam != LiningElement::pinned;
+  }
 };
 
 /// [[stage]] or [[round]] One step of the construction, in the order of the file.

@@ -106,7 +106,7 @@ void check_arc(Checker& checker, const Input& input, LiningInput& lining,
 /// Nodes are close enough together for a bond, see `node_spacing.hpp`.
 void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
                 const std::string& table) {
-  if (!(lining.tensile_bond > 0)) return;
+  if (!lining.bends_on_bond()) return;
   for (const char* key : {"support.lining", "tunnel", "opening", "diagram"})
     if (checker.faulty(key)) return;
   double thinnest = lining.thickness;

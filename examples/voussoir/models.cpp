@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "models.hpp"
 
-#include <limits>
-
 #include "joint_laws.hpp"
 
 namespace voussoir::program {
 
-ChosenAnchors anchors_of(const BoltsInput& bolts) {
+AnyAnchors anchors_of(const BoltsInput& bolts) {
   switch (bolts.anchors) {
     case BoltAnchors::lorig:
-      return ChosenAnchors(LorigAnchors{bolts.anchor_offset});
+      return LorigAnchors{bolts.anchor_offset};
     case BoltAnchors::garga_wang:
-      return ChosenAnchors(GargaWangAnchors{});
+      return GargaWangAnchors{};
     case BoltAnchors::joint_face:
-      return ChosenAnchors(JointFaceAnchors{});
+      return JointFaceAnchors{};
   }
   throw std::logic_error("unknown bolt anchors");
 }
 
-AxialShearBolt bolt_of(const BoltsInput& bolts) {
+AnyBolt bolt_of(const BoltsInput& bolts) {
   AxialBolt::Params axial{.axial_stiffness = bolts.stiffness, .pretension = bolts.pretension};
   if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
   if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;
-  const double shear = bolts.law == BoltLaw::axial_shear ? bolts.shear_stiffness : 0.0;
   // The file's quantities have their units: a pretension of 500 N is meant.
-  return AxialShearBolt({.axial = axial, .shear_stiffness = shear}, any_units);
+  switch (bolts.law) {
+    case BoltLaw::axial:
+      return AxialBolt(axial, any_units);
+    case BoltLaw::axial_shear:
+      return AxialShearBolt({.axial = axial, .shear_stiffness = bolts.shear_stiffness}, any_units);
+  }
+  throw std::logic_error("unknown bolt law");
 }
 
 MohrCoulombJoint interface_of(const LiningInput& lining) {
@@ -40,16 +43,14 @@ MohrCoulombJoint interface_of(const LiningInput& lining) {
 LiningSection section_of(const LiningInput& lining, double thickness) {
   LiningSection section =
       LiningSection::rectangular(thickness, lining.young_modulus, lining.poisson_ratio);
-  if (lining.beam == LiningBeam::euler_bernoulli)
-    section.shear_stiffness = std::numeric_limits<double>::infinity();
+  section.element = lining.beam;
   return section;
 }
 
 LiningSection strip_of(const LiningInput& lining, double thickness, double width) {
   LiningSection section =
       LiningSection::strip(thickness, width, lining.young_modulus, lining.poisson_ratio);
-  if (lining.beam == LiningBeam::euler_bernoulli)
-    section.shear_stiffness = std::numeric_limits<double>::infinity();
+  section.element = lining.beam;
   return section;
 }
 
@@ -94,26 +95,15 @@ std::string composition_of(const Input& input) {
   }
   for (const BoltsInput* bolts : input.bolt_patterns()) {
     const std::string before = text;
-    switch (bolts->anchors) {
-      case BoltAnchors::lorig:
-        text.append(", ").append(LorigAnchors::name);
-        break;
-      case BoltAnchors::garga_wang:
-        text.append(", ").append(GargaWangAnchors::name);
-        break;
-      case BoltAnchors::joint_face:
-        text.append(", ").append(JointFaceAnchors::name);
-        break;
-    }
-    text.append(", ").append(bolts->law == BoltLaw::axial ? AxialBolt::name : AxialShearBolt::name);
+    text.append(", ").append(anchors_of(*bolts).type_name());
+    text.append(", ").append(bolt_of(*bolts).type_name());
     // Patterns that are alike are named once.
     if (before.ends_with(text.substr(before.size()))) text = before;
   }
   for (const LiningInput* lining : input.linings()) {
     const std::string before = text;
     text.append(", ")
-        .append(lining->beam == LiningBeam::euler_bernoulli ? EulerBernoulliBeam::name
-                                                            : TimoshenkoBeam::name)
+        .append(AnyLining::type_name(lining->beam))
         .append(" on ")
         .append(lining->shear_bond > 0 ? MohrCoulombJoint::name : CoulombJoint::name);
     if (before.ends_with(text.substr(before.size()))) text = before;

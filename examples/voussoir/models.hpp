@@ -11,28 +11,11 @@
 /// The physics of the program: what an input file may choose, as policies.
 ///
 /// A program that knows its physics composes exactly that (see examples/minimal.cpp). This one
-/// learns it from a file, so the choices are made at run time inside policies of our own, and one
-/// solver type serves every input: `AnyJoint` is any contact law, `AxialShearBolt` without shear
-/// stiffness is the axial bolt, `TimoshenkoBeam` with infinite shear stiffness is the
-/// Euler-Bernoulli beam, and an interface with `MohrCoulombJoint` without cohesion is one with
-/// `CoulombJoint`.
+/// learns it from a file, so the choices are made at run time inside the policies, and one solver
+/// type serves every input: `AnyJoint` is any contact law, `AnyBolt` any bolt, `AnyAnchors` any way
+/// of gripping the rock, `AnyLining` any lining; each joint set, pattern and lining has its own. An
+/// interface with `MohrCoulombJoint` without cohesion is one with `CoulombJoint`.
 namespace voussoir::program {
-
-/// Any of the anchor placements.
-class ChosenAnchors {
- public:
-  using role = roles::BoltAnchors;
-  static constexpr const char* name = "ChosenAnchors";
-  ChosenAnchors() = default;
-  template <class Anchors>
-  explicit ChosenAnchors(Anchors anchors) : anchors_(std::move(anchors)) {}
-  [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
-    return std::visit([&](const auto& anchors) { return anchors.distances(crossing); }, anchors_);
-  }
-
- private:
-  std::variant<LorigAnchors, GargaWangAnchors, JointFaceAnchors> anchors_;
-};
 
 /// Any of the equilibrium methods.
 class ChosenMethod {
@@ -52,13 +35,13 @@ class ChosenMethod {
 };
 
 template <class Geometry>
-using TunnelIn = Solver<Geometry, AnyJoint, RockOnLining<MohrCoulombJoint>, ChosenAnchors,
-                        AxialShearBolt, TimoshenkoBeam, ChosenMethod>;
+using TunnelIn = Solver<Geometry, AnyJoint, RockOnLining<MohrCoulombJoint>, AnyAnchors, AnyBolt,
+                        AnyLining, ChosenMethod>;
 using Tunnel = TunnelIn<Planar>;
 using SpatialTunnel = TunnelIn<Spatial>;
 
-[[nodiscard]] ChosenAnchors anchors_of(const BoltsInput& bolts);
-[[nodiscard]] AxialShearBolt bolt_of(const BoltsInput& bolts);
+[[nodiscard]] AnyAnchors anchors_of(const BoltsInput& bolts);
+[[nodiscard]] AnyBolt bolt_of(const BoltsInput& bolts);
 /// Rock on lining: friction, and a bond until it fails, which leaves the friction.
 [[nodiscard]] MohrCoulombJoint interface_of(const LiningInput& lining);
 [[nodiscard]] LiningSection section_of(const LiningInput& lining, double thickness);

@@ -174,10 +174,12 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   s.quantity("E", lining.young_modulus, dimension::pressure, modulus_range, Need::required);
   s.number("nu", lining.poisson_ratio,
            {.low = -1, .high = 0.5, .low_included = false, .high_included = false}, Need::optional);
-  s.choice<LiningBeam>(
-      "beam", lining.beam,
-      {{"euler-bernoulli", LiningBeam::euler_bernoulli}, {"timoshenko", LiningBeam::timoshenko}},
-      Need::optional);
+  s.choice<LiningElement>("beam", lining.beam,
+                          {{"euler-bernoulli", LiningElement::euler_bernoulli},
+                           {"timoshenko", LiningElement::timoshenko},
+                           {"pinned", LiningElement::pinned},
+                           {"bonded-chain", LiningElement::bonded_chain}},
+                          Need::optional);
   s.table("interface", [&](Section& interface) {
     interface.quantity("kn", lining.interface_normal_stiffness, dimension::stiffness_per_area,
                        per_area_range, Need::required);

@@ -4,6 +4,8 @@
 /// The toolkit: everything an analysis in two or three dimensions needs, at rest and in motion.
 /// Pictures and files (io/) are apart, and so are statistics/, which need Boost.Math.
 
+#include <voussoir/bolt/any_anchors.hpp>
+#include <voussoir/bolt/any_bolt.hpp>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
@@ -35,6 +37,7 @@
 #include <voussoir/laboratory/elastic_moduli.hpp>
 #include <voussoir/laboratory/generation_stage.hpp>
 #include <voussoir/laboratory/oedometer.hpp>
+#include <voussoir/lining/any_lining.hpp>
 #include <voussoir/lining/beams.hpp>
 #include <voussoir/rockmass/block_size_curve.hpp>
 #include <voussoir/rockmass/carving.hpp>

@@ -1,6 +1,6 @@
-// expect: lining: `is_pinned` must be `static constexpr bool is_pinned`, or be left out
+// expect: lining: `is_pinned` must be `static constexpr bool is_pinned` or `static bool is_pinned(const LiningSection&)`, or be left out
 // SPDX-License-Identifier: MIT
-// Pins that are asked for at run time: the shape of the contacts is chosen at compile time.
+// Pins that an object would have to be asked for: of a lining nobody makes one.
 #include <voussoir/solver/composition.hpp>
 
 namespace {

@@ -126,6 +126,10 @@ template <>
 inline AxialShearBolt law() {
   return AxialShearBolt({.axial = {.axial_stiffness = 2e8}, .shear_stiffness = 2e7});
 }
+template <>
+inline AnyBolt law() {
+  return law<AxialShearBolt>();
+}
 
 // ---- what is asked of each
 // ------------------------------------------------------------------------

@@ -237,7 +237,7 @@ TEST_SUITE("program/input") {
     CHECK(lining.thickness == 0.1);
     CHECK(lining.young_modulus == 25e9);
     CHECK(lining.poisson_ratio == 0.2);
-    CHECK(lining.beam == LiningBeam::euler_bernoulli);
+    CHECK(lining.beam == voussoir::LiningElement::euler_bernoulli);
     CHECK(lining.interface_normal_stiffness == 1e9);
     CHECK(lining.interface_shear_stiffness == 1e9);
     CHECK(lining.interface_friction_angle == degrees(30));
@@ -389,7 +389,7 @@ TEST_SUITE("program/input") {
       CHECK(contains(errors[0].accepted, "within 0.5 deg"));
     }
     CHECK(lining.poisson_ratio == 0.25);
-    CHECK(lining.beam == LiningBeam::timoshenko);
+    CHECK(lining.beam == voussoir::LiningElement::timoshenko);
     CHECK(lining.nodes == 90);
     CHECK(lining.interface_shear_stiffness == 0.3e9);
     CHECK(lining.interface_normal_stiffness == 1e9);

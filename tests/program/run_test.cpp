@@ -180,8 +180,8 @@ TEST_SUITE("program/run") {
                                                            "--set", "boundary.base=rollers"});
       CHECK(r.json.at("rock").at("bodies") == tunnel.mass().bodies.size());
       const Convergence c = convergence(tunnel);
-      // The program composes AxialShearBolt without shear and TimoshenkoBeam without shear
-      // deformation: equal but for roundings, which the search amplifies less than its tolerance.
+      // The program's interface is a MohrCoulombJoint without cohesion: equal but for roundings,
+      // which the search amplifies less than its tolerance.
       CHECK(std::abs(crown(r) - 1e3 * c.crown) < 1e-6 * crown(r));
       CHECK(std::abs(r.json.at("convergence").at("invert_mm").get<double>() - 1e3 * c.invert) <
             1e-6 * crown(r));

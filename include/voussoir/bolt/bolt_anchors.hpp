@@ -28,7 +28,8 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
 ///
 /// What the compiler cannot check: anchors stay inside the intersections, 0 <= distance <= length.
 ///
-/// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors.
+/// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors; AnyAnchors (one of them, known at run
+/// time).
 template <class Anchors>
 concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> && Copyable<Anchors> &&
     DefaultConstructible<Anchors> && HasAnchorDistances<Anchors>;

@@ -99,7 +99,7 @@ concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
 /// Optional: `BoltReport describe(const BoltSpan<Dim>&, const State&) const`, for a law that
 /// remembers what it has yielded (see `report_from_force`).
 ///
-/// Models: AxialBolt, AxialShearBolt.
+/// Models: AxialBolt, AxialShearBolt; AnyBolt (one of them, known at run time).
 template <class Law, int Dim>
 concept BoltLaw = Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> &&
     HasBoltState<Law, Dim> && HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> &&

@@ -13,6 +13,7 @@
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/shear_spring.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/visit_numbered.hpp>
 
 namespace voussoir {
 
@@ -44,14 +45,6 @@ struct StateOfAny {
       return static_cast<ShearSpring<Dim>&>(state);
   }
 };
-
-/// Calls visit.operator()<number>(law) for the law that is there.
-template <std::size_t Number = 0, class Variant, class Visit>
-decltype(auto) visit_numbered(const Variant& laws, Visit&& visit) {
-  if constexpr (Number + 1 < std::variant_size_v<Variant>)
-    if (laws.index() != Number) return visit_numbered<Number + 1>(laws, visit);
-  return visit.template operator()<Number>(*std::get_if<Number>(&laws));
-}
 
 }  // namespace detail
 

@@ -115,8 +115,9 @@ std::shared_ptr<BoltSet<Geometry::dim, BoltLaw>> add_bolts(
 /// @param thickness  [m], > 0
 /// @param feet       on which its ends stand; none: they hang free
 /// @return  the lining, which the run holds too: forces are read there
-/// @throws InvalidInput  a thickness or mass out of range; a member without
-///                       length or section; no rock at the wall; nodes too far apart for a bond
+/// @throws InvalidInput  a thickness or mass out of range; a member without length or section; no
+///                       rock at the wall; nodes too far apart for a bond; some sections are pinned
+///                       and some are not
 template <class Lining, class Geometry, class JointLaw, class InterfaceLaw, class Detector>
 std::shared_ptr<LiningMembers<Geometry>> add_lining(
     Dynamics<Geometry::dim, JointLaw, InterfaceLaw, Detector>& run,
@@ -130,7 +131,7 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   for (const LiningSection& section : sections)
     require(section.mass > 0 && std::isfinite(section.mass), "mass of a lining that moves",
             section.mass, "> 0 kg per metre of it");
-  constexpr bool is_pinned = is_pinned_lining<Lining>();
+  const bool is_pinned = is_pinned_lining<Lining>(sections);
   const LiningFrame<Geometry> frame = is_pinned ? without_bare_nodes(given) : given;
   if (!is_pinned && holds_tension<dim>(interface_law))
     require_nodes_for_bond(frame, sections, interface_law.joint_normal_stiffness());
@@ -152,8 +153,8 @@ std::shared_ptr<LiningMembers<Geometry>> add_lining(
   std::vector<int> numbers(nodes.size());
   std::iota(numbers.begin(), numbers.end(), first);
   auto lining = std::make_shared<LiningMembers<Geometry>>(
-      lining_elements<Lining>(frame, sections, places, numbers), first,
-      static_cast<int>(nodes.size()), frame.centre);
+      lining_elements<Lining>(frame, sections, places, numbers, [&](int) { return is_pinned; }),
+      first, static_cast<int>(nodes.size()), frame.centre);
   run.add_support(lining);
   if (!feet) return lining;
   std::vector<LiningFootSpring<dim>> springs;

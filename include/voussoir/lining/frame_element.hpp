@@ -41,6 +41,22 @@ template <int Dim>
   return turn;
 }
 
+/// Takes from an element all that resists the turns of one of its ends, whose node it then does not
+/// turn: they follow from the other motions of its ends (static condensation).
+template <int Dof>
+void hinge(ElementMatrix<Dof>& stiffness, int end) {
+  constexpr int dim = Dof == 3 ? 2 : 3, all = 2 * Dof;
+  for (int r = Dof * end + dim; r < Dof * (end + 1); ++r) {
+    const double own = stiffness(r, r);
+    if (own > 0) {
+      const ElementMatrix<Dof> before = stiffness;
+      for (int i = 0; i < all; ++i)
+        for (int j = 0; j < all; ++j) stiffness(i, j) -= before(i, r) * before(r, j) / own;
+    }
+    for (int i = 0; i < all; ++i) stiffness(i, r) = stiffness(r, i) = 0;
+  }
+}
+
 /// A straight piece of lining between two nodes.
 template <class Geometry>
 struct FrameElement {
@@ -79,6 +95,14 @@ struct FrameElement {
   [[nodiscard]] Values end_forces(const double* u) const {
     const Values q = stacked(vector_at<dof>(u + dof * i), vector_at<dof>(u + dof * j));
     return start + local * (turn * q);
+  }
+  /// The forces of its ends as sections of a lining have them: `end_forces`, without what a pin's
+  /// spring to nowhere makes of roundings where it is pinned.
+  [[nodiscard]] Values section_forces(const double* u) const {
+    Values f = end_forces(u);
+    if (is_pinned)
+      for (int r = dim; r < dof; ++r) f[r] = f[dof + r] = 0;
+    return f;
   }
   /// The same with the nodes anywhere: from the length of the chord and the turns of the nodes
   /// against it, which are small.

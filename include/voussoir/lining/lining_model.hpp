@@ -3,12 +3,17 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
+#include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
 
 namespace voussoir {
+
+/// What a lining is made of where that is known at run time only, see `AnyLining`.
+enum class LiningElement { euler_bernoulli, timoshenko, pinned, bonded_chain };
 
 /// Section of a lining, per metre of tunnel in 2-D; of one member in 3-D.
 struct LiningSection {
@@ -18,6 +23,8 @@ struct LiningSection {
   double mass = 0;           ///< per length of lining [kg/m]; 0: weightless, as in the paper
   double lateral_bending_stiffness = 0;  ///< in 3-D: E I out of the plane of the section [N m^2]
   double torsional_stiffness = 0;        ///< in 3-D: G J [N m^2]
+  /// Read by `AnyLining` alone: every other lining is of one kind of element.
+  LiningElement element = LiningElement::euler_bernoulli;
 
   /// Of the rectangle with these stiffnesses: sqrt(12 I / A) [m].
   [[nodiscard]] double thickness() const {
@@ -79,30 +86,65 @@ concept HasElementStiffness = requires(const LiningSection& section, double leng
 template <class Lining>
 concept NamesPins = requires {
   Lining::is_pinned;
-};
+}
+|| requires { &Lining::is_pinned; };
 template <class Lining>
 concept HasPins = requires {
   requires std::same_as<decltype(Lining::is_pinned), const bool>;
   typename std::bool_constant<Lining::is_pinned>;
 };
+/// The same for a lining whose section says it: `static bool is_pinned(const LiningSection&)`.
 template <class Lining>
-[[nodiscard]] constexpr bool is_pinned_lining() {
+concept ChoosesPins = requires(const LiningSection& section) {
+  { Lining::is_pinned(section) } -> std::same_as<bool>;
+};
+/// Of a kind of lining that is always one or the other.
+template <class Lining>
+requires(!ChoosesPins<Lining>) [[nodiscard]] constexpr bool is_pinned_lining() {
   if constexpr (HasPins<Lining>)
     return Lining::is_pinned;
   else
     return false;
+}
+/// Of a lining with this section.
+template <class Lining>
+[[nodiscard]] constexpr bool is_pinned_lining(const LiningSection& section) {
+  if constexpr (ChoosesPins<Lining>)
+    return Lining::is_pinned(section);
+  else
+    return is_pinned_lining<Lining>();
+}
+/// Of a lining whose members have these sections.
+/// @throws InvalidInput  some are pinned and some are not; two linings of one model may differ
+template <class Lining>
+[[nodiscard]] bool is_pinned_lining(const std::vector<LiningSection>& sections) {
+  if constexpr (ChoosesPins<Lining>) {
+    const bool is_pinned = !sections.empty() && Lining::is_pinned(sections.front());
+    for (std::size_t k = 1; k < sections.size(); ++k)
+      if (Lining::is_pinned(sections[k]) != is_pinned)
+        throw InvalidInput(message({"lining: section 0 is ", is_pinned ? "pinned" : "not pinned",
+                                    " and section ", k, is_pinned ? " is not" : " is",
+                                    "; accepted: sections of one lining that are all pinned, or "
+                                    "none of them"}));
+    return is_pinned;
+  } else {
+    return is_pinned_lining<Lining>();
+  }
 }
 
 /// The straight elements that a lining is made of, between nodes that move and turn.
 ///
 /// What the compiler cannot check: the matrix is symmetric and does not resist rigid motion.
 ///
-/// Optional: `static constexpr bool is_pinned` (see `HasPins`).
+/// Optional: `static constexpr bool is_pinned` (see `HasPins`), or a function of the section (see
+/// `ChoosesPins`).
 ///
-/// Models: EulerBernoulliBeam, TimoshenkoBeam, PinnedBar, BondedChain.
+/// Models: EulerBernoulliBeam, TimoshenkoBeam, PinnedBar, BondedChain; AnyLining (one of them,
+/// known at run time).
 template <class Lining, int Dof>
 concept LiningModel = Fills<Lining, roles::Lining> && HasName<Lining> &&
-    HasElementStiffness<Lining, Dof> &&(HasPins<Lining> || !NamesPins<Lining>);
+    HasElementStiffness<Lining, Dof> &&
+    (HasPins<Lining> || ChoosesPins<Lining> || !NamesPins<Lining>);
 
 template <class Lining, int Dof>
 consteval bool explain_lining_model() {
@@ -111,8 +153,9 @@ consteval bool explain_lining_model() {
   static_assert(HasElementStiffness<Lining, Dof>,
                 "lining: add `template <int Dof> static ElementMatrix<Dof> stiffness(const "
                 "LiningSection&, double length)`");
-  static_assert(HasPins<Lining> || !NamesPins<Lining>,
-                "lining: `is_pinned` must be `static constexpr bool is_pinned`, or be left out");
+  static_assert(HasPins<Lining> || ChoosesPins<Lining> || !NamesPins<Lining>,
+                "lining: `is_pinned` must be `static constexpr bool is_pinned` or `static bool "
+                "is_pinned(const LiningSection&)`, or be left out");
   return true;
 }
 

@@ -132,14 +132,16 @@ struct InstalledLining {
   bool came_off = false;  ///< off its wall, and was taken out
 };
 
-/// The members of a lining between its nodes.
+/// The members of a lining between its nodes. Where one that bends ends on a pin, or a pinned one
+/// on a node that turns, it is hinged there.
 /// @param places  of the nodes, and of the neighbours behind them [m]
 /// @param bodies  that they are
+/// @param is_pin  is_pin(k): whether the node at place k is one of a pinned lining
 /// @throws InvalidInput  a member without length, or of a section that is not given
-template <class Lining, class Geometry>
+template <class Lining, class Geometry, class IsPin>
 [[nodiscard]] std::vector<FrameElement<Geometry>> lining_elements(
     const LiningFrame<Geometry>& frame, const std::vector<LiningSection>& sections,
-    const std::vector<Vec<Geometry::dim>>& places, const std::vector<int>& bodies) {
+    const std::vector<Vec<Geometry::dim>>& places, const std::vector<int>& bodies, IsPin&& is_pin) {
   std::vector<FrameElement<Geometry>> elements;
   elements.reserve(frame.members.size());
   for (const auto& member : frame.members) {
@@ -148,11 +150,15 @@ template <class Lining, class Geometry>
     const double length = along.norm();
     require(length > 0, "length of a lining member", length, "> 0 m");
     const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
+    const bool is_pinned = is_pinned_lining<Lining>(section);
+    auto stiffness = Lining::template stiffness<Geometry::dof>(section, length);
+    for (const int end : {0, 1})
+      if (is_pin(end == 0 ? member.first : member.second) != is_pinned)
+        hinge<Geometry::dof>(stiffness, end);
     elements.push_back({bodies[static_cast<std::size_t>(member.first)],
                         bodies[static_cast<std::size_t>(member.second)], length,
-                        frame_axes<Geometry::dim>(along, member.outward),
-                        Lining::template stiffness<Geometry::dof>(section, length)});
-    elements.back().is_pinned = is_pinned_lining<Lining>();
+                        frame_axes<Geometry::dim>(along, member.outward), stiffness});
+    elements.back().is_pinned = is_pinned;
   }
   return elements;
 }

@@ -112,13 +112,14 @@ class ComposedSolver {
 
   /// Installs a lining on the wall in its present position, free of force. There may be several, on
   /// other stretches of the wall or, as a second layer that also bears on the rock, on the same.
-  /// One that begins where another ends joins it (`LiningFrame::neighbours`).
+  /// One that begins where another ends joins it (`LiningFrame::neighbours`), by a hinge where one
+  /// of them is pinned and the other bends.
   /// @param interface_law  rock on lining
   /// @param feet  on which those ends stand that do not go on in a lining; none: they hang free
   /// @return  ends that hang free because the rock under their foot has fallen [m]
   /// @throws InvalidInput  a member has no length, no rock touches it, or was ever under its feet;
   ///                       the interface holds tension, and nodes are farther apart than
-  ///                       `coarsest_bonded_spacing`
+  ///                       `coarsest_bonded_spacing`; some sections are pinned and some are not
   std::vector<Vec<dim>> install_lining(const LiningFrame<Geometry>& frame,
                                        const LiningSection& section,
                                        const InterfaceLaw& interface_law,

@@ -203,13 +203,14 @@ using StageProgress = std::function<bool(const std::string& stage, double fracti
 namespace detail {
 
 /// The frame of a lining, with as many nodes as its bond needs where it gives no number.
-/// @throws InvalidInput  see `lining_frame`, `with_chosen_nodes`
+/// @throws InvalidInput  see `lining_frame`, `with_chosen_nodes`; some sections are pinned and some
+///                       are not
 template <class Solver>
 [[nodiscard]] LiningFrame<typename Solver::Geometry> frame_of(
     const Solver& solver, const LiningInstallation<Solver>& lining) {
   const auto& mass = solver.mass();
   if (mass.openings.empty() || lining.sections.empty() ||
-      is_pinned_lining<typename Solver::Lining>())
+      is_pinned_lining<typename Solver::Lining>(lining.sections))
     return lining_frame(mass, lining.layout, solver.fallen());
   const auto& opening = lining.opening ? *lining.opening : mass.openings.back();
   auto layout = lining.layout;

@@ -42,7 +42,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::vector<RibForce> rib_forces(const 
     const int number = of_body[index(member.i)].lining;
     if (number < 0 || std::abs(along[index(number)].dot(Vec3(row(member.at_rest, 0)))) > 0.5)
       return;
-    const auto f = member.end_forces(system.displacement.data());
+    const auto f = member.section_forces(system.displacement.data());
     const auto at = [&](int body, double thrust, double shear, double moment) {
       RibForce& node = of_body[index(body)];
       node.thrust += thrust;

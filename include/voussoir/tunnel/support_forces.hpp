@@ -166,7 +166,7 @@ template <class Solver, int Dim = Solver::SystemType::dim>
   const auto add = [&](const auto& it) {
     for (const auto& e : it.members()) {
       members.push_back(detail::lining_member<Dim>(system.body(e.i).centre, system.body(e.j).centre,
-                                                   e.end_forces(system.displacement.data())));
+                                                   e.section_forces(system.displacement.data())));
       members.back().lining = number_of(std::max(e.i, e.j));
     }
   };
@@ -301,7 +301,7 @@ template <class Solver>
                                                      const LiningNodes& nodes) {
   const auto& system = solver.system();
   auto forces = nodes.forces(
-      [&](const auto& member) { return member.end_forces(system.displacement.data()); });
+      [&](const auto& member) { return member.section_forces(system.displacement.data()); });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const int body = nodes.body(k);
     forces[k].position = system.body(body).centre;

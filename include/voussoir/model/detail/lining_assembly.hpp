@@ -46,20 +46,19 @@ class LiningAssembly {
   /// @param feet  on which ends stand that do not go on in a lining; none: they hang free
   /// @return  ends without a foot because the rock under them has fallen [m]
   /// @throws InvalidInput  a member has no length, no rock touches the lining, or was ever under
-  /// its
-  ///                       feet; nodes are too far apart for a bond
+  ///                       its feet; nodes are too far apart for a bond; some sections are pinned
+  ///                       and some are not
   std::vector<Vec<dim>> run(const LiningFrame<Geometry>& given,
                             const std::vector<LiningSection>& sections,
                             const InterfaceLaw& interface_law,
                             const std::optional<FootBearing>& feet) {
-    const LiningFrame<Geometry> wanted =
-        is_pinned_lining<Lining>() ? without_bare_nodes(given) : given;
+    is_pinned_ = is_pinned_lining<Lining>(sections);
+    const LiningFrame<Geometry> wanted = is_pinned_ ? without_bare_nodes(given) : given;
     if (std::none_of(wanted.contacts.begin(), wanted.contacts.end(),
                      [this](const auto& c) { return !system_.body(c.body).is_gone; }))
       throw InvalidInput("lining: no rock touches it");
-    if constexpr (!is_pinned_lining<Lining>())
-      if (holds_tension<dim>(interface_law))
-        require_nodes_for_bond(wanted, sections, interface_law.joint_normal_stiffness());
+    if (!is_pinned_ && holds_tension<dim>(interface_law))
+      require_nodes_for_bond(wanted, sections, interface_law.joint_normal_stiffness());
     LiningFrame<Geometry> beside = with_shared_ends(
         wanted, [this](const Vec<dim>& place) { return standing_node(place) >= 0; });
     std::vector<int> there(beside.neighbours.size()), standing;
@@ -113,6 +112,14 @@ class LiningAssembly {
     return -1;
   }
 
+  /// Whether a node that stands is one of a pinned lining.
+  [[nodiscard]] bool is_standing_pin(int body) const {
+    return std::any_of(system_.linings.begin(), system_.linings.end(), [body](const auto& lining) {
+      const int end = lining.first + static_cast<int>(lining.surface.node_count());
+      return lining.is_pinned && body >= lining.first && body < end;
+    });
+  }
+
   /// Takes out the feet of the ends that go on in the new lining, which has to carry what they
   /// bore.
   void leave_out_feet_before(const LiningFrame<Geometry>& wanted) {
@@ -151,7 +158,12 @@ class LiningAssembly {
     std::vector<Vec<dim>> places = frame.nodes;
     places.insert(places.end(), frame.neighbours.begin(), frame.neighbours.end());
     std::vector<FrameElement<Geometry>> own, joints;
-    for (FrameElement<Geometry>& e : lining_elements<Lining>(frame, sections, places, bodies)) {
+    const auto is_pin = [&](int place) {
+      const int body = bodies[static_cast<std::size_t>(place)];
+      return body >= first_node_ ? is_pinned_ : is_standing_pin(body);
+    };
+    for (FrameElement<Geometry>& e :
+         lining_elements<Lining>(frame, sections, places, bodies, is_pin)) {
       const bool joins = e.i < first_node_ || e.j < first_node_;
       if (joins) e.install_at(system_.pose(e.i), system_.pose(e.j), system_.displacement.data());
       (joins ? joints : own).push_back(e);
@@ -177,7 +189,9 @@ class LiningAssembly {
         continue;
       }
       springs.push_back(foot_spring(end, first + end.node, bearing));
-      springs.back().arm_node = end.place - frame.nodes[static_cast<std::size_t>(end.node)];
+      // A pin is pushed in its middle, by a foot too.
+      if (!is_pinned_)
+        springs.back().arm_node = end.place - frame.nodes[static_cast<std::size_t>(end.node)];
       springs.back().arm_rock = system_.arm(end.body, end.place);
     }
     return springs;
@@ -197,7 +211,7 @@ class LiningAssembly {
     double thickness = 0;
     for (const LiningSection& section : sections)
       thickness = std::max(thickness, section.thickness());
-    system_.linings.push_back({first_node_, law, is_pinned_lining<Lining>(), thickness,
+    system_.linings.push_back({first_node_, law, is_pinned_, thickness,
                                LiningSurface<Geometry>(
                                    frame, thickness, [this](int b) { return system_.motion_of(b); },
                                    [this](int b) { return system_.body(b).is_gone; }),
@@ -214,7 +228,7 @@ class LiningAssembly {
                               law);
       };
       const FacetPoint<dim> middle{zeros<Vec<dim>>(), c.facet.measure()};
-      if constexpr (is_pinned_lining<Lining>()) {
+      if (is_pinned_) {
         // A pin is pushed in its middle, wherever on its stretch the rock touches it.
         touch(c.facet.centre(), {&middle, 1});
       } else if (is_bonded) {
@@ -249,6 +263,7 @@ class LiningAssembly {
   System& system_;
   double gravity_, near_;
   int first_node_ = 0;
+  bool is_pinned_ = false;  ///< the lining that is put in
 };
 
 /// See `LiningAssembly::run`. Compiled once for all laws.
