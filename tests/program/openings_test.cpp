@@ -18,7 +18,8 @@ using namespace voussoir_test;
 
 namespace {
 
-/// A square tunnel of 4 m in rock of 40 m x 24 m that is cut by three sets of endless joints.
+/// A square tunnel of 4 m in rock of 40 m x 24 m that is cut by two sets of endless joints, on the
+/// boundary that 2-D and 3-D have in common.
 std::string rock(const std::string& model, const std::string& openings) {
   return "[model]\nwidth = \"40 m\"\nbelow_invert = \"10 m\"\n" + model +
          "[tunnel]\nshape = \"polygon\"\n"
@@ -26,6 +27,7 @@ std::string rock(const std::string& model, const std::string& openings) {
          "\"2 m\"]]\ncover = \"10 m\"\n" +
          openings +
          "[rock]\ndensity = \"2700 kg/m^3\"\n[stress]\nK0 = 1.0\n"
+         "[boundary]\nsides = \"rollers\"\nbase = \"rollers\"\n"
          "[[joint_set]]\ndip = \"70 deg\"\ndip_direction = \"E\"\nspacing = \"2 m\"\n"
          "[[joint_set]]\ndip = \"20 deg\"\ndip_direction = \"W\"\nspacing = \"2 m\"\n"
          "[joint]\nkn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"70 deg\"\n"

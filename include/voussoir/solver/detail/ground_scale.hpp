@@ -6,6 +6,7 @@
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/rockmass/carving_limits.hpp>
 #include <voussoir/rockmass/in_situ.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 
@@ -31,11 +32,11 @@ struct OpenBox {
   for (const PrismaticOpening& opening : mass.openings) {
     const auto [low, high] = opening.local_box();
     const double side = std::max(high.x() - low.x(), high.y() - low.y());
-    if (side > largest.longer_side)
-      largest = {
-          side,
-          opening.in_space({0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y())}, opening.from())
-              .z()};
+    if (!(side > largest.longer_side)) continue;
+    // Where it ends may be far outside.
+    const auto [from, to] = stretch_inside(opening, mass.domain);
+    const Vec2 middle(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
+    largest = {side, opening.in_space(middle, 0.5 * (from + to)).z()};
   }
   return largest;
 }
