@@ -26,6 +26,7 @@
 #include <voussoir/io/detail/painting_order.hpp>
 #include <voussoir/io/detail/rib_strips.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
+#include <voussoir/io/detail/section_lines.hpp>
 #include <voussoir/io/detail/side_column.hpp>
 #include <voussoir/io/detail/support_diagrams.hpp>
 #include <voussoir/io/interaction_picture.hpp>
@@ -37,6 +38,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/stereonet_picture.hpp>
 #include <voussoir/io/support_vtu.hpp>
+#include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/voussoir.hpp>

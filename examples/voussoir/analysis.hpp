@@ -78,7 +78,9 @@ using GeneratedRock = GeneratedRockIn<Planar>;
 /// @throws Stopped       `report` said so while rock was made
 [[nodiscard]] RunResult run_tunnel(const Input& input, const Report& report);
 /// @pre the input is one in 3-D
-[[nodiscard]] SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report);
+/// @param observer  of its stages
+[[nodiscard]] SpatialRunResult run_spatial_tunnel(
+    const Input& input, const Report& report, const StageObserver<SpatialTunnel>& observer = {});
 
 /// Of the middle third of a tunnel that has been driven, 3-D [m].
 [[nodiscard]] Convergence middle_convergence(const Input& input, const SpatialTunnel& tunnel);

@@ -68,6 +68,14 @@ void read_run(Section& s, RunInput& run) {
                "max_steps above ramp_steps");
 }
 
+void read_picture(Section& s, Input& input) {
+  (void)s.choice<ViewFrom>(
+      "from", input.picture.from,
+      {{"axis", ViewFrom::axis}, {"face", ViewFrom::face}, {"above", ViewFrom::above}},
+      Need::optional);
+  if (!input.is_spatial()) note_unused(input, s, "from");
+}
+
 void read_all(Section& file, Input& input, const std::filesystem::path& directory) {
   int schema = 1;
   file.integer("schema", schema, 1, 1);
@@ -137,6 +145,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
       read_stage(s, input, stage, is_round, directory);
       if (!is_round && i == 0) stage.part = SectionPart{};
     });
+  file.table("picture", [&](Section& s) { read_picture(s, input); });
   refuse_loads_on_blocks(file);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
   file.finish();

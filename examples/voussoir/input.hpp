@@ -16,6 +16,7 @@
 #include <voussoir/equilibrium/equilibrium.hpp>
 #include <voussoir/farfield/far_field.hpp>
 #include <voussoir/geometry/simple_polygon.hpp>
+#include <voussoir/io/view_from.hpp>
 #include <voussoir/linear/linear_method.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/rockmass/mapped_traces.hpp>
@@ -358,6 +359,11 @@ struct RunInput {
   std::optional<std::int64_t> max_steps;  ///< > 0
 };
 
+/// [picture] Of a run.
+struct PictureInput {
+  ViewFrom from = ViewFrom::axis;  ///< 3-D
+};
+
 /// [diagram] The axes of the interaction diagram, each rising, with two or more entries.
 struct DiagramInput {
   std::vector<std::optional<BoltSpacing>> spacing;  ///< none: no bolts, always last
@@ -388,6 +394,7 @@ struct Input {
   std::vector<StageInput> stages;  ///< never empty; the last leaves no traction on the wall
   bool has_rounds = false;         ///< stages are given as [[round]]
   RunInput run;
+  PictureInput picture;
   std::optional<DiagramInput> diagram;
   /// Blocks in place of a tunnel: of the others model.gravity, rock, joint and run are then given.
   std::optional<LaidInput> laid;

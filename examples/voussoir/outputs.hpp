@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 #include <voussoir/io/atomic_file.hpp>
@@ -33,6 +34,29 @@ namespace voussoir::program {
 /// All files for ParaView with their names, `blocks.vtu` among them; `tunnel.vtm` opens them.
 [[nodiscard]] std::vector<NamedDocument> paraview_files(const Input& input,
                                                         const SpatialRunResult& run);
+/// How the tunnel was at the end of each stage, for ParaView: files of its stages and one that
+/// opens them in time. Of one stage nothing is written: `blocks.vtu` and the files beside it are
+/// its end.
+class HistoryFiles {
+ public:
+  static constexpr const char* folder = "history";
+  static constexpr const char* collection = "history.pvd";
+
+  /// @param write  takes a file as soon as there is a second stage: no more than the files of one
+  ///               stage are kept
+  HistoryFiles(const Input& input, std::function<void(const NamedDocument&)> write);
+  /// A stage has ended.
+  void add(const SpatialTunnel& tunnel);
+  /// Writes the collection.
+  /// @return  false: there is nothing to be written
+  bool finish();
+
+ private:
+  const Input* input_;
+  std::function<void(const NamedDocument&)> write_;
+  std::vector<TimedFile> stages_;
+  std::vector<NamedDocument> first_;
+};
 [[nodiscard]] std::string run_summary(const Input& input, const SpatialRunResult& run);
 
 }  // namespace voussoir::program

@@ -86,7 +86,7 @@ std::string with_run_id(const std::string& file_name, std::string text, const st
     return text.insert(2, "  \"run_id\": \"" + run_id + "\",\n");
   if (kind == ".gp") return "# " + words + "\n" + text;
   if (kind == ".md") return text + "\n<!-- " + words + " -->\n";
-  if (kind == ".svg" || kind == ".vtu" || kind == ".vtm" || kind == ".html") {
+  if (kind == ".svg" || kind == ".vtu" || kind == ".vtm" || kind == ".pvd" || kind == ".html") {
     // Behind the first line, which must stay the first: <?xml ...> or <!DOCTYPE ...>.
     const std::string comment = "<!-- " + words + " -->\n";
     const std::size_t end = text.find(">\n");
@@ -160,9 +160,61 @@ RunFolder::~RunFolder() {
   let_go();
 }
 
+void RunFolder::add(const std::string& name, const std::string& text, const std::string& run_id) {
+  const std::filesystem::path path = path_ / utf8_path(name), folder = path.parent_path();
+  if (name.find('/') != std::string::npos && !std::filesystem::exists(folder)) {
+    std::error_code error;
+    if (std::filesystem::create_directory(folder, error)) made_.push_back(folder);
+    if (error)
+      throw std::runtime_error("cannot make the folder '" + utf8_text(folder) +
+                               "': " + error.message());
+  }
+  outputs_.add(path, with_run_id(name, text, run_id));
+  added_.insert(name);
+}
+
+void RunFolder::expect_folder(const std::string& name) const {
+  const std::filesystem::path folder = path_ / utf8_path(name);
+  std::error_code error;
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
+    throw std::runtime_error("'" + utf8_text(folder) + "' is not a folder");
+  clear_abandoned_parts(folder);
+}
+
+namespace {
+
+/// Whether a file says that the program wrote it, see `with_run_id`.
+bool is_of_program(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string start(300, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start.find("<!-- voussoir ") != std::string::npos;
+}
+
+}  // namespace
+
+void RunFolder::replace_all_in(const std::string& folder) {
+  emptied_.insert(folder);
+  std::error_code ignored;  // what cannot be read stays
+  for (std::filesystem::directory_iterator entry(path_ / folder, ignored), end;
+       !ignored && entry != end; entry.increment(ignored))
+    replace(folder + "/" + utf8_text(entry->path().filename()));
+}
+
 void RunFolder::publish() {
   outputs_.publish();
   made_.clear();
+  std::error_code ignored;  // the results are there, whatever becomes of older ones
+  for (const std::string& name : replaced_)
+    if (const auto path = path_ / utf8_path(name); !added_.contains(name) && is_of_program(path))
+      std::filesystem::remove(path, ignored);
+  for (const std::string& folder : emptied_)
+    if (std::filesystem::is_directory(path_ / folder, ignored) &&
+        std::filesystem::is_empty(path_ / folder, ignored))
+      std::filesystem::remove(path_ / folder, ignored);
 }
 
 void RunFolder::take_lock(const std::string& option, LockedFile::Mode mode) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +41,7 @@ class RunId {
 [[nodiscard]] std::string joints_hash(const Input& input);
 
 /// The content of a file with the run's id in it: a key of JSON, a last column of CSV, a comment in
-/// SVG, VTU, HTML, Markdown and gnuplot scripts. Other files stay as they are.
+/// SVG, VTU, VTM, PVD, HTML, Markdown and gnuplot scripts. Other files stay as they are.
 [[nodiscard]] std::string with_run_id(const std::string& file_name, std::string text,
                                       const std::string& run_id);
 
@@ -62,9 +63,18 @@ class RunFolder {
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  void add(const std::string& name, const std::string& text, const std::string& run_id) {
-    outputs_.add(path_ / name, with_run_id(name, text, run_id));
-  }
+  /// @param name  of the file; "history/stage_001.vtm" lies in a folder of its own, made if missing
+  /// @throws std::runtime_error  see `StagedFile`; or the folder cannot be made
+  void add(const std::string& name, const std::string& text, const std::string& run_id);
+  /// A folder of this folder that will take files: clears the hidden part files of dead processes.
+  /// @throws std::runtime_error  it is a file
+  void expect_folder(const std::string& name) const;
+  /// What another run has left under this name does not outlast this run: unless a file of the name
+  /// is added, `publish` removes it. Files that do not say that the program wrote them stay.
+  /// @param name  of an SVG, VTU, VTM or PVD file
+  void replace(const std::string& name) { replaced_.insert(name); }
+  /// The same of all files in a folder of this folder, and of that folder if none is left.
+  void replace_all_in(const std::string& folder);
   void publish();
   /// The folder stays, whatever becomes of the run: something in it is worth keeping.
   void keep() { made_.clear(); }
@@ -77,6 +87,7 @@ class RunFolder {
   std::optional<LockedFile> lock_;
   std::vector<std::filesystem::path> made_;  ///< folders made here, the innermost last
   OutputSet outputs_;
+  std::set<std::string> added_, replaced_, emptied_;  ///< names of files; of folders
 };
 
 }  // namespace voussoir::program

@@ -81,20 +81,30 @@ int run_blocks_verb(const Options& options, const Input& input) {
 }
 
 /// A tunnel in 2-D or 3-D.
-/// @param compute  the run, by what is told of its progress
+/// @param compute  the run, by what is told of its progress and takes the end of every stage
 template <class Compute>
 int run_tunnel_verb(const Options& options, const Input& input, Compute&& compute) {
   RunFolder outputs(options.folder);
+  if (input.is_spatial()) outputs.expect_folder(HistoryFiles::folder);
+  const std::string id = RunId("tunnel").add(input).text();
+  HistoryFiles history(input,
+                       [&](const NamedDocument& file) { outputs.add(file.name, file.text, id); });
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
-  const auto run = compute([&](const std::string& what, double fraction) {
-    now_doing(what, "computing the stage " + what);
-    return line.show(what, fraction);
-  });
+  const auto run = compute(
+      [&](const std::string& what, double fraction) {
+        now_doing(what, "computing the stage " + what);
+        return line.show(what, fraction);
+      },
+      history);
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
-  const std::string id = RunId("tunnel").add(input).text();
+  // Only some runs write these.
+  for (const char* const name : {"blocks.vtu", "joints.vtu", "bolts.vtu", "lining.vtu",
+                                 "tunnel.vtm", HistoryFiles::collection})
+    outputs.replace(name);
+  outputs.replace_all_in(HistoryFiles::folder);
   std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
   outputs.add("run.json", run_json(input, run), id);
   outputs.add("bolts.csv", bolts_csv(input, run), id);
@@ -109,6 +119,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
       outputs.add(file.name, file.text, id);
       names += ", " + file.name;
     }
+    if (history.finish()) names += std::string(", ") + HistoryFiles::collection;
   }
   say(options, run_summary(input, run), with_run_id("run.json", run_json(input, run), id));
   publish(outputs, options, names);
@@ -122,10 +133,14 @@ int run_verb(const Options& options) {
   const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   if (input.laid) return run_blocks_verb(options, input);
   if (input.is_spatial())
-    return run_tunnel_verb(options, input,
-                           [&](const Report& report) { return run_spatial_tunnel(input, report); });
-  return run_tunnel_verb(options, input,
-                         [&](const Report& report) { return run_tunnel(input, report); });
+    return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles& history) {
+      return run_spatial_tunnel(
+          input, report,
+          [&](const SpatialTunnel& tunnel, const StageResult&) { history.add(tunnel); });
+    });
+  return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles&) {
+    return run_tunnel(input, report);
+  });
 }
 
 int check_verb(const Options& options, bool wants_picture) {

@@ -144,7 +144,8 @@ SupportDemand per_metre(const Input& input, SupportDemand demand) {
   return demand;
 }
 
-SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report) {
+SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report,
+                                    const StageObserver<SpatialTunnel>& observer) {
   return naming_unusual_values(input, [&] {
     const auto start = std::chrono::steady_clock::now();
     if (input.bolts) check_bolts(input, {input.bolts->spacing});
@@ -157,8 +158,9 @@ SpatialRunResult run_spatial_tunnel(const Input& input, const Report& report) {
     run.generation_seconds = seconds_since(start);
     const auto search = std::chrono::steady_clock::now();
     const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-    run.built = construct(
-        run.tunnel, construction_of(input, supports_of(input), linear, RangeSought::all), report);
+    run.built =
+        construct(run.tunnel, construction_of(input, supports_of(input), linear, RangeSought::all),
+                  report, observer);
     if (run.last().stopped) throw Stopped();
     run.equilibrium_seconds = seconds_since(search);
     run.warnings = warnings_of(input, run);

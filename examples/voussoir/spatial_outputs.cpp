@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/io/paraview_files.hpp>
@@ -23,6 +25,9 @@ namespace {
 Convergence shown_convergence(const Input& input, const SpatialRunResult& run) {
   return middle_convergence(input, run.tunnel);
 }
+
+/// Of the lining [m]; 0: there is none.
+double strip_width_of(const Input& input) { return input.lining ? strip_width(input) : 0.0; }
 
 double driven_length(const Input& input) { return input.round_count() * input.stretch(); }
 
@@ -144,16 +149,41 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   TunnelPictureText words;
   if (!input.title.empty()) words.title = input.title;
   words.axes = {"right", "along", "up"};
+  words.from = input.picture.from;
   words.crown = shown_convergence(input, run).crown;
   words.crown_name = "crown, middle third";
-  if (input.lining) words.strip_width = strip_width(input);
+  words.strip_width = strip_width_of(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 
 std::vector<NamedDocument> paraview_files(const Input& input, const SpatialRunResult& run) {
-  return voussoir::paraview_files(run.tunnel, input.lining ? strip_width(input) : 0.0);
+  return voussoir::paraview_files(run.tunnel, strip_width_of(input));
+}
+
+HistoryFiles::HistoryFiles(const Input& input, std::function<void(const NamedDocument&)> write)
+    : input_(&input), write_(std::move(write)) {}
+
+void HistoryFiles::add(const SpatialTunnel& tunnel) {
+  const int stage = static_cast<int>(stages_.size()) + 1;
+  std::vector<NamedDocument> files = stage_files(tunnel, stage, strip_width_of(*input_));
+  for (NamedDocument& file : files) file.name = folder + ("/" + file.name);
+  stages_.push_back({static_cast<double>(stage), files.back().name});
+  for (NamedDocument& file : files)
+    if (stage == 1)
+      first_.push_back(std::move(file));
+    else
+      write_(file);
+  if (stage != 2) return;
+  for (const NamedDocument& file : first_) write_(file);
+  first_.clear();
+}
+
+bool HistoryFiles::finish() {
+  if (stages_.size() < 2) return false;
+  write_({collection, pvd_document(stages_)});
+  return true;
 }
 
 std::string run_summary(const Input& input, const SpatialRunResult& run) {

@@ -317,6 +317,103 @@ TEST_SUITE("io/paraview_files") {
     CHECK_THROWS_AS((void)lining_grid(members, nodes, axes, 0), InvalidInput);
   }
 
+  TEST_CASE(
+      "stages: the rock of each, the joints that have slipped, and one file that plays them") {
+    const CoulombJoint weak({5e9, 5e8, 25 * degree});
+    Cavern tunnel(voussoir_test::jointed_mass({{-6, 0, -6}, {6, 4, 7}}, 2, 1.5), weak,
+                  {.density = 2700, .surcharge = 5e5});
+    const SimplePolygon circle = circular_opening(4, 12);
+    const auto round = [&](double from, double to) { return PrismaticOpening(circle, from, to); };
+    Construction<Cavern> plan;
+    plan.add_stage("first").excavate(round(-PrismaticOpening::endless, 2));
+    plan.add_stage("second")
+        .excavate(round(2, 3))
+        .install_bolts(
+            {bolt_bars({.length = 2, .angular_spacing = 45 * degree}, round(0, 2), 1, 0, 2),
+             AxialBolt({.axial_stiffness = 2e8, .pretension = 1e4})});
+    std::map<std::string, std::string> files;
+    std::vector<TimedFile> timed;
+    std::vector<double> moved;
+    std::vector<std::size_t> parts, slipped;
+    const auto observer = [&](const Cavern& at, const StageResult&) {
+      const int stage = static_cast<int>(timed.size()) + 1;
+      for (const NamedDocument& file : stage_files(at, stage)) files[file.name] = file.text;
+      timed.push_back({static_cast<double>(stage), "history/" + stage_file_name(stage) + ".vtm"});
+      parts.push_back(0);
+      double largest = 0;
+      const auto state = state_of(at);
+      for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+        if (state.blocks[b].is_gone) continue;
+        parts.back() += at.mass().bodies[b].parts.size();
+        largest = std::max(largest, std::abs(state.blocks[b].displacement.z()));
+      }
+      moved.push_back(largest);
+      slipped.push_back(0);
+      for (const JointArea& joint : joint_areas(at))
+        if (has_slipped_or_opened(at, joint)) slipped.back() += joint.polygons.size();
+      CHECK(slipped_joints(at).size() <= slipped.back());  // without slivers
+      CHECK(!slipped_joints(at).empty());
+    };
+    (void)construct(tunnel, plan, {}, observer);
+    REQUIRE(timed.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string name = "stage_00" + std::to_string(k + 1);
+      CAPTURE(name);
+      const std::string& blocks = files.at(name + "_blocks.vtu");
+      check_whole(blocks);
+      const Grid grid(blocks);
+      CHECK(grid.cells == parts[k]);
+      double largest = 0;
+      for (std::size_t n = 2; n < grid["displacement_m"].size(); n += 3)
+        largest = std::max(largest, std::abs(grid["displacement_m"][n]));
+      CHECK(std::abs(largest / moved[k] - 1) < 1e-6);  // seven digits
+      REQUIRE(slipped[k] > 0);
+      const Grid joints(files.at(name + "_joints.vtu"));
+      check_whole(files.at(name + "_joints.vtu"));
+      CHECK(joints.cells == slipped[k]);
+      for (std::size_t n = 0; n < joints.cells; ++n)
+        CHECK((joints["plastic_slip_mm"][n] > 0.01 || joints["open"][n] == 1));
+      const std::string& opens = files.at(name + ".vtm");
+      CHECK(xml_fault(opens) == "");
+      CHECK(opens.find("name=\"blocks\" file=\"" + name + "_blocks.vtu\"") != std::string::npos);
+      CHECK(opens.find("name=\"joints\" file=\"" + name + "_joints.vtu\"") != std::string::npos);
+    }
+    CHECK(moved[1] > moved[0]);
+    CHECK(files.count("stage_001_bolts.vtu") == 0);
+    check_whole(files.at("stage_002_bolts.vtu"));
+    CHECK(stage_file_name(1234) == "stage_1234");
+    const std::string all = pvd_document(timed);
+    CHECK(xml_fault(all) == "");
+    CHECK(all.find("timestep=\"1\" group=\"\" part=\"0\" file=\"history/stage_001.vtm\"") !=
+          std::string::npos);
+    CHECK(all.find("timestep=\"2\"") < all.find("stage_002.vtm"));
+  }
+
+  TEST_CASE("joints: one whose blocks have not moved apart has not opened, whatever its gap") {
+    const Cavern& tunnel = built().tunnel;
+    std::size_t slipped = 0;
+    for (JointArea joint : joint_areas(tunnel)) {
+      if (joint.polygons.empty()) continue;
+      ContactReport& report = joint.state.report;
+      report = {};
+      report.plastic_slip = 2 * visible_slip;
+      CHECK(has_slipped_or_opened(tunnel, joint));
+      report.is_open = true;
+      report.opening = 0.5;  // found across a gap: no block has moved so far
+      CHECK_FALSE(has_slipped_or_opened(tunnel, joint));
+      double apart = 0;
+      for (const auto& polygon : joint.polygons)
+        for (const Vec3& p : polygon)
+          apart = std::max(apart, (tunnel.displacement_of(joint.state.b, p) -
+                                   tunnel.displacement_of(joint.state.a, p))
+                                      .dot(joint.state.normal));
+      report.opening = apart;
+      CHECK(has_slipped_or_opened(tunnel, joint) == (apart > visible_slip));
+      slipped += apart > visible_slip;
+    }
+    CHECK(slipped > 0);
+  }
+
   TEST_CASE("joints: the polygons of a contact are its area, in its plane, between its blocks") {
     const Cavern& tunnel = built().tunnel;
     const auto areas = joint_areas(tunnel);

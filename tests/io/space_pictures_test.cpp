@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <regex>
 #include <string>
 #include <vector>
+#include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
+#include <voussoir/io/view_from.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/rockmass/carving.hpp>
 #include <voussoir/tunnel/opening.hpp>
@@ -40,6 +43,42 @@ std::vector<double> array_of(const std::string& document, const std::string& nam
     if (end == p) return numbers;
     numbers.push_back(x);
   }
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++found;
+  return found;
+}
+std::string layer_of(const std::string& picture, const std::string& name) {
+  const std::size_t from = picture.find("<g id=\"" + name + "\"");
+  REQUIRE(from != std::string::npos);
+  return picture.substr(from, picture.find("</g>", from) - from);
+}
+/// Bolts have a white rim, a line of its own.
+std::size_t lines_in(const std::string& picture, const std::string& layer) {
+  const std::string text = layer_of(picture, layer);
+  return count(text, "<line ") - count(text, "stroke=\"white\"");
+}
+/// Widths of the lines of a colour in a layer, ascending [px].
+std::vector<double> widths_in(const std::string& layer, const std::string& colour) {
+  std::vector<double> widths;
+  const std::regex line("<line [^>]*stroke=\"" + colour + "\" stroke-width=\"([0-9.]+)\"");
+  for (std::sregex_iterator at(layer.begin(), layer.end(), line), end; at != end; ++at)
+    widths.push_back(std::stod((*at)[1]));
+  std::sort(widths.begin(), widths.end());
+  return widths;
+}
+
+/// A square of 1 m about a point, upright and across y.
+SlippedJoint square(const Vec3& p, double slip, int a, int b) {
+  return {{p + Vec3(-0.5, 0, -0.5), p + Vec3(0.5, 0, -0.5), p + Vec3(0.5, 0, 0.5),
+           p + Vec3(-0.5, 0, 0.5)},
+          slip,
+          false,
+          a,
+          b};
 }
 
 }  // namespace
@@ -88,28 +127,30 @@ TEST_SUITE("io/space_pictures") {
     const std::string half = draw_tunnel_view(mass, scene);
     CHECK(xml_fault(half) == "");
     CHECK(half.find(">1.60<") != std::string::npos);  // the scale ends above the largest
-    CHECK(half.find("bolt, 90") != std::string::npos);
+    CHECK(half.find(">bolt, up to 90.0 kN<") != std::string::npos);
     CHECK(half.find("hole filled with lining") == std::string::npos);
     scene.fills = {brick({-2, -1, 0}, {0.5, 1, 1})};
     CHECK(draw_tunnel_view(mass, scene).find("hole filled with lining") != std::string::npos);
     scene.fills.clear();
-    const auto count = [](const std::string& text, const std::string& what) {
-      std::size_t found = 0;
-      for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-        ++found;
-      return found;
-    };
-    CHECK(count(half, "stroke=\"#b2182b\"") == 2);  // one bolt behind the section, one in the key
-    scene.section_x = 4;
-    CHECK(count(draw_tunnel_view(mass, scene), "stroke=\"#b2182b\"") == 3);
+    CHECK(lines_in(half, "bolts") == 1);  // the one behind the section
+    scene.section.offset = 4;
+    CHECK(lines_in(draw_tunnel_view(mass, scene), "bolts") == 2);
     // One that crosses the section is drawn up to it, one that lies in it whole.
-    scene.section_x = 0;
+    scene.section.offset = 0;
     scene.bolts = {{{-2, 0, 0}, {2, 0, 0}, 5e4}, {{0, 0, 2}, {1e-16, 0, 3}, 5e4}};
     const std::string cut = draw_tunnel_view(mass, scene);
-    CHECK(count(cut, "stroke=\"#b2182b\"") == 3);
+    CHECK(lines_in(cut, "bolts") == 2);
     scene.bolts[0].to = {0, 0, 0};
     CHECK(draw_tunnel_view(mass, scene) == cut);
-    scene.section_x = -5;
+    // What lies before the section is dashed where it is shown.
+    scene.bolts[0].to = {2, 0, 0};
+    scene.shows_bolts_before = true;
+    const std::string all = draw_tunnel_view(mass, scene);
+    CHECK(lines_in(all, "bolts") == 3);
+    CHECK(count(layer_of(all, "bolts"), "dasharray") == 1);
+    CHECK(all.find(">before the section<") != std::string::npos);
+    CHECK(cut.find(">before the section<") == std::string::npos);
+    scene.section.offset = -5;
     CHECK_THROWS_AS((void)draw_tunnel_view(mass, scene), InvalidInput);
   }
 
@@ -118,7 +159,7 @@ TEST_SUITE("io/space_pictures") {
     const auto mass = jointed_mass(ground, 1, 1.5);
     REQUIRE(mass.bodies.size() > 100);  // one is less than 2 % of them
     TunnelView scene;
-    scene.section_x = 4;
+    scene.section.offset = 4;
     scene.displacement.assign(mass.bodies.size(), 1e-3);
     const std::string before = draw_tunnel_view(mass, scene);
     CHECK(before.find(">1.00<") != std::string::npos);
@@ -183,6 +224,132 @@ TEST_SUITE("io/space_pictures") {
     scene.unrolled.strip_width = 0;
     CHECK(draw_tunnel_view(mass, scene).find("Lining thrust N [kN] of each rib") !=
           std::string::npos);
+  }
+
+  TEST_CASE("joints that have slipped are lines in the section, as wide as they have slipped") {
+    const Domain<3> ground{{-4, -3, -4}, {4, 3, 4}};
+    const auto mass = jointed_mass(ground, 1, 1.5);
+    REQUIRE(mass.bodies.size() > 100);
+    TunnelView scene;
+    scene.displacement.assign(mass.bodies.size(), 1e-3);
+    CHECK(draw_tunnel_view(mass, scene).find("Slip of joints") == std::string::npos);
+    scene.joints = {square({0, 0, 0}, 2e-3, 0, 1), square({0, 1, 0}, 1e-3, 2, 3),
+                    square({2, 2, 0}, 2e-3, 4, 5),  // reaches no section
+                    square({0, -1, 0}, 0, 6, 7)};
+    scene.joints.back().is_open = true;
+    const std::string picture = draw_tunnel_view(mass, scene);
+    CHECK(xml_fault(picture) == "");
+    const std::string joints = layer_of(picture, "joints");
+    const auto widths = widths_in(joints, detail::slipped_colour);
+    REQUIRE(widths.size() == 2);
+    const detail::SlipScale scale(scene.joints, [](int) { return false; });
+    CHECK(scale.top() == 2e-3);                             // a round number already
+    CHECK(std::abs(widths[0] - scale.width(1e-3)) < 0.01);  // two decimals in the file
+    CHECK(std::abs(widths[1] - scale.width(2e-3)) < 0.01);
+    CHECK(widths_in(joints, detail::opened_colour).size() == 1);
+    for (const char* const text : {">Slip of joints [mm]<", ">2.00<", ">opened joint<"})
+      CHECK(picture.find(text) != std::string::npos);
+  }
+
+  TEST_CASE("one loose block with ten joints does not set the scale of slip") {
+    const Domain<3> ground{{-4, -3, -4}, {4, 3, 4}};
+    const auto mass = jointed_mass(ground, 1, 1.5);
+    TunnelView scene;
+    scene.displacement.assign(mass.bodies.size(), 1e-3);
+    for (int k = 0; k < 40; ++k) scene.joints.push_back(square({0, 0, 0}, 1e-3, k, k + 1));
+    const auto widest = [&] {
+      return widths_in(layer_of(draw_tunnel_view(mass, scene), "joints"), detail::slipped_colour);
+    };
+    const auto before = widest();
+    scene.displacement[60] = 0.2;
+    for (int k = 0; k < 10; ++k) scene.joints.push_back(square({0, 0, 0}, 0.2, 60, k));
+    const std::string loose = draw_tunnel_view(mass, scene);
+    CHECK(loose.find(">≥ 1.00<") != std::string::npos);
+    const auto after = widest();
+    REQUIRE(after.size() == before.size() + 10);
+    CHECK(after.front() == before.front());  // of those that have slipped by 1 mm
+    CHECK(after.back() == before.back());    // no wider than the end of the scale
+  }
+
+  TEST_CASE("a joint is seen on the wall that is turned to the viewer, and on the face") {
+    // A square tunnel along y with its face at y = 2.
+    const std::vector<PrismaticOpening> openings{PrismaticOpening(
+        SimplePolygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), -PrismaticOpening::endless, 2)};
+    const AxonometricView from_right(0.5 * std::numbers::pi, 0.2), from_portal(std::numbers::pi, 0);
+    const HalfSpace<3> section{Vec3::UnitX(), 0};
+    const auto seen = [&](const std::vector<Vec3>& corners, const HalfSpace<3>& cut,
+                          const AxonometricView& view) {
+      return detail::seen_lines({{corners, 1e-3, false, 0, 1}}, openings, cut, view);
+    };
+    // A level joint left of the tunnel, whose right-hand edge lies on its left wall.
+    const std::vector<Vec3> left{{-3, 0, 0.5}, {-1, 0, 0.5}, {-1, 1, 0.5}, {-3, 1, 0.5}};
+    const auto on_wall = seen(left, section, from_right);
+    REQUIRE(on_wall.size() == 1);
+    CHECK((on_wall[0].from - Vec3(-1, 0, 0.5)).norm() + (on_wall[0].to - Vec3(-1, 1, 0.5)).norm() <
+          1e-12);
+    CHECK(seen(left, section, AxonometricView(1.5 * std::numbers::pi, 0.2)).empty());
+    CHECK(seen(left, {Vec3::UnitX(), -2}, from_right).size() == 1);  // the section alone
+    // One that is cut by the face.
+    const std::vector<Vec3> ahead{{-0.5, 2, 0}, {0.5, 2, 0}, {0.5, 4, 0}, {-0.5, 4, 0}};
+    const HalfSpace<3> across{-Vec3::UnitY(), -1};
+    const auto on_face = seen(ahead, across, from_portal);
+    REQUIRE(on_face.size() == 1);
+    CHECK(std::abs(on_face[0].from.y() - 2) + std::abs(on_face[0].to.y() - 2) < 1e-12);
+    CHECK(seen({{-0.5, 3, 0}, {0.5, 3, 0}, {0.5, 4, 0}}, across, from_portal).empty());
+  }
+
+  TEST_CASE("section and viewer by the axis of the tunnel, whatever its trend") {
+    const Domain<3> ground{{-6, -6, -6}, {6, 6, 6}};
+    for (const double trend : {0.0, 0.5, 2.5, 4.0}) {
+      CAPTURE(trend);
+      const TunnelAxis axis({0.5, 0, 0}, trend);
+      RockMass<Spatial> mass;
+      mass.domain = ground;
+      TunnelView view;
+      CHECK(look_from(ViewFrom::face, mass, view) == "");  // no opening yet
+      CHECK(view.azimuth == TunnelView{}.azimuth);
+      const double infinite = PrismaticOpening::endless;
+      mass.openings = {PrismaticOpening(circular_opening(3, 24), axis, -infinite, -1),
+                       PrismaticOpening(circular_opening(3, 24), axis, -1, 2)};
+      CHECK(look_from(ViewFrom::axis, mass, view) == "");
+      CHECK_FALSE(view.shows_bolts_before);
+      CHECK((view.section.normal - axis.right()).norm() < 1e-12);
+      CHECK(std::abs(view.section.distance(axis.origin())) < 1e-12);
+      // A quarter turn clockwise from the axis is the section's right.
+      CHECK(std::cos(view.azimuth - trend - 0.62 * std::numbers::pi) == near(1));
+
+      const std::string seen = look_from(ViewFrom::face, mass, view);
+      CHECK(seen ==
+            "Seen from the portal: cut across at 0.5 m along the axis, the face is at 2 m.");
+      const AxonometricView from_portal(view.azimuth, view.elevation);
+      CHECK((from_portal.towards() + axis.along()).norm() < 1e-12);
+      CHECK((from_portal.right() - axis.right()).norm() < 1e-12);
+      CHECK(std::abs(view.section.distance(axis.point({0, 0}, 0.5))) < 1e-12);
+      CHECK(view.section.distance(axis.point({0, 0}, 1)) < 0);  // what lies ahead is kept
+
+      CHECK(look_from(ViewFrom::above, mass, view) ==
+            "Seen from above, cut open at the springing.");
+      const AxonometricView plan(view.azimuth, view.elevation);
+      CHECK((plan.right() - axis.along()).norm() < 1e-12);
+      CHECK((plan.towards() - Vec3::UnitZ()).norm() < 1e-12);
+      CHECK((view.section.normal - Vec3::UnitZ()).norm() < 1e-12);
+      CHECK(view.shows_bolts_before);
+      CHECK_FALSE(view.shows_lining_before);
+
+      mass.openings = {PrismaticOpening(circular_opening(3, 24), axis)};
+      CHECK(look_from(ViewFrom::face, mass, view).find("there is no face") != std::string::npos);
+    }
+    // A shaft.
+    RockMass<Spatial> mass;
+    mass.domain = {{-6, -6, -6}, {6, 6, 10}};
+    mass.openings = {PrismaticOpening(circular_opening(3, 24),
+                                      TunnelAxis({0, 0, 10}, 0, 0.5 * std::numbers::pi), 0, 6)};
+    TunnelView view;
+    CHECK(look_from(ViewFrom::above, mass, view) == "Seen from above, cut open at half its depth.");
+    CHECK(view.section.offset == 2);
+    (void)look_from(ViewFrom::face, mass, view);
+    CHECK((AxonometricView(view.azimuth, view.elevation).towards() - Vec3::UnitZ()).norm() < 1e-12);
+    CHECK(view.section.distance({0, 0, 7}) == near(0).scale(1));
   }
 
   TEST_CASE("of a body with parts on both sides of the section only those behind it are drawn") {

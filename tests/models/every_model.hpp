@@ -179,7 +179,7 @@ template <class Geometry>
   } else {
     CHECK(lines(lining_table(state.members)) == state.members.size() + 1);
     TunnelView view = picture_of(state, bolts);
-    view.section_x = 5;
+    view.section.offset = 5;
     svg = draw_tunnel_view(mass, view);
   }
   CHECK(xml_fault(svg) == "");

@@ -111,7 +111,8 @@ std::vector<Base> bases() {
                 "feet = { stiffness = \"2 GPa/m\", beam = { depth = \"30 cm\", E = "
                 "\"30 GPa\", spacing = \"1 m\" } }\n",
                 "rib_spacing = \"1 m\"\n") +
-       "[[round]]\nabove = \"-1 m\"\n[[round]]\nbelow = \"-1 m\"\nbehind = 1\n"},
+       "[[round]]\nabove = \"-1 m\"\n[[round]]\nbelow = \"-1 m\"\nbehind = 1\n"
+       "[picture]\nfrom = \"face\"\n"},
       {replaced(ground + joints,
                 "spacing = \"2 m\"\nspacing_law = \"lognormal\"\nspacing_sd = "
                 "\"1 m\"\n",

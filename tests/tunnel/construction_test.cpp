@@ -181,6 +181,32 @@ TEST_SUITE("tunnel/construction") {
     CHECK_FALSE(result.stages[0].fully_unloaded());
   }
 
+  TEST_CASE("the end of every stage is shown, with the solver as it is then") {
+    std::vector<std::string> names;
+    std::vector<std::size_t> bolts;
+    std::vector<double> crowns;
+    Tunnel tunnel = rock();
+    const auto observer = [&](const Tunnel& at, const StageResult& stage) {
+      names.push_back(stage.name);
+      bolts.push_back(static_cast<std::size_t>(at.bolt_count()));
+      crowns.push_back(convergence(at).crown);
+    };
+    const auto result = construct(tunnel, plan(), {}, observer);
+    CHECK(names == std::vector<std::string>{"heading", "support"});
+    CHECK(bolts == std::vector<std::size_t>{0, bars.size()});
+    REQUIRE(crowns.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) CHECK(crowns[k] == result.stages[k].convergence.crown);
+    CHECK(crowns[0] < crowns[1]);
+    // It changes nothing, and sees a stage that does not end stable as well.
+    CHECK(result.stages[1].convergence.crown == built().result.stages[1].convergence.crown);
+    Tunnel other = rock();
+    Construction<Tunnel> failing = plan();
+    failing.acceptance.displacement_limit = 1e-6;
+    names.clear();
+    CHECK(construct(other, failing, {}, observer).verdict() == Verdict::undecided);
+    CHECK(names == std::vector<std::string>{"heading"});
+  }
+
   TEST_CASE("a construction can be stopped in every stage, and told which it is") {
     for (const std::string at : {"heading", "support"}) {
       Tunnel tunnel = rock();

@@ -4,10 +4,11 @@
 
   read_back.py FOLDER
 
-FOLDER holds tunnel.vtm and the files it names. What VTK makes of each (cells and points, the kinds
-of the cells, the names of the arrays and their ranges) must be what the text of the file says,
-which is read here without VTK. Where run.json and bolts.csv lie beside them, numbers must be those
-of these too.
+FOLDER holds tunnel.vtm and the files it names, and for a tunnel of several stages history.pvd with
+those of each. What VTK makes of each (cells and points, the kinds of the cells, the names of the
+arrays and their ranges) must be what the text of the file says, which is read here without VTK.
+Where run.json and bolts.csv lie beside them, numbers must be those of these too, and the last stage
+is the end of the tunnel.
 """
 
 import csv
@@ -113,30 +114,93 @@ def compare_with_results(folder, found, cells):
     print("run.json and bolts.csv: compared")
 
 
-def main(folder):
+def read_together(path, prefix=""):
+    """What VTK makes of a .vtm and of the files that it names, each compared with its text."""
     reader = vtk.vtkXMLMultiBlockDataReader()
-    reader.SetFileName(str(folder / "tunnel.vtm"))
+    reader.SetFileName(str(path))
     reader.Update()
     whole = reader.GetOutput()
     found, cells = {}, {}
     for k in range(whole.GetNumberOfBlocks()):
         name = whole.GetMetaData(k).Get(vtk.vtkCompositeDataSet.NAME())
         grid = whole.GetBlock(k)
-        path = folder / (name + ".vtu")
+        file = path.parent / (prefix + name + ".vtu")
         if grid is None:
-            check(False, f"{name}: VTK reads nothing")
+            check(False, f"{path.name}: {name}: VTK reads nothing")
             continue
-        found[name] = compare(name, grid, path)
+        found[name] = compare(prefix + name, grid, file)
         cells[name] = grid.GetNumberOfCells()
         # By itself as well: a user may open one file alone.
         alone = vtk.vtkXMLUnstructuredGridReader()
-        alone.SetFileName(str(path))
+        alone.SetFileName(str(file))
         alone.Update()
         check(alone.GetOutput().GetNumberOfCells() == cells[name], f"{name}: alone")
-    files = {path.stem for path in folder.glob("*.vtu")}
-    check(files == set(found), f"tunnel.vtm names {sorted(found)}, there are {sorted(files)}")
+    files = {file.stem[len(prefix) :] for file in path.parent.glob(prefix + "*.vtu")}
+    check(files == set(found), f"{path.name} names {sorted(found)}, there are {sorted(files)}")
+    return found, cells
+
+
+def is_close(x, y):
+    """Files of stages have seven digits."""
+    return math.isclose(x, y, rel_tol=1e-6, abs_tol=1e-12)
+
+
+def largest_slip(path):
+    """Of the joints of a file that are closed, in mm."""
+    arrays = Written(path).arrays
+    slips, opened = arrays["CellData", "plastic_slip_mm"][0], arrays["CellData", "open"][0]
+    return max((slip for slip, is_open in zip(slips, opened) if not is_open), default=0)
+
+
+def compare_history(folder, found, cells):
+    """The stages: their times, their files, and the last with the end of the tunnel.
+
+    A .pvd is XML that ParaView itself reads, not VTK: it is read here as ParaView does, by the time
+    and the file of each entry, in order.
+    """
+    collection = xml.etree.ElementTree.parse(folder / "history.pvd").getroot()
+    check(collection.get("type") == "Collection", "history.pvd: type")
+    entries = collection.findall("Collection/DataSet")
+    times = [float(entry.get("timestep")) for entry in entries]
+    check(times == list(range(1, len(entries) + 1)), f"history.pvd: times {times}")
+    check(len(entries) > 1, "history.pvd: more than one stage")
+    named, driven = set(), []
+    for entry in entries:
+        path = folder / entry.get("file")
+        stage, cells_then = read_together(path, path.stem + "_")
+        named |= {path.name} | {f"{path.stem}_{name}.vtu" for name in stage}
+        check("blocks" in stage, f"{path.name}: no blocks")
+        driven.append((stage, cells_then))
+    there = {path.name for path in (folder / "history").iterdir()}
+    check(there == named, f"history: files of no stage {sorted(there - named)}")
+    if (folder / "run.json").exists():
+        stages = json.loads((folder / "run.json").read_text())["stages"]
+        check(len(stages) == len(entries), f"history.pvd: {len(entries)} of {len(stages)} stages")
+    last, last_cells = driven[-1]
+    for name, arrays in found.items():
+        if name == "joints":  # of a stage those alone that have slipped or opened
+            slip = largest_slip(folder / "joints.vtu")
+            if slip > 0.01:
+                then = largest_slip(folder / f"history/{path.stem}_joints.vtu")
+                check(is_close(then, slip), f"last stage: slip {then}, {slip}")
+                check(last_cells[name] < cells[name], "last stage: joints that have not slipped")
+            continue
+        check(last_cells.get(name) == cells[name], f"last stage: {name}: {last_cells.get(name)} cells")
+        for key, ranges in arrays.items():
+            for (low, high), (low_then, high_then) in zip(ranges, last[name][key]):
+                check(
+                    is_close(low, low_then) and is_close(high, high_then),
+                    f"last stage: {name}: {key}: {low_then} to {high_then}, {low} to {high}",
+                )
+    print(f"history.pvd: {len(entries)} stages")
+
+
+def main(folder):
+    found, cells = read_together(folder / "tunnel.vtm")
     if (folder / "run.json").exists():
         compare_with_results(folder, found, cells)
+    if (folder / "history.pvd").exists():
+        compare_history(folder, found, cells)
     print(f"VTK {vtk.vtkVersion().GetVTKVersion()}: {faults} wrong")
     return 1 if faults else 0
 

@@ -13,9 +13,11 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/drawing/page_map.hpp>
+#include <voussoir/io/joint_vtu.hpp>
 #include <voussoir/io/support_vtu.hpp>
 #include <voussoir/io/tunnel_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
+#include <voussoir/io/view_from.hpp>
 #include <voussoir/io/vtu.hpp>
 #include <voussoir/tunnel/construction.hpp>
 #include <voussoir/tunnel/opening_centre.hpp>
@@ -41,6 +43,7 @@ struct TunnelPictureText {
   std::optional<double> crown = {};
   std::string crown_name = "crown convergence";
   double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
+  ViewFrom from = ViewFrom::axis;  ///< in 3-D
 };
 
 /// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
@@ -206,7 +209,43 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   return draw_blocks_picture(picture);
 }
 
-/// In 3-D, cut open along the tunnel: rock by displacement, bolts and lining by force, and below it
+/// Whether a joint has slipped by more than `visible_slip`, or its blocks have moved apart by more
+/// than that. Contacts that were found across a gap, where blocks that moved came near each other,
+/// are open as well, and are no joints that have opened.
+template <class Solver>
+requires(Solver::dim == 3)
+    [[nodiscard]] bool has_slipped_or_opened(const Solver& solver, const JointArea& joint) {
+  const ContactReport& report = joint.state.report;
+  if (!report.is_open) return report.plastic_slip > visible_slip;
+  double apart = 0;
+  for (const std::vector<Vec3>& polygon : joint.polygons)
+    for (const Vec3& p : polygon) {
+      const Vec3 jump =
+          solver.displacement_of(joint.state.b, p) - solver.displacement_of(joint.state.a, p);
+      apart = std::max(apart, dot_product(joint.state.normal, jump));
+    }
+  return apart > visible_slip && report.opening <= 2 * apart;  // 2: of a part of the area alone
+}
+
+/// The joints of which `has_slipped_or_opened` is true; without slivers, which are too narrow to be
+/// seen.
+template <class Solver>
+requires(Solver::dim == 3)
+    [[nodiscard]] std::vector<SlippedJoint> slipped_joints(const Solver& solver) {
+  std::vector<SlippedJoint> slipped;
+  const double sliver = 1e-4 * length_of(solver.mass().domain.size());
+  for (JointArea& joint : joint_areas(solver)) {
+    if (!has_slipped_or_opened(solver, joint)) continue;
+    const ContactReport& report = joint.state.report;
+    for (std::vector<Vec3>& polygon : joint.polygons)
+      if (detail::mean_width(polygon) > sliver)
+        slipped.push_back({std::move(polygon), report.plastic_slip, report.is_open, joint.state.a,
+                           joint.state.b});
+  }
+  return slipped;
+}
+
+/// In 3-D, cut open: rock by displacement, joints by slip, bolts and lining by force, and below it
 /// thrust and moment of every rib on the unrolled wall.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] std::string
@@ -217,17 +256,20 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
   view.axes = text.axes;
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};
+  if (std::string seen = look_from(text.from, solver.mass(), view, result.measured); !seen.empty())
+    view.header.lines.push_back(std::move(seen));
   view.header.lines.insert(view.header.lines.end(), text.remarks.begin(), text.remarks.end());
   view.header.key_numbers = detail::key_numbers_of(solver, result, text);
+  view.joints = slipped_joints(solver);
   view.unrolled = unrolled_lining(solver, text.strip_width, result.measured);
   view.banner = banner_of(result.verdict(), fallen, "m³", result.has_lost_lining());
   return draw_tunnel_view(solver.mass(), view);
 }
 
-/// The rock as a file for ParaView: one cell for every convex part that is not detached, with the
+/// The rock for ParaView: one cell for every convex part that is not detached, with the
 /// displacement and the number of its block.
 template <class Geometry>
-[[nodiscard]] std::string vtu_of(const TunnelState<Geometry>& state,
+[[nodiscard]] VtuGrid block_grid(const TunnelState<Geometry>& state,
                                  const RockMass<Geometry>& mass) {
   VOUSSOIR_ASSERT(state.blocks.size() == mass.bodies.size(),
                   "a state is of the rock that is drawn");
@@ -247,7 +289,14 @@ template <class Geometry>
   }
   grid.add_values("displacement_m", 3, moved);
   grid.add_values("block", 1, number);
-  return grid.document();
+  return grid;
+}
+
+/// The file of it.
+template <class Geometry>
+[[nodiscard]] std::string vtu_of(const TunnelState<Geometry>& state,
+                                 const RockMass<Geometry>& mass) {
+  return block_grid(state, mass).document();
 }
 
 }  // namespace voussoir

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
+#include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/tunnel_view.hpp>
+#include <voussoir/io/view_from.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/tunnel/joined_openings.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
@@ -187,5 +194,104 @@ template <class Thickness>
   view.fills = state.fills;
   return view;
 }
+
+/// Gives a view of excavated rock its section and its viewer, by the axis of the last opening,
+/// whatever its trend.
+///
+/// From the axis the section is upright through the middle of the tunnel. The face is that of the
+/// opening which reaches furthest along the axis; the section lies half a round before it, and
+/// where the tunnel goes through all the rock in the middle of its length. From above the section
+/// goes through the origin of the tunnel's outline, of a horseshoe or a circle the springing; of a
+/// shaft it is level, through the middle of the rock.
+/// @param measured  in place of the last opening: the tunnel among several
+/// @return  what is seen, for the head of the picture; empty: the view from the axis, or no opening
+VOUSSOIR_INLINE std::string look_from(ViewFrom from, const RockMass<Spatial>& mass,
+                                      TunnelView& view,
+                                      const std::optional<PrismaticOpening>& measured = {});
+
+#if VOUSSOIR_BODIES
+
+namespace detail {
+
+/// Where the rock begins and ends along an axis [m].
+[[nodiscard]] inline std::pair<double, double> extent_along(const Domain<3>& domain,
+                                                            const TunnelAxis& axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) != 0 ? domain.high.x() : domain.low.x(),
+                 (corner & 2) != 0 ? domain.high.y() : domain.low.y(),
+                 (corner & 4) != 0 ? domain.high.z() : domain.low.z());
+    low = std::min(low, axis.local(p).z());
+    high = std::max(high, axis.local(p).z());
+  }
+  return {low, high};
+}
+
+/// @param is_shown  is_shown(opening): it is a part of the tunnel, among those along its axis
+template <class IsShown>
+std::string look_at_face(const RockMass<Spatial>& mass, const TunnelAxis& axis, TunnelView& view,
+                         IsShown&& is_shown) {
+  const auto [begin, end] = extent_along(mass.domain, axis);
+  const double tolerance = 1e3 * mass.domain.tolerance();
+  double face = -std::numeric_limits<double>::infinity(), portal = end, round = 0;
+  for (const PrismaticOpening& opening : mass.openings) {
+    if (!opening.axis().is_parallel_to(axis) ||
+        dot_product(opening.axis().along(), axis.along()) < 0 || !is_shown(opening))
+      continue;
+    const double shift = axis.local(opening.axis().origin()).z();
+    const double to = std::min(opening.to() + shift, end),
+                 start = std::max(opening.from() + shift, begin);
+    portal = std::min(portal, start);
+    if (to > face + tolerance) round = to - start;
+    face = std::max(face, to);
+  }
+  const bool has_face = face < end - tolerance;
+  const double cut = has_face ? face - 0.5 * round : 0.5 * (portal + end);
+  const Vec3 back = -axis.along();
+  view.section = HalfSpace<3>::through(axis.point(zeros<Vec2>(), cut), back);
+  view.azimuth = std::atan2(back.x(), back.y());
+  view.elevation = std::asin(std::clamp(back.z(), -1.0, 1.0));
+  const std::string place = trimmed_text(cut, 2) + " m along the axis";
+  return has_face ? "Seen from the portal: cut across at " + place + ", the face is at " +
+                        trimmed_text(face, 2) + " m."
+                  : "Seen from the portal: cut across at " + place + ", there is no face.";
+}
+
+}  // namespace detail
+
+VOUSSOIR_INLINE std::string look_from(ViewFrom from, const RockMass<Spatial>& mass,
+                                      TunnelView& view,
+                                      const std::optional<PrismaticOpening>& measured) {
+  if (mass.openings.empty()) return "";
+  const TunnelAxis& axis = measured ? measured->axis() : mass.openings.back().axis();
+  const Vec3 middle =
+      axis.point(measured ? centre_of(*measured) : centre_of(joined_openings(mass)), 0);
+  // Rounds of the tunnel lie within its section.
+  const auto is_shown = [&](const PrismaticOpening& opening) {
+    if (!measured) return true;
+    const ViewRect around = *bounding_rect(measured->section().vertices());
+    return around.contains(measured->across(opening.in_space(centre_of(std::vector{opening}), 0)));
+  };
+  const Vec3& along = axis.along();
+  const double trend = std::atan2(along.x(), along.y());
+  view.shows_bolts_before = from != ViewFrom::axis;
+  view.shows_lining_before = from == ViewFrom::face;  // on a plan its ribs lie on each other
+  if (from == ViewFrom::face) return detail::look_at_face(mass, axis, view, is_shown);
+  if (from == ViewFrom::axis) {
+    view.section = HalfSpace<3>::through(middle, axis.right());
+    view.azimuth = trend + 0.62 * std::numbers::pi;
+    return "";
+  }
+  const bool is_shaft = axis.up().z() < 0.5;
+  view.section =
+      HalfSpace<3>::through(is_shaft ? Vec3(0.5 * (mass.domain.low + mass.domain.high)) : middle,
+                            is_shaft ? Vec3(Vec3::UnitZ()) : axis.up());
+  view.azimuth = trend + 0.5 * std::numbers::pi;
+  view.elevation = 0.5 * std::numbers::pi;
+  return is_shaft ? "Seen from above, cut open at half its depth."
+                  : "Seen from above, cut open at the springing.";
+}
+
+#endif
 
 }  // namespace voussoir

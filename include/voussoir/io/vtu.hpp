@@ -74,7 +74,9 @@ class VtuGrid {
     put(point_values_, std::move(name), components, std::move(values), point_count());
   }
 
-  [[nodiscard]] std::string document() const {
+  /// @param digits  significant ones of every number that is no index; 0: as many as it takes to
+  ///                read the same number back
+  [[nodiscard]] std::string document(int digits = 0) const {
     std::string out =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
         "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
@@ -82,7 +84,7 @@ class VtuGrid {
         "\">\n<Points>\n";
     std::vector<double> coordinates;
     for (const Vec3& p : points_) coordinates.insert(coordinates.end(), p.data(), p.data() + 3);
-    add_array(out, "Float64", "Points", 3, coordinates);
+    add_array(out, "Float64", "Points", 3, coordinates, digits);
     out += "</Points>\n<Cells>\n";
     add_array(out, "Int64", "connectivity", 1, connectivity_);
     add_array(out, "Int64", "offsets", 1, offsets_);
@@ -92,10 +94,10 @@ class VtuGrid {
       add_array(out, "Int64", "faceoffsets", 1, face_offsets_);
     }
     out += "</Cells>\n<CellData>\n";
-    add_arrays(out, cell_values_);
+    add_arrays(out, cell_values_, digits);
     if (!point_values_.empty()) {
       out += "</CellData>\n<PointData>\n";
-      add_arrays(out, point_values_);
+      add_arrays(out, point_values_, digits);
       return out + "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     }
     return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
@@ -115,9 +117,9 @@ class VtuGrid {
                          " values, needs " + std::to_string(components * count));
     arrays.push_back({std::move(name), components, std::move(values)});
   }
-  static void add_arrays(std::string& out, const std::vector<Values>& arrays) {
+  static void add_arrays(std::string& out, const std::vector<Values>& arrays, int digits) {
     for (const Values& values : arrays)
-      add_array(out, "Float64", values.name, values.components, values.numbers);
+      add_array(out, "Float64", values.name, values.components, values.numbers, digits);
   }
   std::size_t add_point(const Vec3& p) {
     points_.push_back(p);
@@ -134,13 +136,14 @@ class VtuGrid {
   }
   template <class Number>
   static void add_array(std::string& out, const char* type, const std::string& name,
-                        std::size_t components, const std::vector<Number>& numbers) {
+                        std::size_t components, const std::vector<Number>& numbers,
+                        int digits = 0) {
     out.append("<DataArray type=\"").append(type).append("\" Name=\"").append(xml_escaped(name));
     out.append("\" NumberOfComponents=\"").append(std::to_string(components));
     out.append("\" format=\"ascii\">\n");
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       if constexpr (std::is_floating_point_v<Number>)
-        out += shortest_text(numbers[k]);
+        out += digits > 0 ? significant_text(numbers[k], digits) : shortest_text(numbers[k]);
       else
         out += std::to_string(numbers[k]);
       out += (k + 1) % 12 == 0 ? '\n' : ' ';
@@ -163,17 +166,40 @@ struct NamedDocument {
 
 /// A ParaView file (.vtm, VTK's multi-block data set) that opens others as one, each a block under
 /// the name of its file.
-/// @param files  beside which it is to lie
-[[nodiscard]] inline std::string vtm_document(std::span<const NamedDocument> files) {
+/// @param files   beside which it is to lie
+/// @param prefix  with which their names begin, and those of the blocks do not
+[[nodiscard]] inline std::string vtm_document(std::span<const NamedDocument> files,
+                                              const std::string& prefix = "") {
   std::string out =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
   std::size_t index = 0;
-  for (const NamedDocument& file : files)
-    out += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" +
-           xml_escaped(file.name.substr(0, file.name.rfind('.'))) + "\" file=\"" +
-           xml_escaped(file.name) + "\"/>\n";
+  for (const NamedDocument& file : files) {
+    VOUSSOIR_ASSERT(file.name.starts_with(prefix), "the files have one prefix");
+    std::string block = file.name.substr(0, file.name.rfind('.'));
+    block.erase(0, prefix.size());
+    out += "<DataSet index=\"" + std::to_string(index++) + "\" name=\"" + xml_escaped(block) +
+           "\" file=\"" + xml_escaped(file.name) + "\"/>\n";
+  }
   return out + "</vtkMultiBlockDataSet>\n</VTKFile>\n";
+}
+
+/// A file that ParaView opens as one data set that changes.
+struct TimedFile {
+  double time;
+  std::string name;  ///< relative to the collection, folders parted by "/"
+};
+
+/// A ParaView collection (.pvd): files one after the other in time.
+/// @param files  by ascending time
+[[nodiscard]] inline std::string pvd_document(std::span<const TimedFile> files) {
+  std::string out =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const TimedFile& file : files)
+    out += "<DataSet timestep=\"" + shortest_text(file.time) + "\" group=\"\" part=\"0\" file=\"" +
+           xml_escaped(file.name) + "\"/>\n";
+  return out + "</Collection>\n</VTKFile>\n";
 }
 
 }  // namespace voussoir

@@ -200,6 +200,11 @@ struct ConstructionResult {
 /// Returns false to stop.
 using StageProgress = std::function<bool(const std::string& stage, double fraction)>;
 
+/// Shown the solver at the end of every stage that was begun, whatever its verdict, and what came
+/// of it: what later stages change can be kept. `paraview_files.hpp` has an example.
+template <class Solver>
+using StageObserver = std::function<void(const Solver& solver, const StageResult& stage)>;
+
 namespace detail {
 
 /// The frame of a lining, with as many nodes as its bond needs where it gives no number.
@@ -294,15 +299,16 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
 ///
 /// @param progress  asked now and then whether to go on. A search that it stops is undecided, with
 ///                  `report.stopped`
+/// @param observer  see `StageObserver`; what it throws ends the construction
 /// @throws InvalidInput    no stages, or what `check_construction` refuses, and nothing has been
 ///                         done; or a stage that cannot be carried out: the message names it, those
 ///                         before it have been
 /// @throws NumericalFault  see the method
 /// @throws Stopped         while rock was taken out or bolts were installed
 template <class Solver>
-ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
-                                                        const Construction<Solver>& construction,
-                                                        const StageProgress& progress = {}) {
+ConstructionResult<typename Solver::Geometry> construct(
+    Solver& solver, const Construction<Solver>& construction, const StageProgress& progress = {},
+    const std::type_identity_t<StageObserver<Solver>>& observer = {}) {
   if (construction.stages.empty())
     throw InvalidInput("construction: has no stages; accepted: at least one");
   check_construction(construction, solver.mass());
@@ -326,6 +332,7 @@ ConstructionResult<typename Solver::Geometry> construct(Solver& solver,
       if (stage.duration > 0 && end.report.verdict == Verdict::stable)
         detail::let_creep(solver, stage, construction, asked, end);
     });
+    if (observer) observer(solver, result.stages.back());
     if (result.verdict() != Verdict::stable) break;
   }
   return result;

@@ -187,8 +187,11 @@ VOUSSOIR_INLINE void draw_unrolled_panel(SvgCanvas& canvas, const ViewRect& fram
     canvas.rectangle(
         {{plot.low.x() + plot.width() * k / steps, bar_y}, {plot.high.x(), bar_y + 12}},
         {.fill = colour(low + (largest - low) * (k + 0.5) / steps)});
+  const auto shown = [&](double value) {
+    return printed_text(std::abs(value) < 1e-3 * largest ? 0 : value);
+  };
   const auto label = [&](double value, TextAnchor anchor, double x) {
-    canvas.text({x, bar_y + 27}, printed_text(value), {.anchor = anchor});
+    canvas.text({x, bar_y + 27}, shown(value), {.anchor = anchor});
   };
   label(low, TextAnchor::start, plot.low.x());
   label(largest, TextAnchor::end, plot.high.x());
@@ -203,8 +206,8 @@ VOUSSOIR_INLINE void draw_unrolled_panel(SvgCanvas& canvas, const ViewRect& fram
     const UnrolledNode& node = lining.nodes[at];
     canvas.circle(map({node.along, node.angle}), radius, style);
     canvas.circle({frame.low.x() + 6, y - 4.5}, radius, style);
-    canvas.text({frame.low.x() + 16, y}, std::string(name) + " " + printed_text(values[at]) + " " +
-                                             unit + " at " + trimmed_text(node.along, 2) + " m, " +
+    canvas.text({frame.low.x() + 16, y}, std::string(name) + " " + shown(values[at]) + " " + unit +
+                                             " at " + trimmed_text(node.along, 2) + " m, " +
                                              place_on_wall(node.angle) + " (" +
                                              whole_degrees(node.angle) + ")");
   };
