@@ -28,6 +28,9 @@
 #include <voussoir/tunnel/ring_nodes.hpp>
 #include <voussoir/tunnel/section_part.hpp>
 
+#include "input_errors.hpp"
+#include "laid_blocks.hpp"
+
 /// The input file of the program: what is in it, and how to read it.
 ///
 /// SI and radians throughout. Axes of the section: x right, y up, both from the tunnel centre,
@@ -37,9 +40,6 @@
 /// The keys of the file are declared in rock_input.cpp, support_input.cpp, joint_laws.cpp and
 /// input.cpp, one line each.
 namespace voussoir::program {
-
-/// x, y [m]
-using Point = std::array<double, 2>;
 
 enum class TunnelShape { circle, horseshoe, polygon };
 enum class BoltAnchors { lorig, garga_wang, joint_face };
@@ -202,47 +202,6 @@ struct BlocksInput {
   double min_inscribed_radius = 0;                                  ///< [m], > 0
   double max_elongation = std::numeric_limits<double>::infinity();  ///< length / width, >= 2
   double min_wall_area = 0.074;  ///< pieces cut by the opening's wall below this are left out [m^2]
-};
-
-/// [[block]], or one of [blocks] file: a block that is laid.
-struct LaidBlockInput {
-  std::string name;                  ///< default "1", "2", ...
-  std::vector<Point> vertices = {};  ///< convex, anticlockwise whatever the file's order [m]
-  bool fixed = false;
-};
-
-/// [[load]] on a laid block. Per metre out of plane.
-struct BlockLoadInput {
-  int block = -1;
-  Point force = {0.0, 0.0};     ///< [N/m]
-  std::optional<Point> at;      ///< where it acts; none: in the centroid [m]
-  double moment = 0;            ///< anticlockwise [N]
-  bool is_proportional = true;  ///< comes on with the loading; false: with the weight
-};
-
-/// [[displacement]] of a fixed block.
-struct BlockDisplacementInput {
-  int block = -1;
-  Point by = {0.0, 0.0};  ///< of its centroid [m]
-  double rotation = 0;    ///< about it, anticlockwise [rad]
-};
-
-/// A model of blocks that are laid one by one, in place of rock around a tunnel.
-struct LaidInput {
-  std::vector<LaidBlockInput> blocks;  ///< those of [[block]] first
-  std::filesystem::path file;          ///< [blocks] file, resolved; empty: none
-  std::vector<BlockLoadInput> loads;
-  std::vector<BlockDisplacementInput> displacements;
-  double kh = 0, kv = 0;  ///< [seismic] forces to the right and up, over the weight [-], -10 to 10
-  int steps = 10;         ///< [loading] in which it comes on, 1 to 10000
-  std::vector<std::string> warnings;
-
-  /// Whether anything comes on after the weight.
-  [[nodiscard]] bool has_loading() const {
-    return kh != 0 || kv != 0 || !displacements.empty() ||
-           std::any_of(loads.begin(), loads.end(),
-                       [](const BlockLoadInput& load) { return load.is_proportional; });
-  }
 };
 
 /// Distance between bolts along the wall: an angle at the tunnel centre or a length, as given.
@@ -450,40 +409,6 @@ struct SizeEstimate {
 ///          than the minimum inscribed radius lets there be (within a factor of two of generated
 ///          masses). Joints of a file are counted when they are read, with the same limits.
 [[nodiscard]] SizeEstimate estimate_size(const Input& input);
-
-/// One thing that is wrong with an input, and where.
-struct InputError {
-  std::string file;           ///< name of the file as the user gave it
-  int line = 0;               ///< from 1; 0: the file as a whole, or an override
-  int column = 0;             ///< in characters, from 1
-  int width = 1;              ///< characters to underline
-  std::string source_line;    ///< text of that line
-  std::string override_text;  ///< "joint.kn=5e9" when an override is at fault, otherwise empty
-  std::string key;            ///< "joint_set[0].dip"; empty: none is concerned
-  std::string message;        ///< "joint.kn = 5e9 has no unit"
-  std::string accepted;       ///< what to write instead; may be empty
-
-  /// The message with its place, the line in question and what is accepted, as compilers do.
-  [[nodiscard]] std::string text() const;
-};
-
-/// What is wrong with an input, in the order of its lines; `what()` holds the first `most_shown`
-/// and how many there are.
-class InputErrors : public std::runtime_error {
- public:
-  /// A page of them: a file with more is not an input with slips.
-  static constexpr std::size_t most_shown = 50;
-
-  /// @param more  that were found besides
-  /// @pre  errors is not empty
-  explicit InputErrors(std::vector<InputError> errors, std::size_t more = 0);
-  [[nodiscard]] const std::vector<InputError>& errors() const { return errors_; }
-  [[nodiscard]] std::size_t more() const { return more_; }
-
- private:
-  std::vector<InputError> errors_;
-  std::size_t more_;
-};
 
 /// Reads a file and checks all of it.
 ///
