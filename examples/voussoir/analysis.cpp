@@ -228,9 +228,10 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
   const auto check = [&](std::size_t k, const BoltSpacing& spacing) {
     const BoltsInput& bolts = *patterns[k];
     // Along the tunnel the rows lie inside; the section says the rest.
-    if (bolts.opening == 0 || (!input.is_spatial() && is_modelled(input, bolts.opening)))
+    if (!is_modelled(input, bolts)) return;
+    if (!input.is_spatial() || (bolts.opening == 0 && !bolts.ahead))
       check_ends<2>(input, k, bars_of_pattern(input, bolts, spacing), section_domain(input));
-    else if (input.is_spatial())
+    else
       check_ends<3>(input, k, rows_of_pattern(input, bolts, spacing), spatial_domain(input));
   };
   for (const auto& spacing : spacings)

@@ -43,7 +43,7 @@ std::string metres(double value) { return significant_text(value, 4) + " m"; }
 std::pair<int, int> install_bolts(Tunnel& tunnel, const Input& input) {
   std::pair<int, int> made{0, 0};
   for (const BoltsInput* pattern : input.bolt_patterns()) {
-    if (!is_modelled(input, pattern->opening)) continue;
+    if (!is_modelled(input, *pattern)) continue;
     for (const Segment& bar : bars_of_pattern(input, *pattern, pattern->spacing)) {
       made.second +=
           tunnel.install_bolt(bar, bolt_of(*pattern), pattern->out_of_plane, anchors_of(*pattern));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "construction_plan.hpp"
 
+#include <voussoir/core/elementary.hpp>
+
 #include "joint_laws.hpp"
 
 namespace voussoir::program {
@@ -46,11 +48,41 @@ std::vector<Segment> bars_of_pattern(const Input& input, const BoltsInput& bolts
   return bars;
 }
 
+namespace {
+
+/// Rows from the beginning of the opening on, each over the rock ahead of it; no bar leaves the
+/// model.
+std::vector<SpatialLine> forepoles(const Input& input, const BoltsInput& bolts,
+                                   const std::vector<Segment>& around,
+                                   const PrismaticOpening& opening, const Drive& drive) {
+  const Domain<3> domain = spatial_domain(input);
+  const double level = elementary::cosine(*bolts.ahead), rise = elementary::sine(*bolts.ahead);
+  std::vector<SpatialLine> bars;
+  const auto rows = static_cast<int>(std::ceil(drive.length() / bolts.out_of_plane - 1e-9));
+  for (int k = 0; k < rows; ++k)
+    for (const Segment& bar : around) {
+      const Vec2 outward = (bar.end - bar.start) / bar.length();
+      const Vec3 head = opening.in_space(bar.start, drive.from + k * bolts.out_of_plane);
+      const Vec3 way = level * opening.axis().along() + rise * opening.axis().direction(outward);
+      double length = bar.length();
+      for (int axis = 0; axis < 3; ++axis) {
+        const double end = way[axis] > 0 ? domain.high[axis] : domain.low[axis];
+        if (way[axis] != 0) length = std::min(length, (1 - 1e-9) * (end - head[axis]) / way[axis]);
+      }
+      bars.push_back({head, head + length * way});
+    }
+  return bars;
+}
+
+}  // namespace
+
 std::vector<SpatialLine> rows_of_pattern(const Input& input, const BoltsInput& bolts,
                                          const BoltSpacing& spacing) {
   const PrismaticOpening opening =
       opening_in_space(input, bolts.opening, outline_of(outline_input(input, bolts.opening)));
   const Drive drive = drive_of(input, bolts.opening);
+  if (bolts.ahead)
+    return forepoles(input, bolts, local_bars(input, bolts, spacing), opening, drive);
   if (bolts.bars.empty())
     return bolt_bars(pattern_of(bolts, spacing), opening, bolts.out_of_plane, drive.from, drive.to);
   std::vector<SpatialLine> bars;
@@ -181,7 +213,8 @@ Construction<Tunnel> construction_of(const Input& input, const Tunnel& tunnel, b
                     input.blocks.min_wall_area);
     const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
     for (const std::size_t k : stage.bolts)
-      if (const auto spacing = spacing_of(*patterns[k], k, supports))
+      if (const auto spacing = spacing_of(*patterns[k], k, supports);
+          spacing && is_modelled(input, *patterns[k]))
         made.install_bolts({bars_of_pattern(input, *patterns[k], *spacing), bolt_of(*patterns[k]),
                             patterns[k]->out_of_plane, anchors_of(*patterns[k])});
     for (const std::size_t k : stage.linings) {

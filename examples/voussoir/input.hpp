@@ -226,6 +226,9 @@ struct BoltsInput {
   BoltSpacing spacing;
   ArcInput arc;             ///< default 0 to pi: the roof
   double out_of_plane = 1;  ///< distance between bolts along the tunnel [m], 0.01 to 1000
+  /// 3-D: forepoles, which lie at this angle to the axis over the rock ahead [rad], 1 to 45 deg;
+  /// none: bolts at right angles to it.
+  std::optional<double> ahead;
   double diameter = 0.028;  ///< [m], > 0
   double stiffness = 0;     ///< axial, of one bolt across one joint [N/m], 1e3 to 1e12
   double shear_stiffness =

@@ -80,6 +80,10 @@ bool is_modelled(const Input& input, std::size_t opening) {
          input.openings[opening - 1].is_along_tunnel(input.tunnel);
 }
 
+bool is_modelled(const Input& input, const BoltsInput& bolts) {
+  return is_modelled(input, bolts.opening) && (input.is_spatial() || !bolts.ahead);
+}
+
 Domain<2> section_domain(const Input& input) {
   Domain<2> domain = domain_around(opening_of(input), input.model.width, input.tunnel.cover,
                                    input.model.below_invert);

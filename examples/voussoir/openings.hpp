@@ -23,6 +23,9 @@ namespace voussoir::program {
 /// False for one that a section does not show.
 [[nodiscard]] bool is_modelled(const Input& input, std::size_t opening);
 
+/// The same of bolts: forepoles are in 3-D alone.
+[[nodiscard]] bool is_modelled(const Input& input, const BoltsInput& bolts);
+
 /// The ground of a section; the same of 3-D, in which the tunnel begins at the face of the domain.
 [[nodiscard]] Domain<2> section_domain(const Input& input);
 [[nodiscard]] Domain<3> spatial_domain(const Input& input);

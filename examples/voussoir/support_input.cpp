@@ -114,7 +114,7 @@ void read_opening_name(Section& s, const Input& input, std::size_t& opening) {
 
 }  // namespace
 
-void read_bolts(Section& s, const Input& input, BoltsInput& bolts) {
+void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
   s.text("name", bolts.name);
   read_opening_name(s, input, bolts.opening);
   const bool has_bars = s.has("bars");
@@ -129,6 +129,8 @@ void read_bolts(Section& s, const Input& input, BoltsInput& bolts) {
   });
   s.quantity("out_of_plane", bolts.out_of_plane, dimension::length, out_of_plane_range,
              Need::optional);
+  s.quantity("ahead", bolts.ahead, dimension::angle, between(radians(1), radians(45)));
+  if (!input.is_spatial()) note_unused(input, s, "ahead");
   s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
   s.quantity("stiffness", bolts.stiffness, dimension::stiffness, bolt_range, Need::required);
   s.quantity("pretension", bolts.pretension, dimension::force, between(0, force_range.high),

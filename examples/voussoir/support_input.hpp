@@ -10,7 +10,7 @@
 /// keys with their dimensions and ranges, one line each. Defaults are in input.hpp.
 namespace voussoir::program {
 
-void read_bolts(Section& s, const Input& input, BoltsInput& bolts);
+void read_bolts(Section& s, Input& input, BoltsInput& bolts);
 void read_lining(Section& s, Input& input, LiningInput& lining);
 /// After the supports, which it installs by their names.
 /// @param is_round  in a table [[round]], which says what it excavates

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "construction_plan.hpp"
 #include "input.hpp"
 #include "run_results.hpp"
 
@@ -201,6 +202,36 @@ TEST_SUITE("program/openings") {
       CHECK(outcome.err.find("through rock that stage \"round 2\" takes out") != std::string::npos);
       CHECK(contents(folder / "out").empty());
     }
+  }
+
+  TEST_CASE("forepoles lie over the rock ahead, and a section has none") {
+    const std::string poles =
+        "[support.bolts]\nname = \"poles\"\nlength = \"5 m\"\nspacing = \"0.5 m\"\n"
+        "arc = [\"45 deg\", \"135 deg\"]\nout_of_plane = \"2.5 m\"\nahead = \"12 deg\"\n"
+        "stiffness = \"0.2 GN/m\"\n";
+    const std::string text = replaced(rock(deep, ""), "cover = \"10 m\"\n",
+                                      "cover = \"10 m\"\nround_length = \"2.5 m\"\nrounds = 3\n") +
+                             poles + "[[round]]\ninstall = [\"bolts\"]\n";
+    const voussoir::program::Input input =
+        voussoir::program::read_input_text(text, "case.toml", ".");
+    const auto bars = voussoir::program::rows_of_pattern(input, *input.bolts, input.bolts->spacing);
+    CHECK(bars.size() % 3 == 0);
+    CHECK(bars.size() >= 3 * 6);
+    for (const auto& bar : bars) {
+      const voussoir::Vec3 way = bar.end - bar.start;
+      CHECK(std::abs(bar.start.z() - 2) < 1e-9);  // on the flat roof
+      CHECK(std::abs(way.y() / way.norm() - std::cos(12 * 3.14159265358979323846 / 180)) < 1e-9);
+      CHECK(way.z() > 0);
+      // 10 m of model: those from 0 and 2.5 m on are whole, of 5 m from 5 m, too.
+      CHECK(std::abs(way.norm() - 5) < 1e-9);
+      CHECK(bar.end.y() < 10);
+    }
+    const Results run = results_of(text);
+    CHECK(run.json.at("verdict") == "stable");
+    CHECK(run.json.at("bolts").at("count") == bars.size());
+    const Results section = results_of(text, {"--set", "model.dimension=2"});
+    CHECK_FALSE(section.json.contains("bolts"));
+    CHECK(section.outcome.out.find("support.bolts.ahead") != std::string::npos);
   }
 
   TEST_CASE("a round by its outline is that by limits, and the rest is what is left") {
