@@ -162,9 +162,8 @@ RockBlocks rock_blocks(const Input& input, const Report& report) {
   const SimplePolygon section = opening_of(input);
   const double smallest = input.blocks.min_wall_area;
   if (input.is_spatial())
-    return blocks_of<Spatial>(input, spatial_rock_of(input, progress),
-                              driven_tunnel(input), smallest * std::sqrt(smallest),
-                              progress);
+    return blocks_of<Spatial>(input, spatial_rock_of(input, progress), driven_tunnel(input),
+                              smallest * std::sqrt(smallest), progress);
   return blocks_of<Planar>(input, rock_of(input, progress), section, smallest, progress);
 }
 

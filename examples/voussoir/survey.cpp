@@ -173,7 +173,8 @@ std::string stereonet_svg(const Input& input) {
   picture.header.title = input.title.empty() ? "Joints as surveyed" : input.title;
   picture.planes = survey.planes;
   picture.sets = survey.fits;
-  if (input.tunnel.trend) picture.tunnel = LineOrientation{*input.tunnel.trend, input.tunnel.plunge};
+  if (input.tunnel.trend)
+    picture.tunnel = LineOrientation{*input.tunnel.trend, input.tunnel.plunge};
   return draw_stereonet_picture(picture);
 }
 
