@@ -16,6 +16,7 @@
 #include "drawn_outline.hpp"
 #include "geojson_traces.hpp"
 #include "joint_laws.hpp"
+#include "openings.hpp"
 
 namespace voussoir::program {
 
@@ -155,7 +156,10 @@ void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<Ma
   const MappedRule rule{snap_of(input), input.mapped.dead_ends};
   const MappedJoints mapped = mapped_joints(std::move(traces), domain, rule, progress);
   const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
-  MappedRock made = slice_mapped(domain, mapped, random, limits, {opening_of(input)}, progress);
+  std::vector<SimplePolygon> openings;
+  for (std::size_t k = 0; k <= input.openings.size(); ++k)
+    if (is_modelled(input, k)) openings.push_back(opening_in_section(input, k));
+  MappedRock made = slice_mapped(domain, mapped, random, limits, openings, progress);
   rock.mass = std::move(made.mass);
   if (mapped.duplicates > 0)
     rock.warnings.push_back("joints.file: " + counted(mapped.duplicates, "trace") +

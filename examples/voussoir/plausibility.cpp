@@ -115,6 +115,15 @@ void look_at_model(const Input& input, Look& look) {
   if (tunnel.shape == TunnelShape::horseshoe)
     look.beside_opening("tunnel.wall_height", tunnel.wall_height, span, {0.05, 5});
   look.beside_opening("tunnel.cover", tunnel.cover, span, {0.4, 350});
+  for (std::size_t k = 0; k < input.openings.size(); ++k) {
+    const OpeningInput& other = input.openings[k];
+    const std::string table = "opening[" + std::to_string(k) + "].";
+    if (other.shape == TunnelShape::circle)
+      look.beside_opening(table + "diameter", other.diameter, span, {0.05, 5});
+    if (other.shape != TunnelShape::horseshoe) continue;
+    look.beside_opening(table + "width", other.width, span, {0.05, 5});
+    look.beside_opening(table + "wall_height", other.wall_height, span, {0.02, 5});
+  }
   look.at("stress.K0", input.stress.K0, {0.2, 5});
   if (input.stress.K0_minor) look.at("stress.K0_minor", *input.stress.K0_minor, {0.1, 5});
   look.at("stress.horizontal", input.stress.horizontal, {50e3, 40e6, true}, dimension::pressure);

@@ -275,6 +275,20 @@ TEST_SUITE("program/openings") {
     }
   }
 
+  TEST_CASE("the example is checked in 3-D and computed as a section") {
+    const std::string file = std::string(VOUSSOIR_TEST_EXAMPLES) + "/rounds/cross_passage.toml";
+    const Outcome check = run_program({"check", file});
+    CHECK(check.status == 0);
+    for (const char* words :
+         {"opening  second tube: circle 6 m wide", "in 4 rounds",
+          "passage: horseshoe 3 m wide, 3 m high, at (0, 0) m, turned by 90 deg",
+          "8 rounds behind the face", "9 stages"})
+      CHECK(check.out.find(words) != std::string::npos);
+    const Results section = results_of(read_file(file), {"--set", "model.dimension=2"});
+    CHECK(section.json.at("verdict") == "stable");
+    CHECK(section.json.at("openings").size() == 1);
+  }
+
   TEST_CASE("bad input") {
     const auto refused = [](const std::string& text, const std::vector<const char*>& words) {
       const Folder folder;
