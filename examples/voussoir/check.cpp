@@ -219,10 +219,10 @@ std::size_t stage_count(const Input& input) {
 std::string cost_line(const Input& input, const CheckedModel& model) {
   const ExpectedCost cost = expected_cost(input.model.dimension, block_count(model));
   const auto seconds = [](double value) {
-    return significant_text(std::max(value, 0.01), 1) + " s";
+    return significant_text(std::max(value, 0.01), 2) + " s";
   };
   const std::size_t stages = stage_count(input);
-  return "expected some " + significant_text(1e-6 * cost.memory, 1) + " MB; " +
+  return "expected some " + significant_text(1e-6 * cost.memory, 2) + " MB; " +
          seconds(static_cast<double>(stages) * cost.standing_stage) + " for " +
          counted(stages, "stage") + " while all rock stands, " + seconds(cost.falling_stage) +
          " for one in which rock comes off\n";
