@@ -218,11 +218,14 @@ std::size_t stage_count(const Input& input) {
 
 std::string cost_line(const Input& input, const CheckedModel& model) {
   const ExpectedCost cost = expected_cost(input.model.dimension, block_count(model));
-  const auto seconds = [](double value) {
-    return significant_text(std::max(value, 0.01), 2) + " s";
+  const auto two_digits = [](double value) {
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return shortest_text(unit >= 1 ? unit * std::round(value / unit)
+                                   : std::round(value / unit) / (1 / unit));
   };
+  const auto seconds = [&](double value) { return two_digits(std::max(value, 0.01)) + " s"; };
   const std::size_t stages = stage_count(input);
-  return "expected some " + significant_text(1e-6 * cost.memory, 2) + " MB; " +
+  return "expected some " + two_digits(1e-6 * cost.memory) + " MB; " +
          seconds(static_cast<double>(stages) * cost.standing_stage) + " for " +
          counted(stages, "stage") + " while all rock stands, " + seconds(cost.falling_stage) +
          " for one in which rock comes off\n";
