@@ -3,6 +3,8 @@
 // pin.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -165,9 +167,13 @@ TEST_SUITE("lining/any_lining") {
   TEST_CASE("members are hinged where a pin meets a node that turns, and nowhere else") {
     const LiningSection beam = section(LiningElement::timoshenko),
                         pinned = section(LiningElement::pinned);
-    const auto moments = [](const FrameElement<Planar>& e) {
-      return std::vector{e.local.row(2).norm() > 0, e.local.row(5).norm() > 0};
+    // What the turn of an end has to do with any other motion.
+    const auto turns = [](const FrameElement<Planar>& e, int end) {
+      auto row = Fixed<1, 6>(e.local.row(3 * end + 2));
+      row[3 * end + 2] = 0;
+      return row.norm() > 0;
     };
+    using Hinged = std::array<bool, 2>;
     const auto all_beams = row_of({beam, beam}, {0, 0, 0}),
                all_bars = row_of({pinned, pinned}, {1, 1, 1}),
                beam_to_pin = row_of({beam, beam}, {0, 0, 1}),
@@ -175,14 +181,40 @@ TEST_SUITE("lining/any_lining") {
     for (const std::size_t m : {0U, 1U}) {
       CHECK(all_beams[m].local == TimoshenkoBeam::stiffness<3>(beam, 2));
       CHECK(all_bars[m].local == PinnedBar::stiffness<3>(pinned, 2));
-      CHECK(!all_beams[m].is_pinned);
-      CHECK(all_bars[m].is_pinned);
+      CHECK(all_beams[m].is_hinged == Hinged{false, false});
+      CHECK(all_bars[m].is_hinged == Hinged{true, true});
     }
     CHECK(beam_to_pin[0].local == TimoshenkoBeam::stiffness<3>(beam, 2));
-    CHECK(moments(beam_to_pin[1]) == std::vector{true, false});
-    CHECK(!beam_to_pin[1].is_pinned);
+    CHECK(beam_to_pin[1].is_hinged == Hinged{false, true});
+    CHECK(turns(beam_to_pin[1], 0));
+    CHECK(!turns(beam_to_pin[1], 1));
+    // The pin stays fixed where the bars that meet it are taken out, with the spring of a bar.
+    CHECK(beam_to_pin[1].local(5, 5) == all_bars[1].local(5, 5));
     CHECK(bar_to_beam[1].local == PinnedBar::stiffness<3>(pinned, 2));
-    CHECK(moments(bar_to_beam[0]) == std::vector{false, true});
+    CHECK(bar_to_beam[0].is_hinged == Hinged{true, true});
+    CHECK(bar_to_beam[0].local(2, 2) == 0);  // the node of the beam turns
+    CHECK(bar_to_beam[0].local(5, 5) == all_bars[0].local(5, 5));
+  }
+
+  TEST_CASE("a hinged member in motion: its chord and the end that is clamped strain it alone") {
+    const LiningSection beam = section(LiningElement::euler_bernoulli);
+    const auto members = row_of({beam, beam}, {0, 0, 1});
+    const FrameElement<Planar>& e = members[1];  // from (2, 0) to the pin at (4, 0)
+    Pose<2> clamped, pin;
+    clamped.position = {2, 0};
+    const double across = 1e-6;
+    pin.position = {4, across};
+    // A propped cantilever, at its free end P = 3 E I w / l^3, at the clamp M = P l.
+    const double force = 3 * beam.bending_stiffness * across / 8;
+    const auto push = e.push(clamped, pin);  // on the nodes
+    // Turns of 1e-6 are small: their squares are not in it.
+    CHECK(push[4] == near(-force).epsilon(1e-6));
+    CHECK(push[1] == near(force).epsilon(1e-6));
+    CHECK(push[2] == near(2 * force).epsilon(1e-6));
+    CHECK(push[5] == 0);
+    CHECK(e.energy(clamped, pin) == near(0.5 * force * across).epsilon(1e-6));
+    pin.rotation = by_rows<2, 2>({0.8, -0.6, 0.6, 0.8});
+    CHECK(e.push(clamped, pin) == push);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -57,6 +59,13 @@ void hinge(ElementMatrix<Dof>& stiffness, int end) {
   }
 }
 
+/// Fixes the turns of a pin, which nothing loads, by springs to nowhere.
+/// @param spring  [N m]
+template <int Dof>
+void fix_pin(ElementMatrix<Dof>& stiffness, int end, double spring) {
+  for (int r = Dof * end + (Dof == 3 ? 2 : 3); r < Dof * (end + 1); ++r) stiffness(r, r) += spring;
+}
+
 /// A straight piece of lining between two nodes.
 template <class Geometry>
 struct FrameElement {
@@ -89,19 +98,22 @@ struct FrameElement {
   /// What `deformation` would find of it where it is free of force: not zero of a member between
   /// nodes that had moved when it was installed.
   Values unstrained = zeros<Values>();
-  bool is_pinned = false;  ///< its nodes turn as they like: that strains it only where they cannot
+  /// Its first end, its second: hinged to a node that turns as it likes, which strains it only
+  /// where it cannot (the spring of a pin).
+  std::array<bool, 2> is_hinged{};
 
   /// Forces on the two ends in element axes at displacement `u`.
   [[nodiscard]] Values end_forces(const double* u) const {
     const Values q = stacked(vector_at<dof>(u + dof * i), vector_at<dof>(u + dof * j));
     return start + local * (turn * q);
   }
-  /// The forces of its ends as sections of a lining have them: `end_forces`, without what a pin's
-  /// spring to nowhere makes of roundings where it is pinned.
+  /// The forces of its ends as sections of a lining have them: `end_forces`, without what the
+  /// spring of a pin makes of roundings.
   [[nodiscard]] Values section_forces(const double* u) const {
     Values f = end_forces(u);
-    if (is_pinned)
-      for (int r = dim; r < dof; ++r) f[r] = f[dof + r] = 0;
+    for (const int end : {0, 1})
+      for (int r = dim; r < dof && is_hinged[static_cast<std::size_t>(end)]; ++r)
+        f[dof * end + r] = 0;
     return f;
   }
   /// The same with the nodes anywhere: from the length of the chord and the turns of the nodes
@@ -151,17 +163,18 @@ struct FrameElement {
 
  private:
   /// Displacements of the ends that strain it, element axes: the second node along the chord, and
-  /// both turns against it.
+  /// the turns of those that are not hinged against it.
   [[nodiscard]] Values deformation(const Pose<dim>& a, const Pose<dim>& b) const {
     const Vec<dim> along = b.position - a.position;
     const Rotation<dim> now = axes_along(along, a);
     Values q = zeros<Values>();
     q[dof] = along.norm() - length - unstrained[dof];
-    if (is_pinned) return q;
-    write_at(q.data() + dim, Spin<dim>(small_turn(now * a.rotation * transposed(at_rest)) -
-                                       part<dof - dim>(unstrained, dim)));
-    write_at(q.data() + dof + dim, Spin<dim>(small_turn(now * b.rotation * transposed(at_rest)) -
-                                             part<dof - dim>(unstrained, dof + dim)));
+    if (!is_hinged[0])
+      write_at(q.data() + dim, Spin<dim>(small_turn(now * a.rotation * transposed(at_rest)) -
+                                         part<dof - dim>(unstrained, dim)));
+    if (!is_hinged[1])
+      write_at(q.data() + dof + dim, Spin<dim>(small_turn(now * b.rotation * transposed(at_rest)) -
+                                               part<dof - dim>(unstrained, dof + dim)));
     return q;
   }
   /// Axes of the element along a chord, its second axis turned with node a.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -152,13 +153,18 @@ template <class Lining, class Geometry, class IsPin>
     const LiningSection& section = sections[static_cast<std::size_t>(member.section)];
     const bool is_pinned = is_pinned_lining<Lining>(section);
     auto stiffness = Lining::template stiffness<Geometry::dof>(section, length);
-    for (const int end : {0, 1})
-      if (is_pin(end == 0 ? member.first : member.second) != is_pinned)
-        hinge<Geometry::dof>(stiffness, end);
+    const std::array<bool, 2> on_pin{is_pin(member.first), is_pin(member.second)};
+    for (const int end : {0, 1}) {
+      const bool has_pin = on_pin[static_cast<std::size_t>(end)];
+      if (has_pin != is_pinned) hinge<Geometry::dof>(stiffness, end);
+      // As its bars do: they may be taken out, and what is hinged to it stays.
+      if (has_pin && !is_pinned)
+        fix_pin<Geometry::dof>(stiffness, end, section.axial_stiffness * length);
+    }
     elements.push_back({bodies[static_cast<std::size_t>(member.first)],
                         bodies[static_cast<std::size_t>(member.second)], length,
                         frame_axes<Geometry::dim>(along, member.outward), stiffness});
-    elements.back().is_pinned = is_pinned;
+    elements.back().is_hinged = {is_pinned || on_pin[0], is_pinned || on_pin[1]};
   }
   return elements;
 }

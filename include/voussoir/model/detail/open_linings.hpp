@@ -14,8 +14,9 @@ namespace voussoir::detail {
 
 /// Opens the linings of a model where a round has been taken out. What goes: a node that lies in
 /// the opening, or whose rock has all gone with it; a member of such a node, or one that runs
-/// through the opening between two that stay; a node that is left without members. A member is cut
-/// at the node that stays: half of its weight goes on hanging there.
+/// through the opening between two that stay; a node that is left without members, or that turns
+/// and is left with hinged ones alone. A member is cut at the node that stays: half of its weight
+/// goes on hanging there.
 ///
 /// The force that a member carried is then out of balance at its nodes, as that of the rock is at
 /// the wall: both go with the wall's traction.
@@ -55,7 +56,8 @@ class LiningOpener {
     cut_lonely_nodes();
     std::vector<OpenedLining<dim>> opened(model_.linings.size());
     BodyMarks is_end(count(), 0);
-    each_member([&](int i, int j) {
+    each_member([&](const auto& member) {
+      const int i = member.i, j = member.j;
       if (!is_parted(i, j)) return;
       ++of(opened, cut_[index(i)] != 0 ? i : j).members;
       for (const int node : {i, j}) {
@@ -98,9 +100,13 @@ class LiningOpener {
   template <class Visit>
   void each_member(Visit&& visit) const {
     for (const auto* lining : model_.supports.template all<LiningMembers<Geometry>>())
-      for (const auto& m : lining->members()) visit(m.i, m.j);
+      for (const auto& m : lining->members()) visit(m);
     for (const auto* joints : model_.supports.template all<LiningJoints<Geometry>>())
-      for (const auto& m : joints->members()) visit(m.i, m.j);
+      for (const auto& m : joints->members()) visit(m);
+  }
+  /// Its turns are fixed, whatever members it has.
+  [[nodiscard]] bool is_pin(int node) const {
+    return model_.linings[index(lining_of_[index(node)])].is_pinned;
   }
   [[nodiscard]] bool is_parted(int i, int j) const {
     return cut_[index(i)] != 0 || cut_[index(j)] != 0 ||
@@ -110,10 +116,12 @@ class LiningOpener {
   }
   void cut_lonely_nodes() {
     std::vector<int> before(count(), 0), left(count(), 0);
-    each_member([&](int i, int j) {
-      for (const int node : {i, j}) {
+    each_member([&](const auto& member) {
+      const bool stays = !is_parted(member.i, member.j);
+      for (const auto& [node, is_hinged] :
+           {std::pair(member.i, member.is_hinged[0]), std::pair(member.j, member.is_hinged[1])}) {
         ++before[index(node)];
-        left[index(node)] += is_parted(i, j) ? 0 : 1;
+        left[index(node)] += stays && (!is_hinged || is_pin(node));
       }
     });
     for (std::size_t node = 0; node < count(); ++node)
