@@ -482,7 +482,8 @@ TEST_SUITE("solver/any_supports") {
     // The rock goes from behind the floor but for the facets next to the springings, where one of
     // its nodes stays each side.
     std::vector<Vec2> wall;
-    for (const Vec2& vertex : small_opening<Planar>().vertices())
+    const auto small = small_opening<Planar>();
+    for (const Vec2& vertex : small.vertices())
       if (vertex.y() < -0.3) wall.push_back(vertex);
     std::sort(wall.begin(), wall.end(), [](const Vec2& p, const Vec2& q) { return p.x() > q.x(); });
     std::vector<Vec2> vertices{{-2.5, -3.5}, {2.5, -3.5}};
