@@ -17,14 +17,3 @@ target_compile_options(
   voussoir_own
   INTERFACE "$<${gnu_like}:-ffp-contract=off>" # the same digits with and without FMA
             "$<$<AND:${gnu_like},$<BOOL:${VOUSSOIR_NATIVE}>>:-march=native>")
-
-# Files that read, write and call take a compiler twice as long with optimisation, and run little:
-# the presets for tests leave it out there. ${computing_compile} puts it back for one file of such a
-# target.
-option(VOUSSOIR_QUICK_COMPILE "Do not optimise what computes little (for tests)" OFF)
-set(quick_compile "")
-set(computing_compile "")
-if(VOUSSOIR_QUICK_COMPILE)
-  set(quick_compile "$<${gnu_like}:-O0>")
-  set(computing_compile "$<${gnu_like}:-O1>")
-endif()
