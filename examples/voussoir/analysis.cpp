@@ -227,9 +227,9 @@ void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing
   const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
   const auto check = [&](std::size_t k, const BoltSpacing& spacing) {
     const BoltsInput& bolts = *patterns[k];
-    // Along the tunnel the rows lie inside; the section says the rest.
     if (!is_modelled(input, bolts)) return;
-    if (!input.is_spatial() || (bolts.opening == 0 && !bolts.ahead))
+    // Along a level tunnel the rows lie inside; the section says the rest.
+    if (!input.is_spatial() || (bolts.opening == 0 && !bolts.ahead && input.tunnel.plunge == 0))
       check_ends<2>(input, k, bars_of_pattern(input, bolts, spacing), section_domain(input));
     else
       check_ends<3>(input, k, rows_of_pattern(input, bolts, spacing), spatial_domain(input));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "openings.hpp"
 
-#include <algorithm>
+// g++ 12 sees a variable of its intersection without a value, which is set before it is read.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <boost/geometry/algorithms/append.hpp>
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/correct.hpp>
@@ -9,6 +13,11 @@
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <voussoir/core/elementary.hpp>
