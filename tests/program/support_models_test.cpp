@@ -124,7 +124,9 @@ TEST_SUITE("program/support_models") {
     for (const std::vector<std::string>& set : {section, spatial}) {
       CAPTURE(set.size());
       std::map<std::string, Results> runs;
-      for (const auto& [word, model] : words) {
+      for (const auto& entry : words) {
+        const auto& word = entry.first;
+        const auto& model = entry.second;
         CAPTURE(word);
         Results run = standing(made_of(word), set);
         CHECK(has(models(run), ", " + model + " on CoulombJoint"));
@@ -198,8 +200,10 @@ TEST_SUITE("program/support_models") {
     for (const std::vector<std::string>& set : {section, spatial}) {
       CAPTURE(set.size());
       std::vector<std::string> tables;
-      for (const auto& [word, model] : words)
+      for (const auto& entry : words)
         for (const std::string& law : {axial, dowelled}) {
+          const auto& word = entry.first;
+          const auto& model = entry.second;
           CAPTURE(word);
           const Results run = standing(bolts(law + "anchors = \"" + word + "\"\n"), set);
           CHECK(has(models(run),
