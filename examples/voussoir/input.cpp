@@ -188,8 +188,8 @@ bool names_a_file(std::string_view line) {
 
 int Input::round_count() const {
   if (!tunnel.round_length) return 1;
-  return tunnel.rounds.value_or(std::max(
-      1, static_cast<int>(std::floor(tunnel_length() / *tunnel.round_length * (1 + 1e-9)))));
+  const double most = std::floor(tunnel_length() / *tunnel.round_length * (1 + 1e-9));
+  return tunnel.rounds.value_or(static_cast<int>(std::clamp(most, 1.0, 1e9)));
 }
 
 double Input::tunnel_length() const { return model.length / elementary::cosine(tunnel.plunge); }

@@ -146,7 +146,9 @@ Drive drive_of(const Input& input, std::size_t opening) {
   drive.from = o.from.value_or(is_along ? -o.place : 0);
   drive.to = o.to.value_or(tunnel_end - o.place);
   drive.stretch = o.round_length.value_or(drive.length());
-  drive.count = std::max(1, static_cast<int>(std::ceil(drive.length() / drive.stretch - 1e-9)));
+  // More than a thousand are refused; no more than a number holds.
+  drive.count =
+      static_cast<int>(std::clamp(std::ceil(drive.length() / drive.stretch - 1e-9), 1.0, 1e9));
   return drive;
 }
 
