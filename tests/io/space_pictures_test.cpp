@@ -224,6 +224,12 @@ TEST_SUITE("io/space_pictures") {
     scene.unrolled.strip_width = 0;
     CHECK(draw_tunnel_view(mass, scene).find("Lining thrust N [kN] of each rib") !=
           std::string::npos);
+    // Of pinned ribs there is nothing to scale by.
+    for (UnrolledNode& node : scene.unrolled.nodes) node.moment = 0;
+    const std::string pinned = draw_tunnel_view(mass, scene);
+    CHECK(pinned.find(">0 kN m everywhere<") != std::string::npos);
+    CHECK(pinned.find("largest 456 kN at") != std::string::npos);
+    CHECK(pinned.find("00000000") == std::string::npos);
   }
 
   TEST_CASE("joints that have slipped are lines in the section, as wide as they have slipped") {

@@ -141,7 +141,9 @@ VOUSSOIR_INLINE void draw_unrolled_panel(SvgCanvas& canvas, const ViewRect& fram
                                          const std::string& meaning) {
   canvas.text({frame.low.x(), frame.low.y() + 14}, title, {.size = 14.5, .bold = true});
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const double largest = std::max({std::abs(*least), std::abs(*most), 1e-300});
+  const double reached = std::max(std::abs(*least), std::abs(*most));
+  const bool is_zero = !(reached > 0);  // moments of pinned ribs
+  const double largest = is_zero ? 1 : reached;
   const bool has_both = *least < -1e-3 * largest;  // less is rounding, and has no colour
   static const ColourMap positive({{250, 250, 250}, {150, 190, 225}, {33, 82, 145}}),
       negative({{250, 250, 250}, {240, 180, 140}, {178, 70, 20}});
@@ -180,8 +182,13 @@ VOUSSOIR_INLINE void draw_unrolled_panel(SvgCanvas& canvas, const ViewRect& fram
   canvas.text({plot.centre().x(), plot.high.y() + 36}, "along the tunnel [m]",
               {.anchor = TextAnchor::middle});
 
+  const double bar_y = plot.high.y() + 48;
+  if (is_zero) {
+    canvas.text({plot.low.x(), bar_y + 11}, "0 " + unit + " everywhere");
+    return;
+  }
   // The scale, with what its two sides mean.
-  const double bar_y = plot.high.y() + 48, low = has_both ? -largest : 0;
+  const double low = has_both ? -largest : 0;
   constexpr int steps = 60;
   for (int k = 0; k < steps; ++k)  // each to the end: no gaps between them
     canvas.rectangle(
