@@ -489,8 +489,9 @@ TEST_SUITE("solver/any_supports") {
     std::vector<Vec2> vertices{{-2.5, -3.5}, {2.5, -3.5}};
     vertices.insert(vertices.end(), wall.begin(), wall.end());
     const SimplePolygon bench(vertices);
-    for (const auto& [pinned_floor, floor_first] :
+    for (const auto& choice :
          {std::pair(true, true), {true, false}, {false, true}, {false, false}}) {
+      const bool pinned_floor = choice.first, floor_first = choice.second;
       CAPTURE(pinned_floor);
       CAPTURE(floor_first);
       Solver<AnyLining> tunnel(small_rock<Planar>(), CoulombJoint({5e9, 5e8, 60 * degree}),
