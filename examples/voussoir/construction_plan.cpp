@@ -103,6 +103,7 @@ std::vector<const BoltsInput*> patterns_of(const Input& input, const Bars& bars,
                                            const BarsOf& bars_of) {
   std::vector<const BoltsInput*> found(bars.size(), nullptr);
   for (const BoltsInput* pattern : input.bolt_patterns()) {
+    if (!is_modelled(input, *pattern)) continue;  // its bars may lie where those of another do
     const Bars own = bars_of(*pattern);
     for (std::size_t k = 0; k < bars.size(); ++k)
       for (std::size_t i = 0; i < own.size() && found[k] == nullptr; ++i)

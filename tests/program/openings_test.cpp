@@ -232,6 +232,17 @@ TEST_SUITE("program/openings") {
     const Results section = results_of(text, {"--set", "model.dimension=2"});
     CHECK_FALSE(section.json.contains("bolts"));
     CHECK(section.outcome.out.find("support.bolts.ahead") != std::string::npos);
+    // Bolts that stand where forepoles would in a section have their own strength.
+    const auto list = [&](const std::string& table, const char* strength) {
+      return replaced(table, "[support.bolts]\n", "[[support.bolts]]\n") + "yield_force = \"" +
+             strength + "\"\n";
+    };
+    const std::string across = replaced(
+        replaced(poles, "name = \"poles\"\n", "name = \"across\"\n"), "ahead = \"12 deg\"\n", "");
+    const Results both = results_of(rock(flat, "") + list(poles, "100 kN") +
+                                    list(across, "300 kN") + "[[round]]\ninstall = [\"bolts\"]\n");
+    CHECK(both.json.at("bolts").at("count") == bars.size() / 3);
+    CHECK(both.json.at("bolts").at("strength") == "300 kN");
   }
 
   TEST_CASE("a round by its outline is that by limits, and the rest is what is left") {
