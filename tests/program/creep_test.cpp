@@ -18,39 +18,10 @@ namespace {
 /// A tunnel of 4 m under isotropic stress: no joint carries shear before it is excavated.
 /// @param rest  stages and supports
 std::string tunnel(const std::string& joint, const std::string& rest) {
-  return R"(
-[model]
-length = "2 m"
-width = "20 m"
-below_invert = "8 m"
-[tunnel]
-shape = "circle"
-diameter = "4 m"
-cover = "8 m"
-facets = 24
-[rock]
-density = "2700 kg/m^3"
-[stress]
-K0 = 1
-surcharge = "800 kPa"
-[[joint_set]]
-dip = "70 deg"
-dip_direction = "E"
-spacing = "1.5 m"
-[[joint_set]]
-dip = "20 deg"
-dip_direction = "W"
-spacing = "1.5 m"
-[blocks]
-min_inscribed_radius = "0.2 m"
-min_wall_area = "0 m^2"
-[boundary]
-sides = "rollers"
-base = "rollers"
-[joint]
-kn = "5 GPa/m"
-friction = "80 deg"
-)" + joint +
+  return CircleInRock{.surcharge = "800 kPa",
+                      .spacing = "1.5 m",
+                      .joint = "kn = \"5 GPa/m\"\nfriction = \"80 deg\"\n" + joint}
+             .text() +
          rest;
 }
 

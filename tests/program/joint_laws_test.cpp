@@ -29,40 +29,9 @@ namespace {
 /// A tunnel of 4 m; the joints of its sets go on along it.
 std::string tunnel(const std::string& joint, const std::string& of_first,
                    const std::string& of_second) {
-  return R"(
-[model]
-length = "2 m"
-width = "20 m"
-below_invert = "8 m"
-[tunnel]
-shape = "circle"
-diameter = "4 m"
-cover = "8 m"
-facets = 24
-[rock]
-density = "2700 kg/m^3"
-[stress]
-K0 = 1
-surcharge = "500 kPa"
-[[joint_set]]
-dip = "70 deg"
-dip_direction = "E"
-spacing = "1.5 m"
-)" + of_first +
-         R"(
-[[joint_set]]
-dip = "20 deg"
-dip_direction = "W"
-spacing = "1.5 m"
-)" + of_second +
-         "\n[joint]\n" + joint + R"(
-[blocks]
-min_inscribed_radius = "0.2 m"
-min_wall_area = "0 m^2"
-[boundary]
-sides = "rollers"
-base = "rollers"
-)";
+  return CircleInRock{
+      .spacing = "1.5 m", .of_first = of_first, .of_second = of_second, .joint = joint}
+      .text();
 }
 
 const std::string coulomb = "kn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"55 deg\"\n";

@@ -14,6 +14,30 @@
 
 namespace voussoir_test {
 
+/// A tunnel of 4 m without supports in two sets of joints that go right through and strike along
+/// it, between rollers: one rock in 2-D and 3-D.
+struct CircleInRock {
+  std::string length = "2 m", K0 = "1", surcharge = "500 kPa", spacing = "0.9 m";
+  std::string of_first = "", of_second = "";  ///< what else is said of the joints of a set
+  std::string joint = "kn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"55 deg\"\n";
+
+  [[nodiscard]] std::string text() const {
+    const auto set = [&](const char* dip, const char* towards, const std::string& more) {
+      return std::string("[[joint_set]]\ndip = \"") + dip + "\"\ndip_direction = \"" + towards +
+             "\"\nspacing = \"" + spacing + "\"\n" + more + "\n";
+    };
+    return "[model]\nlength = \"" + length +
+           "\"\nwidth = \"20 m\"\nbelow_invert = \"8 m\"\n[tunnel]\nshape = \"circle\"\n"
+           "diameter = \"4 m\"\ncover = \"8 m\"\nfacets = 24\n[rock]\n"
+           "density = \"2700 kg/m^3\"\n[stress]\nK0 = " +
+           K0 + "\nsurcharge = \"" + surcharge + "\"\n" + set("70 deg", "E", of_first) +
+           set("20 deg", "W", of_second) +
+           "[blocks]\nmin_inscribed_radius = \"0.2 m\"\nmin_wall_area = \"0 m^2\"\n[boundary]\n"
+           "sides = \"rollers\"\nbase = \"rollers\"\n[joint]\n" +
+           joint + "\n";
+  }
+};
+
 /// What `voussoir run` made of an input.
 struct Results {
   Outcome outcome;

@@ -19,40 +19,7 @@ using namespace voussoir_test;
 namespace {
 
 /// Joints that hardly slip: an answer hangs on no path.
-const std::string rock = R"(
-[model]
-length = "2 m"
-width = "20 m"
-below_invert = "8 m"
-[tunnel]
-shape = "circle"
-diameter = "4 m"
-cover = "8 m"
-facets = 24
-[rock]
-density = "2700 kg/m^3"
-[stress]
-K0 = 0.8
-surcharge = "500 kPa"
-[[joint_set]]
-dip = "70 deg"
-dip_direction = "E"
-spacing = "0.9 m"
-[[joint_set]]
-dip = "20 deg"
-dip_direction = "W"
-spacing = "0.9 m"
-[joint]
-kn = "5 GPa/m"
-ks = "0.5 GPa/m"
-friction = "55 deg"
-[blocks]
-min_inscribed_radius = "0.2 m"
-min_wall_area = "0 m^2"
-[boundary]
-sides = "rollers"
-base = "rollers"
-)";
+const std::string rock = CircleInRock{.K0 = "0.8"}.text();
 std::string bolts(const std::string& more) {
   return "[[support.bolts]]\nlength = \"2 m\"\nspacing = \"30 deg\"\nstiffness = \"0.2 GN/m\"\n" +
          more;

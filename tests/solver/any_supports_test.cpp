@@ -478,7 +478,8 @@ TEST_SUITE("solver/any_supports") {
     CHECK(hinged == 24);  // a tie for each node of a rib
   }
 
-  TEST_CASE("of two linings all but a stub of one is taken out: what is hinged to nothing goes") {
+  TEST_CASE(
+      "of two linings a round leaves two nodes of one: a node that is hinged to nothing goes with it") {
     // The rock goes from behind the floor but for the facets next to the springings, where one of
     // its nodes stays each side.
     std::vector<Vec2> wall;
@@ -514,11 +515,11 @@ TEST_SUITE("solver/any_supports") {
       REQUIRE(tunnel.opened_linings().size() >= 1);
       // A pin is fixed and stays. So does a node whose beam is hinged to the roof; the one that
       // would have a bar of the roof alone, on a hinge, goes.
-      int stubs = 0;
+      int standing = 0;
       const auto& floor = tunnel.system().linings[floor_first ? 0 : 1];
       for (int n = 0; n < static_cast<int>(floor.surface.node_count()); ++n)
-        stubs += tunnel.system().body(floor.first + n).movable;
-      CHECK(stubs == (!pinned_floor && floor_first ? 0 : 2));
+        standing += tunnel.system().body(floor.first + n).movable;
+      CHECK(standing == (!pinned_floor && floor_first ? 0 : 2));
     }
   }
 
