@@ -43,10 +43,10 @@ install(
   FILES "${PROJECT_SOURCE_DIR}/LICENSE"
   DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   COMPONENT voussoir_headers)
-# voussoir::compiled goes along as sources: the project that links it compiles them, with its own
-# compiler and flags, and the package stays the same for every machine.
+# voussoir::compiled and voussoir::design go along as sources: the project that links them compiles
+# them, with its own compiler and flags, and the package stays the same for every machine.
 install(
-  FILES ${voussoir_compiled_sources}
+  FILES ${voussoir_compiled_sources} ${voussoir_design_sources}
   DESTINATION "${package_dir}/compiled"
   COMPONENT voussoir_headers)
 if(TARGET voussoir_cli)

@@ -9,16 +9,14 @@
 #include <type_traits>
 #include <utility>
 #include <voussoir/core/elementary.hpp>
+#include <voussoir/design/models.hpp>
 #include <voussoir/voussoir.hpp>
-
-#include "models.hpp"
 
 namespace voussoir::paper {
 
 namespace {
 
-using program::ChosenMethod;
-using program::Tunnel;
+using design::Tunnel;
 
 const SimplePolygon& opening() {
   static const SimplePolygon circle = circular_opening(diameter);
@@ -37,16 +35,16 @@ AnyAnchors anchors_at(AnchorPlace place) {
   return LorigAnchors{1.2 * bolt_diameter};
 }
 
-ChosenMethod method_of(Way way) {
+AnyMethod method_of(Way way) {
   switch (way) {
     case Way::as_the_paper:
-      return ChosenMethod(Explicit({.damping = 0.1, .ramp_steps = 0}));
+      return AnyMethod(Explicit({.damping = 0.1, .ramp_steps = 0}));
     case Way::slow_explicit:
-      return ChosenMethod(Explicit{});
+      return AnyMethod(Explicit{});
     case Way::quasi_static:
       break;
   }
-  return ChosenMethod(TwoLevel{});
+  return AnyMethod(TwoLevel{});
 }
 
 BoltInstallation<Tunnel> bolts_of(const Bolts& b) {

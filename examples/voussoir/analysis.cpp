@@ -2,29 +2,21 @@
 #include "analysis.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <mutex>
 #include <numbers>
-#include <thread>
 #include <voussoir/core/elementary.hpp>
-#include <voussoir/core/memory.hpp>
-#include <voussoir/core/parallel.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/operating_system.hpp>
 #include <voussoir/rockmass/carving_limits.hpp>
-#include <voussoir/rockmass/trace_coverage.hpp>
+#include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
 #include "joint_laws.hpp"
-#include "joint_sets.hpp"
 #include "mapped_rock.hpp"
-#include "openings.hpp"
 #include "plausibility.hpp"
-#include "spatial_analysis.hpp"
 #include "survey.hpp"
 
 namespace voussoir::program {
@@ -35,24 +27,44 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string number(double value, const char* format = "%.3g") {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+std::string number(double value) { return significant_text(value, 3); }
+
+/// What the values of the file give rise to, in 2-D and 3-D.
+std::vector<std::string> warnings_about_values(const Input& input) {
+  std::vector<std::string> warnings = unusual_values(input);
+  if (!input.unused.empty()) warnings.push_back(input.unused_text());
+  return warnings;
+}
+
+void append(std::vector<std::string>& to, std::vector<std::string> more) {
+  for (std::string& text : more) to.push_back(std::move(text));
+}
+
+/// Of a run, besides those about its pieces at the wall and its lining.
+template <class Geometry>
+void warn_of_stress_and_supports(const Input& input, const RunResultIn<Geometry>& run,
+                                 std::vector<std::string>& warnings) {
+  const InSitu& in_situ = run.tunnel.in_situ();
+  const double needed = in_situ.template required_friction_angle<Geometry::dim>(input.domain_top());
+  if (needed > (1 + 1e-12) * least_friction_angle(input, in_situ.vertical(input.domain_top())))
+    warnings.push_back("in situ: some joint orientations need " +
+                       number(needed * 180 / std::numbers::pi) +
+                       " deg of friction; joints that cannot carry the in-situ shear slip at the "
+                       "first equilibrium");
+  append(warnings, remarks_on(support_condition(run.tunnel)));
 }
 
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   std::vector<std::string> warnings = run.warnings;
-  for (std::string& text : unusual_values(input)) warnings.push_back(std::move(text));
-  if (!input.unused.empty()) warnings.push_back(input.unused_text());
+  append(warnings, warnings_about_values(input));
   if (input.survey && !input.survey->left_out.empty())
     warnings.push_back(left_out_text(*input.survey));
   const auto warn = [&](std::string text) { warnings.push_back(std::move(text)); };
   const RockMass<Planar>& mass = run.tunnel.mass();
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<LiningInput>& linings = input.linings;
   double least_filled = std::numeric_limits<double>::infinity();
-  for (const LiningInput* lining : linings)
-    least_filled = std::min(least_filled, lining->fill_depth);
+  for (const LiningInput& lining : linings)
+    least_filled = std::min(least_filled, lining.fill_depth);
   if (mass.slicing.coincident > 0)
     warn(std::to_string(mass.slicing.coincident) +
          " times a joint only touched a block or ran along an existing joint: merged, no cut made");
@@ -64,19 +76,11 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
          number(mass.carving.dropped_measure) + " m2 in all; the wall is the rock behind them" +
          (linings.empty() ? std::string()
                           : ", a lining fills the holes to " + number(least_filled) + " m"));
-  const double needed = run.tunnel.in_situ().required_friction_angle(input.domain_top());
-  if (needed >
-      (1 + 1e-12) * least_friction_angle(input, run.tunnel.in_situ().vertical(input.domain_top())))
-    warn("in situ: some joint orientations need " + number(needed * 180 / std::numbers::pi) +
-         " deg of friction; joints that cannot carry the " +
-         "in-situ shear slip at the first equilibrium");
-  const SupportCondition supports = support_condition(run.tunnel);
-  for (std::string& text : remarks_on(supports)) warn(std::move(text));
-  if (!supports.open_linings.empty())
+  warn_of_stress_and_supports(input, run, warnings);
+  if (!support_condition(run.tunnel).open_linings.empty())
     warn("feet of a lining: [support.lining.feet]; its bond: support.lining.interface.shear_bond");
-  for (const LiningInput* const made : linings) {
+  for (const LiningInput& lining : linings) {
     if (run.tunnel.first_lining_node() < 0) break;
-    const LiningInput& lining = *made;
     if (!is_modelled(input, lining.opening)) continue;
     const SimplePolygon outline = outline_of(outline_input(input, lining.opening));
     const double node_spacing =
@@ -101,291 +105,192 @@ std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {
   return warnings;
 }
 
-}  // namespace
-
-SimplePolygon outline_of(const OutlineInput& outline) {
-  switch (outline.shape) {
-    case TunnelShape::circle:
-      return circular_opening(outline.diameter, outline.facets);
-    case TunnelShape::horseshoe:
-      return horseshoe_opening(outline.width, outline.wall_height, outline.facets);
-    case TunnelShape::polygon: {
-      std::vector<Vec2> vertices;
-      for (const Point& p : outline.vertices) vertices.emplace_back(p[0], p[1]);
-      return SimplePolygon(std::move(vertices));
-    }
-  }
-  throw std::logic_error("unknown tunnel shape");
+std::vector<std::string> warnings_of(const Input& input, const SpatialRunResult& run) {
+  std::vector<std::string> warnings = run.warnings;
+  append(warnings, warnings_about_values(input));
+  if (input.survey && !input.survey->left_out.empty())
+    warnings.push_back(left_out_text(*input.survey));
+  const RockMass<Spatial>& mass = run.tunnel.mass();
+  if (mass.carving.dropped_pieces > 0)
+    warnings.push_back(std::to_string(mass.carving.dropped_pieces) +
+                       " pieces at the wall below min_wall_area^(3/2) = " +
+                       number(std::pow(input.blocks.min_wall_area, 1.5)) + " m3 were dropped, " +
+                       number(mass.carving.dropped_measure) + " m3 in all");
+  warn_of_stress_and_supports(input, run, warnings);
+  return warnings;
 }
 
-GeneratedRock rock_of(const Input& input, const Progress& progress) {
-  const Domain<2> domain = section_domain(input);
-  std::vector<JointSet> sets;
-  std::vector<int> index;  // of a random set among those of the input
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
-    const JointSetInput& s = input.joint_sets[k];
-    if (!s.is_random()) continue;
-    const auto shown = section_set(s, input.tunnel);
-    if (!shown) continue;  // it runs along the section, and the run says so
-    sets.push_back(*shown);
-    index.push_back(static_cast<int>(k));
-  }
-  GeneratedRock rock;
-  const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
-  // Mapped joints come first: what was seen takes precedence over what was drawn at random.
-  std::vector<MappedTrace> traces;
-  if (!input.joints_file.empty()) traces = read_mapped_traces(input, domain, progress, rock);
-  auto random = joint_network(sets, domain, input.model.seed, progress);
-  for (Joint& joint : random) joint.set = index[static_cast<std::size_t>(joint.set)];
-  if (input.joints_file.empty()) {
-    rock.mass = slice(domain, random, limits, progress);
-  } else {
-    // What the sets alone come to was checked when the input was read.
-    std::vector<Joint> all = straight_pieces(traces);
-    all.insert(all.end(), random.begin(), random.end());
-    const double blocks = estimated_blocks(all, domain, limits.min_inscribed_radius);
-    if (blocks > largest_count || static_cast<double>(all.size()) > largest_count)
-      throw InvalidInput(
-          "joints.file: with " + utf8_text(input.joints_file) + " the rock has " +
-          counted(all.size(), "joint") + " and would come to about " + number(blocks, "%.0f") +
-          " blocks\n   = accepted: at most 1000000 of either in the domain: a smaller "
-          "domain, fewer joints, or a larger blocks.min_inscribed_radius");
-    slice_by_traces(input, domain, std::move(traces), random, progress, rock);
-  }
-  check_slicing(input, rock.mass.slicing, rock.warnings);
+/// What became of the random joints, after those that were mapped.
+template <class Geometry>
+void report_random(const Input& input, RockIn<Geometry>& made) {
+  check_slicing(input, made.mass.slicing, made.warnings);
   std::vector<int> set_of;
-  for (const Joint& joint : rock.mass.joints) set_of.push_back(joint.set);
-  add_random_sources(input, set_of.size() - random.size(), set_of, rock.mass.slicing, rock.joints,
-                     rock.warnings);
+  for (const auto& joint : made.mass.joints) set_of.push_back(joint.set);
+  add_random_sources(input, made.mapped_joints, set_of, made.mass.slicing, made.joints,
+                     made.warnings);
+}
+
+Progress progress_of_blocks(const Report& report) {
+  return [&report](double fraction) { return report("blocks", fraction); };
+}
+
+}  // namespace
+
+RockIn<Planar> described_rock(const Input& input, const Progress& progress) {
+  RockIn<Planar> made;
+  DescribedRock& described = made;
+  if (input.joints_file.empty()) {
+    static_cast<JointedRock<Planar>&>(made) = rock_of(input, progress);
+  } else {
+    AnalysisInput with_traces = input;
+    with_traces.mapped.traces =
+        read_mapped_traces(input, section_domain(input), progress, described);
+    try {
+      static_cast<JointedRock<Planar>&>(made) = rock_of(with_traces, progress);
+    } catch (const InvalidInput& fault) {
+      throw InvalidInput("joints.file: " + utf8_text(input.joints_file) + ": " + fault.what());
+    }
+    report_mapped(input, made, described);
+  }
+  report_random(input, made);
   if (const double acts = elementary::cosine(input.tunnel.plunge); acts < 0.99)
-    rock.warnings.push_back("the tunnel plunges: a section takes gravity whole, of which " +
+    made.warnings.push_back("the tunnel plunges: a section takes gravity whole, of which " +
                             number(100 * acts) +
                             " % act in its plane; model.dimension = 3 has it as it is");
   for (const JointSetInput& set : input.joint_sets)
     if (std::string text = section_text(set, input.tunnel); !text.empty())
-      (section_set(set, input.tunnel) ? rock.in_section : rock.warnings).push_back(std::move(text));
-  return rock;
+      (section_set(set, input.tunnel) ? made.in_section : made.warnings).push_back(std::move(text));
+  return made;
 }
 
-ExcavatedRock excavated_rock(const Input& input, bool wants_bias, const Report& report) {
-  if (input.is_spatial()) return spatial_rock_in_situ(input, report);
-  const Progress progress = [&](double fraction) { return report("blocks", fraction); };
-  const SimplePolygon opening = opening_of(input);
-  const GeneratedRock rock = rock_of(input, progress);
-  const LawsBySet<AnyJoint> laws = laws_of(input);
-  double unbalance = 0;
-  const auto in_situ_tunnel = [&](const FarField<2>& far_field) {
-    return Tunnel(rock.mass, laws, in_situ_of(input), progress, far_field);
-  };
-  const auto tunnel_of = [&](const FarField<2>& far_field) {
-    Tunnel tunnel = in_situ_tunnel(far_field);
-    unbalance = tunnel.out_of_balance_ratio();
-    tunnel.excavate(opening, input.blocks.min_wall_area, progress);
-    return tunnel;
-  };
-  BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
-  if (input.has_rounds)  // each takes out its part; what the boundary does was asked of the whole
-    bounded.tunnel = in_situ_tunnel(bounded.boundary.field);
-  std::vector<std::string> warnings = rock.warnings;
+RockIn<Spatial> described_spatial_rock(const Input& input, const Progress& progress) {
+  RockIn<Spatial> made;
+  static_cast<JointedRock<Spatial>&>(made) = spatial_rock_of(input, progress);
+  report_random(input, made);
+  return made;
+}
+
+RockInSitu rock_in_situ(const Input& input, bool wants_bias, const Report& report) {
+  const Progress progress = progress_of_blocks(report);
+  if (input.is_spatial()) {
+    RockIn<Spatial> rock = described_spatial_rock(input, progress);
+    DescribedRock described = std::move(rock);
+    return {excavated_rock(input, static_cast<JointedRock<Spatial>&&>(rock), report),
+            std::move(described)};
+  }
+  RockIn<Planar> rock = described_rock(input, progress);
   const double half_width = input.tunnel.half_width();
-  for (std::string& text : remarks_on(in_situ_closure(
-           input, bounded.tunnel.in_situ().vertical(rock.mass.domain.depth(Vec2::Zero())),
-           std::sqrt(block_sizes(rock.mass).mean),
-           radial_spacing(rock.mass, Vec2::Zero(), half_width, 2 * half_width))))
-    warnings.push_back(std::move(text));
-  return {std::move(bounded.tunnel),
-          rock.joints,
-          opening,
-          std::move(bounded.boundary),
-          unbalance,
-          std::move(warnings),
-          rock.joints_read,
-          rock.in_section};
+  const double block = std::sqrt(block_sizes(rock.mass).mean),
+               spacing = radial_spacing(rock.mass, Vec2::Zero(), half_width, 2 * half_width),
+               depth = rock.mass.domain.depth(Vec2::Zero());
+  DescribedRock described = std::move(rock);
+  RockInSitu made{
+      excavated_rock(input, static_cast<JointedRock<Planar>&&>(rock), wants_bias, report),
+      std::move(described)};
+  append(made.warnings,
+         remarks_on(in_situ_closure(input, std::get<Tunnel>(made.tunnel).in_situ().vertical(depth),
+                                    block, spacing)));
+  return made;
+}
+
+void check_bolt_ends(const Input& input, const std::vector<std::optional<BoltSpacing>>& first) {
+  std::vector<std::optional<BoltSpacing>> spacings(1);
+  for (std::size_t k = 1; k < input.bolts.size(); ++k) spacings.push_back(input.bolts[k].spacing);
+  for (const std::optional<BoltSpacing>& spacing : first) {
+    spacings.front() = spacing;
+    const auto found = bolt_outside(input, spacings);
+    if (!found) continue;
+    const BoltsInput& bolts = input.bolts[found->pattern];
+    throw InvalidInput(input.bolts_key(found->pattern) +
+                       (bolts.bars.empty() ? ".length = " + number(bolts.length) + " m" : ".bars") +
+                       ": a bolt would end at " + found->end + " m, outside the rock" +
+                       unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
+                       "\n   = accepted: bolts that end within " + found->low + " and " +
+                       found->high + " m");
+  }
 }
 
 namespace {
 
-template <int Dim, class Bars>
-void check_ends(const Input& input, std::size_t pattern, const Bars& bars,
-                const Domain<Dim>& domain) {
-  const BoltsInput& bolts = *input.bolt_patterns()[pattern];
-  for (const auto& bar : bars)
-    for (const Vec<Dim>& end : {bar.start, bar.end})
-      if ((end.array() < domain.low.array()).any() || (end.array() > domain.high.array()).any())
-        throw InvalidInput(
-            input.bolts_key(pattern) +
-            (bolts.bars.empty() ? ".length = " + number(bolts.length) + " m" : ".bars") +
-            ": a bolt would end at " + text_of<Dim>(end) + " m, outside the rock" +
-            unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
-            "\n   = accepted: bolts that end within " + text_of<Dim>(domain.low) + " and " +
-            text_of<Dim>(domain.high) + " m");
+/// From the file to a finished run, with what is to be said of it.
+/// @param construct  finishes it, from rock that is ready
+template <class Geometry, class Construct>
+RunResultIn<Geometry> timed_run(const Input& input, const Report& report,
+                                const Construct& construct) {
+  return naming_unusual_values(input, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    check_bolt_ends(input, {supports_of(input).spacing});
+    report("blocks", -1.0);
+    RockInSitu rock = rock_in_situ(input, true, report);
+    DescribedRock described = rock;
+    const double generation = seconds_since(start);
+    const auto search = std::chrono::steady_clock::now();
+    RunResultIn<Geometry> run{construct(static_cast<ExcavatedRock&&>(rock)), std::move(described)};
+    run.rock_warnings = run.warnings;
+    run.generation_seconds = generation;
+    run.equilibrium_seconds = seconds_since(search);
+    return run;
+  });
 }
 
 }  // namespace
 
-void check_bolts(const Input& input, const std::vector<std::optional<BoltSpacing>>& spacings) {
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
-  const auto check = [&](std::size_t k, const BoltSpacing& spacing) {
-    const BoltsInput& bolts = *patterns[k];
-    if (!is_modelled(input, bolts)) return;
-    // Along a level tunnel the rows lie inside; the section says the rest.
-    if (!input.is_spatial() || (bolts.opening == 0 && !bolts.ahead && input.tunnel.plunge == 0))
-      check_ends<2>(input, k, bars_of_pattern(input, bolts, spacing), section_domain(input));
-    else
-      check_ends<3>(input, k, rows_of_pattern(input, bolts, spacing), spatial_domain(input));
-  };
-  for (const auto& spacing : spacings)
-    if (spacing && input.bolts) check(0, *spacing);
-  for (std::size_t k = 1; k < patterns.size(); ++k) check(k, patterns[k]->spacing);
-}
-
-double bolt_strength(const BoltsInput& bolts) {
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
-  return std::min(bolts.yield_force.value_or(unlimited), bolts.rupture_force.value_or(unlimited));
-}
-
-std::vector<std::string> unchecked_supports(const Input& input) {
-  std::vector<std::string> unchecked;
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
-  if (std::any_of(patterns.begin(), patterns.end(),
-                  [](const BoltsInput* pattern) { return std::isinf(bolt_strength(*pattern)); }))
-    unchecked.emplace_back("bolts");
-  if (input.lining) unchecked.emplace_back("lining");
-  for (const LiningInput* lining : input.linings())
-    if (lining->feet && !lining->feet->strength) {
-      unchecked.emplace_back("feet of the lining");
-      break;
-    }
-  return unchecked;
-}
-
-std::string TunnelResult::word() const {
-  if (failed) return "failed";
-  std::string text = to_string(verdict, fallen, lost_lining);
-  if (verdict != Verdict::stable) return text;
-  if (bolts_yielded > 0) text += ", bolts yielded";
-  if (bolts_ruptured > 0) text += ", bolts ruptured";
-  if (feet_yielded > 0) text += ", feet at their strength";
-  return text;
-}
-
-SupportChoice supports_of(const Input& input) {
-  return {input.bolts ? std::optional(input.bolts->spacing) : std::nullopt,
-          input.lining ? input.lining->thickness : 0.0};
-}
-
-namespace {
-
-RunResult computed_run(const Input& input, const Report& report) {
-  const auto start = std::chrono::steady_clock::now();
-  if (input.bolts) check_bolts(input, {input.bolts->spacing});
-  report("blocks", -1.0);
-  ExcavatedRock excavated = excavated_rock(input, true, report);
-  RunResult run{std::get<Tunnel>(std::move(excavated.tunnel)), excavated.opening,
-                excavated.boundary};
-  run.warnings = run.rock_warnings = std::move(excavated.warnings);
-  run.joints = std::move(excavated.joints);
-  run.joints_read = std::move(excavated.joints_read);
-  run.in_section = std::move(excavated.in_section);
-  run.in_situ_unbalance = excavated.in_situ_unbalance;
-  run.generation_seconds = seconds_since(start);
-  const auto search = std::chrono::steady_clock::now();
-  const SupportChoice supports = supports_of(input);
-  // Two threads make and apply a factor 1.6 times as fast as one (bench/elastic_bench).
-  const LinearSettings linear{.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)};
-  run.built = construct(
-      run.tunnel,
-      construction_of(input, run.tunnel, !input.has_rounds, supports, linear, RangeSought::all),
-      report);
-  if (run.last().stopped) throw Stopped();  // nobody reads what could be told
-  run.equilibrium_seconds = seconds_since(search);
-  for (const LiningInput* lining : input.linings())
-    if (!lining->nodes && lining->bends_on_bond())
-      run.bonded_nodes = std::max(
-          run.bonded_nodes, lining_nodes(input, *lining, run.tunnel.mass(), lining->thickness));
+RunResult run_of(const Input& input, const Report& report) {
+  auto run = timed_run<Planar>(input, report, [&](ExcavatedRock&& rock) {
+    return run_tunnel(input, std::move(rock), report);
+  });
+  for (const LiningInput& lining : input.linings)
+    if (!lining.nodes && lining.bends_on_bond())
+      run.bonded_nodes = std::max(run.bonded_nodes,
+                                  lining_nodes(input, lining, run.tunnel.mass(), lining.thickness));
   run.warnings = warnings_of(input, run);
   return run;
 }
 
-}  // namespace
-
-std::vector<OpeningConvergence> other_convergences(const Input& input, const Tunnel& tunnel) {
-  std::vector<OpeningConvergence> found;
-  for (std::size_t k = 1; k <= input.openings.size(); ++k)
-    if (is_modelled(input, k))
-      found.push_back({opening_name(input, k), convergence(tunnel, opening_in_section(input, k))});
-  return found;
+SpatialRunResult spatial_run_of(const Input& input, const Report& report,
+                                const StageObserver<SpatialTunnel>& observer) {
+  auto run = timed_run<Spatial>(input, report, [&](ExcavatedRock&& rock) {
+    return run_spatial_tunnel(input, std::move(rock), report, observer);
+  });
+  run.warnings = warnings_of(input, run);
+  return run;
 }
 
-std::vector<OpeningConvergence> other_convergences(const Input& input,
-                                                   const SpatialTunnel& tunnel) {
-  std::vector<OpeningConvergence> found;
-  for (std::size_t k = 1; k <= input.openings.size(); ++k) {
-    const SimplePolygon section = outline_of(outline_input(input, k));
-    found.push_back(
-        {opening_name(input, k), convergence(tunnel, opening_in_space(input, k, section))});
-  }
-  return found;
-}
-
-RunResult run_tunnel(const Input& input, const Report& report) {
-  return naming_unusual_values(input, [&] { return computed_run(input, report); });
-}
-
-namespace {
-/// What the direct solution may take of one tunnel among many: the same on every machine, lest its
-/// memory decide how equations are solved [bytes].
-constexpr double memory_of_a_case = 4e9;
-}  // namespace
-
-TunnelResult supported_tunnel(const Input& input, const ExcavatedRock& rock,
-                              const SupportChoice& supports, const Report& report) {
-  TunnelResult result;
-  std::visit([&](const auto& tunnel) { result.blocks = tunnel.mass().bodies.size(); }, rock.tunnel);
-  result.boundary = input.is_spatial() ? spatial_boundary_text : boundary_text(rock.boundary);
-  result.warnings = rock.warnings;
-  for (std::string& text : unusual_values(input)) result.warnings.push_back(std::move(text));
-  if (!input.unused.empty()) result.warnings.push_back(input.unused_text());
-  const auto compute = [&](auto tunnel, const auto& construction) {
-    const auto built =
-        naming_unusual_values(input, [&] { return construct(tunnel, construction, report); });
-    if (built.last().stopped) throw Stopped();
-    result.verdict = built.verdict();
-    result.lost_lining = built.has_lost_lining();
-    result.fallen = built.fallen_measure();
-    if (const auto range = built.rockfall_range()) result.marginal = range->is_marginal();
-    result.reason = built.last().reason;
-    result.demand = support_demand(tunnel);
-    if constexpr (std::is_same_v<decltype(tunnel), SpatialTunnel>) {
-      result.convergence = middle_convergence(input, tunnel);
-      result.demand = per_metre(input, result.demand);
-      result.fallen /= input.round_count() * input.stretch();
-      if (result.fallen > 0 && !built.rockfall_range())
-        result.warnings.emplace_back("rock came off; whether that is marginal was not looked for");
-    } else {
-      result.convergence = built.stages.back().convergence;
-    }
-    const SupportCondition condition = support_condition(tunnel);
-    result.bolts_yielded = condition.yielded;
-    result.bolts_ruptured = condition.ruptured;
-    result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
-    if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
-    result.error_estimate = built.last().error_estimate;
-    result.out_of_balance = built.last().unbalance_over_weight;
-  };
-  const LinearSettings linear{.memory_limit = memory_of_a_case};
-  try {
-    if (const auto* section = std::get_if<Tunnel>(&rock.tunnel))
-      compute(*section, construction_of(input, *section, !input.has_rounds, supports, linear,
-                                        RangeSought::until_marginal));
-    else
-      compute(std::get<SpatialTunnel>(rock.tunnel),
-              construction_of(input, supports, linear, RangeSought::until_marginal));
-  } catch (const NumericalFault& fault) {
-    result.failed = true;
-    result.reason = fault.what();
-  }
+TunnelResult tunnel_in(const Input& input, const RockInSitu& rock, const SupportChoice& supports,
+                       const Report& report) {
+  TunnelResult result = supported_tunnel(input, rock, supports, report);
+  std::vector<std::string> warnings = rock.warnings;
+  append(warnings, warnings_about_values(input));
+  append(warnings, std::move(result.warnings));
+  result.warnings = std::move(warnings);
+  if (result.failed)
+    for (const std::string& value : unusual_values(input)) result.reason += "\n   = " + value;
   return result;
+}
+
+std::string composition_of(const Input& input) {
+  std::string text =
+      std::string(input.is_spatial() ? Spatial::name : Planar::name) + ", " + CutContacts::name;
+  for (const JointLawInput* law : laws_in_use(input)) {
+    const std::string name = joint_of(*law).type_name();
+    if (text.find(", " + name) == std::string::npos) text.append(", ").append(name);
+  }
+  for (const BoltsInput& bolts : input.bolts) {
+    const std::string before = text;
+    text.append(", ").append(anchors_of(bolts).type_name());
+    text.append(", ").append(bolt_of(bolts).type_name());
+    // Patterns that are alike are named once.
+    if (before.ends_with(text.substr(before.size()))) text = before;
+  }
+  for (const LiningInput& lining : input.linings) {
+    const std::string before = text;
+    text.append(", ")
+        .append(AnyLining::type_name(lining.beam))
+        .append(" on ")
+        .append(lining.shear_bond > 0 ? MohrCoulombJoint::name : CoulombJoint::name);
+    if (before.ends_with(text.substr(before.size()))) text = before;
+  }
+  return text + ", " + method_of(input, {}, RangeSought::none).type_name();
 }
 
 }  // namespace voussoir::program

@@ -64,7 +64,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
     return [&report, stage](double fraction) { return report(stage, fraction); };
   };
   BlocksRun run{
-      Tunnel(laid_blocks<Planar>(shapes_of(laid)), joint_of(input.joint),
+      Tunnel(laid_blocks<Planar>(shapes_of(laid)), *input.joint,
              {.density = input.rock.density, .gravity = input.model.gravity, .is_laid = true},
              progress("blocks")),
       {},
@@ -77,7 +77,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
   acceptance.displacement_limit = input.run.displacement_limit;
   acceptance.contact_update_limit = input.run.contact_update_limit;
   acceptance.collapse_measure = half_of_the_free(run.solver);
-  const ChosenMethod method =
+  const AnyMethod method =
       method_of(input, {.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 2U)},
                 RangeSought::none);
   add_loads(run.solver, laid, false);

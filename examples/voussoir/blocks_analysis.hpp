@@ -3,11 +3,11 @@
 
 #include <string>
 #include <vector>
+#include <voussoir/design/models.hpp>
 #include <voussoir/voussoir.hpp>
 
 #include "analysis.hpp"
 #include "input.hpp"
-#include "models.hpp"
 
 /// Blocks that are laid one by one: their weight comes on, then loads and displacements in steps.
 namespace voussoir::program {

@@ -185,10 +185,10 @@ struct Counted {
 /// Those that the tunnel has.
 std::vector<Counted> counted_in(const CasePlan& plan, const Realised& r) {
   std::vector<Counted> all = {{"crown convergence", "mm", &r.crown, 1e3}};
-  if (plan.input().bolts) {
+  if (!plan.input().bolts.empty()) {
     all.push_back({"largest bolt force", "kN", &r.largest_bolt_force, 1e-3});
   }
-  if (plan.input().lining) {
+  if (!plan.input().linings.empty()) {
     all.push_back({"largest lining thrust", "kN/m", &r.largest_thrust, 1e-3});
     all.push_back({"largest lining moment", "kN m/m", &r.largest_moment, 1e-3});
   }

@@ -222,7 +222,7 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     try {
       input = input_of(the_case);
       joints = joints_of(*input);
-      if (input->bolts) check_bolts(*input, {supports_of(the_case, *input).spacing});
+      check_bolt_ends(*input, {supports_of(the_case, *input).spacing});
     } catch (const InputErrors& found) {
       std::vector<InputError> errors = found.errors();
       for (InputError& error : errors) error.message += ", in the case " + label(the_case);

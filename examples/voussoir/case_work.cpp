@@ -59,12 +59,12 @@ class RockStore {
  public:
   explicit RockStore(std::size_t most) : most_(most) {}
 
-  std::shared_ptr<const ExcavatedRock> of(const Input& input, const Report& report) {
+  std::shared_ptr<const RockInSitu> of(const Input& input, const Report& report) {
     std::string key = std::to_string(input.model.seed);
     for (const std::string& line : input.content)
       if (!is_of_support(line)) key += "\n" + line;
-    std::promise<std::shared_ptr<const ExcavatedRock>> made;
-    std::shared_future<std::shared_ptr<const ExcavatedRock>> rock;
+    std::promise<std::shared_ptr<const RockInSitu>> made;
+    std::shared_future<std::shared_ptr<const RockInSitu>> rock;
     bool is_mine = false;
     {
       const std::scoped_lock lock(guard_);
@@ -82,7 +82,7 @@ class RockStore {
     }
     if (is_mine) {
       try {
-        made.set_value(std::make_shared<const ExcavatedRock>(excavated_rock(input, false, report)));
+        made.set_value(std::make_shared<const RockInSitu>(rock_in_situ(input, false, report)));
       } catch (...) {
         made.set_exception(std::current_exception());
       }
@@ -93,7 +93,7 @@ class RockStore {
  private:
   std::size_t most_;
   std::mutex guard_;
-  std::list<std::pair<std::string, std::shared_future<std::shared_ptr<const ExcavatedRock>>>>
+  std::list<std::pair<std::string, std::shared_future<std::shared_ptr<const RockInSitu>>>>
       rocks_;  ///< the last used first
 };
 
@@ -120,7 +120,7 @@ TunnelResult computed(const CasePlan& plan, std::size_t index, RockStore& rocks,
   TunnelResult result;
   try {
     const auto rock = rocks.of(input, report);
-    result = supported_tunnel(input, *rock, plan.supports_of(the_case, input), report);
+    result = tunnel_in(input, *rock, plan.supports_of(the_case, input), report);
   } catch (const std::logic_error& error) {  // InvalidInput, and an invariant that does not hold
     result = failed(error.what(), input);
   } catch (const NumericalFault& fault) {

@@ -14,6 +14,9 @@
 #include <vector>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/design/boundary.hpp>
+#include <voussoir/design/construction_plan.hpp>
+#include <voussoir/design/openings.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/mass_picture.hpp>
@@ -22,14 +25,10 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/tunnel/construction_checks.hpp>
 
-#include "boundary.hpp"
-#include "construction_plan.hpp"
 #include "joint_laws.hpp"
 #include "mapped_rock.hpp"
-#include "openings.hpp"
 #include "output_parts.hpp"
 #include "plausibility.hpp"
-#include "spatial_analysis.hpp"
 #include "survey.hpp"
 
 namespace voussoir::program {
@@ -42,11 +41,11 @@ std::string metres(double value) { return significant_text(value, 4) + " m"; }
 /// @return  how many, and joints that they cross
 std::pair<int, int> install_bolts(Tunnel& tunnel, const Input& input) {
   std::pair<int, int> made{0, 0};
-  for (const BoltsInput* pattern : input.bolt_patterns()) {
-    if (!is_modelled(input, *pattern)) continue;
-    for (const Segment& bar : bars_of_pattern(input, *pattern, pattern->spacing)) {
+  for (const BoltsInput& pattern : input.bolts) {
+    if (!is_modelled(input, pattern)) continue;
+    for (const Segment& bar : bars_of_pattern(input, pattern, pattern.spacing)) {
       made.second +=
-          tunnel.install_bolt(bar, bolt_of(*pattern), pattern->out_of_plane, anchors_of(*pattern));
+          tunnel.install_bolt(bar, bolt_of(pattern), pattern.out_of_plane, anchors_of(pattern));
       ++made.first;
     }
   }
@@ -149,13 +148,12 @@ std::string stage_plan(const Input& input) {
                      (stage.opening > 0 ? " of the " + opening_name(input, stage.opening) : ""));
     }
     if (!is_modelled(input, stage.opening)) does.emplace_back("not in the section");
-    const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+    const std::vector<BoltsInput>& patterns = input.bolts;
     for (const std::size_t k : stage.bolts)
-      does.push_back("installs " +
-                     (patterns.size() > 1 ? patterns[k]->name : std::string("bolts")));
+      does.push_back("installs " + (patterns.size() > 1 ? patterns[k].name : std::string("bolts")));
     for (const std::size_t k : stage.linings)
-      does.emplace_back(input.linings().size() > 1 ? "installs " + input.linings()[k]->name
-                                                   : std::string("installs the lining"));
+      does.emplace_back(input.linings.size() > 1 ? "installs " + input.linings[k].name
+                                                 : std::string("installs the lining"));
     if (input.is_spatial() && input.tunnel.round_length)
       does.push_back(stage.behind == 0 ? std::string("at the face")
                                        : counted(static_cast<std::size_t>(stage.behind), "round") +
@@ -173,8 +171,8 @@ std::string stage_plan(const Input& input) {
 
 CheckedModel checked_model(const Input& input, const Report& report) {
   const auto start = std::chrono::steady_clock::now();
-  if (input.bolts) check_bolts(input, {input.bolts->spacing});
-  CheckedModel model{excavated_rock(input, false, report)};
+  check_bolt_ends(input, {supports_of(input).spacing});
+  CheckedModel model{rock_in_situ(input, false, report)};
   if (auto* section = std::get_if<Tunnel>(&model.rock.tunnel)) {
     check_construction(construction_of(input, *section, !input.has_rounds, supports_of(input), {},
                                        RangeSought::none),
@@ -185,8 +183,8 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   } else {
     check_construction(construction_of(input, supports_of(input), {}, RangeSought::none),
                        std::get<SpatialTunnel>(model.rock.tunnel).mass());
-    for (const BoltsInput* pattern : input.bolt_patterns())
-      model.bolts += static_cast<int>(rows_of_pattern(input, *pattern, pattern->spacing).size());
+    for (const BoltsInput& pattern : input.bolts)
+      model.bolts += static_cast<int>(rows_of_pattern(input, pattern, pattern.spacing).size());
   }
   model.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   model.warnings = model.rock.warnings;

@@ -13,7 +13,7 @@ namespace voussoir::program {
 
 /// The rock of an input and its supports in it, nothing moved.
 struct CheckedModel {
-  ExcavatedRock rock;
+  RockInSitu rock;
   std::optional<Tunnel> section = {};  ///< 2-D: all of it excavated, with its bolts
   int bolts = 0;                       ///< that are installed
   int joints_crossed = 0;              ///< by all of them
@@ -30,7 +30,7 @@ struct ExpectedCost {
 };
 [[nodiscard]] ExpectedCost expected_cost(int dimension, std::size_t blocks);
 
-/// @throws as `run_tunnel`, but for what only a search finds
+/// @throws as `run_of`, but for what only a search finds
 /// @pre  the input has a tunnel
 [[nodiscard]] CheckedModel checked_model(const Input& input, const Report& report);
 

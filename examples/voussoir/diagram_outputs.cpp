@@ -170,7 +170,8 @@ std::string title_of(const CasePlan& plan) {
 
 KeyNumber bolt_length(const CasePlan& plan) {
   const auto& bolts = plan.input().bolts;
-  return {"bolt length", bolts ? significant_text(bolts->length, 6) + " m" : "no bolts"};
+  return {"bolt length",
+          bolts.empty() ? "no bolts" : significant_text(bolts.front().length, 6) + " m"};
 }
 
 std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/construction_plan.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/curve_picture.hpp>
 #include <voussoir/io/solved_picture.hpp>
 
-#include "construction_plan.hpp"
 #include "output_parts.hpp"
 
 namespace voussoir::program {
@@ -29,10 +29,8 @@ std::vector<ReactionPoint> points_of(const ConstructionResult<Planar>& built) {
 /// The file without its supports, the section out at once and its wall unloaded in even steps.
 Input bare(const Input& input, int steps) {
   Input made = input;
-  made.bolts.reset();
-  made.further_bolts.clear();
-  made.lining.reset();
-  made.further_linings.clear();
+  made.bolts.clear();
+  made.linings.clear();
   made.has_rounds = false;
   made.openings.clear();
   made.stages.clear();
@@ -70,7 +68,7 @@ std::string word_of(const ReactionPoint& point) {
 
 GroundReaction ground_reaction(const Input& input, int steps, const Report& report) {
   GroundReaction reaction;
-  const RunResult alone = run_tunnel(bare(input, steps), report);
+  const RunResult alone = run_of(bare(input, steps), report);
   reaction.ground = points_of(alone.built);
   reaction.warnings = alone.rock_warnings;
   if (input.has_rounds)
@@ -80,8 +78,8 @@ GroundReaction ground_reaction(const Input& input, int steps, const Report& repo
     reaction.warnings.emplace_back("the rock without support has the tunnel alone in it");
   reaction.stress =
       alone.tunnel.in_situ().vertical(alone.tunnel.mass().domain.depth(zeros<Vec2>()));
-  if (input.bolt_patterns().empty() && !input.lining) return reaction;
-  const RunResult supported = run_tunnel(input, report);
+  if (input.bolts.empty() && input.linings.empty()) return reaction;
+  const RunResult supported = run_of(input, report);
   reaction.supported = points_of(supported.built);
   const ReactionPoint& end = reaction.supported.back();
   if (end.verdict == Verdict::stable && !end.lost_lining)
@@ -191,7 +189,7 @@ std::string grc_svg(const Input& input, const GroundReaction& reaction) {
 }
 
 LongitudinalProfile longitudinal_profile(const Input& input, const Report& report) {
-  const SpatialRunResult run = run_spatial_tunnel(input, report);
+  const SpatialRunResult run = spatial_run_of(input, report);
   LongitudinalProfile profile;
   profile.verdict = run.verdict();
   profile.fallen = run.fallen_measure();

@@ -31,7 +31,7 @@ struct GroundReaction {
   std::vector<std::string> warnings;
 };
 /// @pre the input is one in 2-D, with a tunnel
-/// @throws as `run_tunnel`
+/// @throws as `run_of`
 [[nodiscard]] GroundReaction ground_reaction(const Input& input, int steps, const Report& report);
 
 /// In 3-D: the wall along the tunnel once it is driven.
@@ -46,7 +46,7 @@ struct LongitudinalProfile {
   std::vector<std::string> warnings;
 };
 /// @pre the input is one in 3-D
-/// @throws as `run_spatial_tunnel`
+/// @throws as `spatial_run_of`
 [[nodiscard]] LongitudinalProfile longitudinal_profile(const Input& input, const Report& report);
 
 [[nodiscard]] std::string grc_text(const GroundReaction& reaction);

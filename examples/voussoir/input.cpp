@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <voussoir/core/elementary.hpp>
+#include <voussoir/design/openings.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/io/operating_system.hpp>
@@ -13,9 +14,7 @@
 #include "input_document.hpp"
 #include "input_section.hpp"
 #include "joint_laws.hpp"
-#include "joint_sets.hpp"
 #include "key_catalogue.hpp"
-#include "openings.hpp"
 #include "plausibility.hpp"
 #include "rock_input.hpp"
 #include "support_input.hpp"
@@ -29,11 +28,11 @@ constexpr Range density_range{.low = 1, .high = 1e5};       // [kg/m^3]
 constexpr Range tolerance_range{.low = 1e-6, .high = 0.1};  // below it rounding decides
 
 void read_run(Section& s, RunInput& run) {
-  const bool known = s.choice<RunMethod>("method", run.method,
-                                         {{"two-level", RunMethod::two_level},
-                                          {"relaxation", RunMethod::relaxation},
-                                          {"explicit", RunMethod::explicit_}},
-                                         Need::optional);
+  const bool known = s.choice<MethodKind>("method", run.method,
+                                          {{"two-level", MethodKind::two_level},
+                                           {"relaxation", MethodKind::relaxation},
+                                           {"explicit", MethodKind::explicit_}},
+                                          Need::optional);
   s.choice<LinearMethod>("linear_solver", run.linear_solver,
                          {{"automatic", LinearMethod::automatic},
                           {"direct", LinearMethod::direct},
@@ -56,12 +55,12 @@ void read_run(Section& s, RunInput& run) {
     s.integer("ramp_steps", run.ramp_steps, 0, 1'000'000'000);
   };
   if (known) {
-    s.only_with(run.method == RunMethod::explicit_, "method = \"explicit\"", of_explicit);
+    s.only_with(run.method == MethodKind::explicit_, "method = \"explicit\"", of_explicit);
   } else {
     s.unread(of_explicit);
   }
   const std::int64_t most = run.max_steps.value_or(voussoir::Explicit::Params{}.max_steps);
-  if (known && run.method == RunMethod::explicit_ && most <= run.ramp_steps)
+  if (known && run.method == MethodKind::explicit_ && most <= run.ramp_steps)
     s.complain(run.max_steps ? "max_steps" : "ramp_steps",
                "leaves no step after the ramp: max_steps = " + std::to_string(most) +
                    ", ramp_steps = " + std::to_string(run.ramp_steps),
@@ -73,7 +72,9 @@ void read_picture(Section& s, Input& input) {
       "from", input.picture.from,
       {{"axis", ViewFrom::axis}, {"face", ViewFrom::face}, {"above", ViewFrom::above}},
       Need::optional);
-  if (!input.is_spatial()) note_unused(input, s, "from");
+  s.flag("history", input.picture.history);
+  if (input.is_spatial()) return;
+  for (const char* const key : {"from", "history"}) note_unused(input, s, key);
 }
 
 void read_all(Section& file, Input& input, const std::filesystem::path& directory) {
@@ -84,7 +85,10 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
     file.table("rock", [&](Section& s) {
       s.quantity("density", input.rock.density, dimension::density, density_range, Need::required);
     });
-    file.table("joint", [&](Section& s) { input.joint = read_joint_law(s, nullptr); });
+    file.table("joint", [&](Section& s) {
+      input.joint_law = read_joint_law(s, nullptr);
+      if (input.joint_law.is_sound) input.joint = joint_of(input.joint_law);
+    });
     file.table("run", [&](Section& s) { read_run(s, input.run); });
   };
   if (has_laid_blocks(file)) {
@@ -105,9 +109,10 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.table("boundary", [&](Section& s) { read_boundary(s, input.boundary); });
   file.tables("joint_set", [&](Section& s, std::size_t i) {
     JointSetInput& set = input.joint_sets.emplace_back();
+    JointSetFile& set_file = input.set_files.emplace_back();
     set.name = "set " + std::to_string(i + 1);
     const bool is_surveyed = file.has("joints", "orientations");
-    read_joint_set(s, input, set,
+    read_joint_set(s, input, set, set_file,
                    file.has("joints") && (file.has("joints", "file") || !is_surveyed), is_surveyed);
   });
   file.optional_table("joints", [&](Section& s) { read_mapped(s, input, directory); });
@@ -121,13 +126,13 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.table("support", [&](Section& support) {
     input.lists_bolts = support.has_list("bolts");
     support.table_or_tables("bolts", [&](Section& s, std::size_t k) {
-      BoltsInput& pattern = k == 0 ? input.bolts.emplace() : input.further_bolts.emplace_back();
+      BoltsInput& pattern = input.bolts.emplace_back();
       pattern.name = "bolts " + std::to_string(k + 1);
       read_bolts(s, input, pattern);
     });
     input.lists_linings = support.has_list("lining");
     support.table_or_tables("lining", [&](Section& s, std::size_t k) {
-      LiningInput& lining = k == 0 ? input.lining.emplace() : input.further_linings.emplace_back();
+      LiningInput& lining = input.linings.emplace_back();
       lining.name = "lining " + std::to_string(k + 1);
       read_lining(s, input, lining);
     });
@@ -153,29 +158,6 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
 
 }  // namespace
 
-double OutlineInput::half_width() const {
-  if (shape == TunnelShape::circle) return diameter / 2;
-  if (shape == TunnelShape::horseshoe) return width / 2;
-  const auto [low, high] = std::minmax_element(
-      vertices.begin(), vertices.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
-  return vertices.empty() ? 0 : ((*high)[0] - (*low)[0]) / 2;
-}
-
-double OutlineInput::crown() const {
-  if (shape != TunnelShape::polygon) return half_width();
-  double y = vertices.empty() ? 0 : vertices.front()[1];
-  for (const Point& vertex : vertices) y = std::max(y, vertex[1]);
-  return y;
-}
-
-double OutlineInput::invert() const {
-  if (shape == TunnelShape::circle) return -half_width();
-  if (shape == TunnelShape::horseshoe) return -wall_height;
-  double y = vertices.empty() ? 0 : vertices.front()[1];
-  for (const Point& vertex : vertices) y = std::min(y, vertex[1]);
-  return y;
-}
-
 bool names_a_file(std::string_view line) {
   for (const std::string_view table : {"opening[", "round["})
     if (line.starts_with(table) && line.substr(0, line.find(" = ")).ends_with("].file"))
@@ -186,31 +168,9 @@ bool names_a_file(std::string_view line) {
   return false;
 }
 
-int Input::round_count() const {
-  if (!tunnel.round_length) return 1;
-  const double most = std::floor(tunnel_length() / *tunnel.round_length * (1 + 1e-9));
-  return tunnel.rounds.value_or(static_cast<int>(std::clamp(most, 1.0, 1e9)));
-}
-
-double Input::tunnel_length() const { return model.length / elementary::cosine(tunnel.plunge); }
-
-std::vector<const BoltsInput*> Input::bolt_patterns() const {
-  std::vector<const BoltsInput*> patterns;
-  if (bolts) patterns.push_back(&*bolts);
-  for (const BoltsInput& pattern : further_bolts) patterns.push_back(&pattern);
-  return patterns;
-}
-
 std::string Input::bolts_key(std::size_t pattern) const {
   const std::string key = "support.bolts";
   return !lists_bolts ? key : key + "[" + std::to_string(pattern) + "]";
-}
-
-std::vector<const LiningInput*> Input::linings() const {
-  std::vector<const LiningInput*> all;
-  if (lining) all.push_back(&*lining);
-  for (const LiningInput& further : further_linings) all.push_back(&further);
-  return all;
 }
 
 std::string Input::lining_key(std::size_t number) const {
@@ -218,11 +178,8 @@ std::string Input::lining_key(std::size_t number) const {
   return !lists_linings ? key : key + "[" + std::to_string(number) + "]";
 }
 
-double Input::K0_across() const {
-  if (!stress.K0_minor) return stress.K0;
-  // The section's right is a quarter turn clockwise from the tunnel.
-  const double along = elementary::cosine(stress.K0_trend.value_or(0) - tunnel.trend.value_or(0));
-  return stress.K0 + (*stress.K0_minor - stress.K0) * along * along;
+std::string opening_key(std::size_t opening) {
+  return opening == 0 ? "tunnel" : "opening[" + std::to_string(opening - 1) + "]";
 }
 
 std::string Input::unused_text() const {
@@ -231,81 +188,6 @@ std::string Input::unused_text() const {
                                   : "not used in a section (model.dimension = 2): ";
   for (const std::string& key : unused) text += (&key == &unused.front() ? "" : ", ") + key;
   return text;
-}
-
-double Input::domain_top() const { return tunnel.crown() + tunnel.cover; }
-double Input::domain_bottom() const { return tunnel.invert() - model.below_invert; }
-
-namespace {
-
-/// In 3-D every crossing of three joints splits a block.
-SizeEstimate estimate_spatial_size(const Input& input) {
-  const double height = input.domain_top() - input.domain_bottom();
-  const double volume = input.model.width * height * input.model.length;
-  const double across = std::cbrt(volume);
-  struct Set {
-    double p32, area;  // 1/m; of a joint inside the domain, m^2
-    Vec3 normal;
-  };
-  std::vector<Set> sets;
-  for (const JointSetInput& set : input.joint_sets) {
-    const double extent = std::min(mean_extent(set), across);
-    sets.push_back({p32_of(set, input.tunnel),
-                    extent * std::min(set.strike_extent.value_or(extent), across),
-                    upward_normal(set.plane)});
-  }
-  SizeEstimate size{0, 1};
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const double joints = sets[i].p32 * volume / sets[i].area;
-    size.joints += joints;
-    size.blocks += joints;
-    for (std::size_t j = 0; j < i; ++j)
-      for (std::size_t k = 0; k < j; ++k)
-        size.blocks += sets[i].p32 * sets[j].p32 * sets[k].p32 * volume *
-                       std::abs(sets[i].normal.dot(cross(sets[j].normal, sets[k].normal)));
-  }
-  // Of cubes there would be 0.125 per cube of the inscribed radius.
-  const double radius = input.blocks.min_inscribed_radius;
-  size.blocks = std::min(size.blocks, 0.1 * volume / (radius * radius * radius));
-  return size;
-}
-
-}  // namespace
-
-SizeEstimate estimate_size(const Input& input) {
-  const bool is_prismatic =
-      std::all_of(input.joint_sets.begin(), input.joint_sets.end(),
-                  [&](const JointSetInput& set) { return is_of_section(input, set); });
-  if (input.is_spatial() && !is_prismatic) return estimate_spatial_size(input);
-  const double height = input.domain_top() - input.domain_bottom();
-  const double area = input.model.width * height;
-  struct Set {
-    double intensity, frequency, angle;  // 1/m^2; length of trace per area, 1/m; rad
-  };
-  std::vector<Set> sets;
-  for (const JointSetInput& set : input.joint_sets) {
-    const auto shown = section_set(set, input.tunnel);
-    if (!shown) continue;
-    const double extent = std::min(shown->extent, std::max(input.model.width, height));
-    const double frequency = shown->spacing > 0 ? 1 / shown->spacing : shown->intensity * extent;
-    const double angle = shown->dip_direction == DipDirection::east ? -shown->dip : shown->dip;
-    sets.push_back(
-        {shown->intensity > 0 ? shown->intensity : frequency / extent, frequency, angle});
-  }
-  SizeEstimate size{0, 1};
-  // Every trace splits a block, and so does every crossing of two traces.
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    size.joints += sets[i].intensity * area;
-    size.blocks += sets[i].intensity * area;
-    for (std::size_t j = 0; j < i; ++j)
-      size.blocks += sets[i].frequency * sets[j].frequency * area *
-                     std::abs(elementary::sine(sets[i].angle - sets[j].angle));
-  }
-  // Cutting stops when no child would hold the smallest circle. Random masses of three sets then
-  // have 0.09 (short joints) to 0.13 (through-going ones) blocks per square of its radius.
-  const double radius = input.blocks.min_inscribed_radius;
-  size.blocks = std::min(size.blocks, 0.13 * area / (radius * radius));
-  return size;
 }
 
 Input read_input_text(std::string_view text, const std::string& name,
@@ -325,22 +207,21 @@ Input read_input_text(std::string_view text, const std::string& name,
   checker.finish();
   input.content = canonical_lines(document);
   // What a survey comes to decides the rock, wherever its file lies.
-  for (const JointSetInput& set : input.joint_sets)
-    if (set.surveyed >= 0)
+  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
+    if (const JointSetInput& set = input.joint_sets[k]; input.set_files[k].surveyed >= 0)
       input.content.push_back(set.name + " (surveyed) = " + shortest_text(set.plane.dip) + ", " +
                               shortest_text(set.plane.dip_direction) + ", " +
                               shortest_text(set.fisher.value_or(0)));
-  const auto add_points = [&](const std::string& key, const std::vector<Point>& points) {
-    for (const Point& p : points)
+  const auto add_points = [&](const std::string& key, const std::vector<Vec2>& points) {
+    for (const Vec2& p : points)
       input.content.push_back(key + " (a point) = " + shortest_text(p[0]) + ", " +
                               shortest_text(p[1]));
   };
   for (std::size_t k = 0; k <= input.openings.size(); ++k)
     if (const OutlineInput& outline = outline_input(input, k); !outline.drawn.empty())
       add_points(opening_key(k) + ".file", outline.vertices);
-  for (std::size_t k = 0; k < input.stages.size(); ++k)
-    if (input.stages[k].is_drawn)
-      add_points("round[" + std::to_string(k) + "].file", input.stages[k].outline);
+  for (const std::size_t k : input.drawn_rounds)
+    add_points("round[" + std::to_string(k) + "].file", input.stages[k].outline);
   return input;
 }
 

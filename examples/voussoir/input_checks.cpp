@@ -9,6 +9,8 @@
 #include <vector>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/openings.hpp>
+#include <voussoir/design/size_estimate.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/lining/node_spacing.hpp>
@@ -17,7 +19,6 @@
 #include <voussoir/tunnel/section_part.hpp>
 
 #include "joint_laws.hpp"
-#include "openings.hpp"
 #include "plausibility.hpp"
 
 namespace voussoir::program {
@@ -44,10 +45,10 @@ void check_opening(Checker& checker, const Input& input) {
   if (!checker.faulty("blocks") && !(input.blocks.min_inscribed_radius < half_width))
     checker.report("blocks.min_inscribed_radius", "makes blocks larger than the opening" + opening,
                    below);
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<LiningInput>& linings = input.linings;
   for (std::size_t k = 0; k < linings.size(); ++k)
     if (const std::string key = input.lining_key(k) + ".thickness";
-        linings[k]->opening == 0 && !checker.faulty(key) && !(linings[k]->thickness < half_width))
+        linings[k].opening == 0 && !checker.faulty(key) && !(linings[k].thickness < half_width))
       checker.report(key, "fills the opening" + opening, below);
   if (input.diagram && !checker.faulty("diagram.thickness") &&
       !(input.diagram->thickness.back() < half_width))
@@ -110,7 +111,7 @@ void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
   for (const char* key : {"support.lining", "tunnel", "opening", "diagram"})
     if (checker.faulty(key)) return;
   double thinnest = lining.thickness;
-  if (input.diagram && &lining == &*input.lining)
+  if (input.diagram && &lining == &input.linings.front())
     for (const double thickness : input.diagram->thickness)
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
   const double length =
@@ -160,9 +161,9 @@ void check_spatial(Checker& checker, const Input& input) {
                      key == std::string("boundary.top")
                          ? "\"surface\", with the ground above as stress.surcharge"
                          : "\"rollers\"");
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<LiningInput>& linings = input.linings;
   for (std::size_t k = 0; k < linings.size(); ++k)
-    if (linings[k]->feet && linings[k]->feet->beam)
+    if (linings[k].feet && linings[k].feet->beam)
       checker.report(input.lining_key(k) + ".feet.beam",
                      "stands for what happens between ribs, which are there" + here,
                      "no such table");
@@ -193,31 +194,31 @@ void check_spatial(Checker& checker, const Input& input) {
           "1 to " + std::to_string(static_cast<int>(std::floor(length / *round * (1 + 1e-9)))));
   }
   if (checker.faulty("opening")) return;
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const std::vector<BoltsInput>& patterns = input.bolts;
   for (std::size_t k = 0; k < patterns.size() && !checker.faulty("support.bolts"); ++k)
-    if (const double driven = drive_of(input, patterns[k]->opening).length();
-        patterns[k]->out_of_plane > driven)
+    if (const double driven = drive_of(input, patterns[k].opening).length();
+        patterns[k].out_of_plane > driven)
       checker.report(input.bolts_key(k) + ".out_of_plane",
-                     "leaves no row of bolts in the " + opening_name(input, patterns[k]->opening),
+                     "leaves no row of bolts in the " + opening_name(input, patterns[k].opening),
                      "at most " + format_quantity(driven, dimension::length) + ", what is driven");
   for (std::size_t k = 0; k < linings.size(); ++k) {
-    const auto& asked = linings[k]->rib_spacing;
+    const auto& asked = linings[k].rib_spacing;
     const std::string key = input.lining_key(k) + ".rib_spacing";
-    const double stretch = drive_of(input, linings[k]->opening).stretch;
+    const double stretch = drive_of(input, linings[k].opening).stretch;
     if (asked && *asked > stretch)
       checker.report(key,
                      "is longer than what is lined at a time, round_length or the whole length",
                      "at most " + format_quantity(stretch, dimension::length));
-    else if (asked != linings[0]->rib_spacing)
+    else if (asked != linings[0].rib_spacing)
       checker.report(key, "is not that of the first lining: forces are given per strip",
                      "the same rib_spacing in all linings");
-    else if (const double width = strips_of(input, linings[k]->opening).width,
+    else if (const double width = strips_of(input, linings[k].opening).width,
              first = strip_width(input);
              std::abs(width - first) > 1e-6 * first)
       checker.report(
           input.lining_key(k),
           "is of strips " + format_quantity(width, dimension::length) + " wide in the " +
-              opening_name(input, linings[k]->opening) + ", those of the first of " +
+              opening_name(input, linings[k].opening) + ", those of the first of " +
               format_quantity(first, dimension::length) + ": forces are given per strip",
           "a rib_spacing of which both have a whole number in a round, or in their length");
   }
@@ -263,16 +264,16 @@ void check_openings(Checker& checker, const Input& input) {
 
 /// Linings have names of their own, and what is printed of a foot's beam is of one lining.
 void check_linings(Checker& checker, Input& input) {
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<BoltsInput>& patterns = input.bolts;
+  const std::vector<LiningInput>& linings = input.linings;
   for (std::size_t k = 0; k < linings.size(); ++k) {
-    LiningInput& lining = k == 0 ? *input.lining : input.further_linings[k - 1];
+    LiningInput& lining = input.linings[k];
     const std::string table = input.lining_key(k);
     check_arc(checker, input, lining, table);
     check_bond(checker, input, lining, table);
     if (lining.name == "bolts" || lining.name == "lining")
       checker.report(table + ".name", "stands for all of a kind", "another name");
-    const auto is_same = [&](const auto* other) { return other->name == lining.name; };
+    const auto is_same = [&](const auto& other) { return other.name == lining.name; };
     if (std::any_of(linings.begin(), linings.begin() + static_cast<std::ptrdiff_t>(k), is_same) ||
         std::any_of(patterns.begin(), patterns.end(), is_same))
       checker.report(table + ".name", "is that of another support", "a name of its own");
@@ -396,9 +397,9 @@ void check_size(Checker& checker, const Input& input) {
 
 void check_bolts(Checker& checker, const Input& input) {
   if (checker.faulty("support.bolts")) return;
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const std::vector<BoltsInput>& patterns = input.bolts;
   for (std::size_t k = 0; k < patterns.size(); ++k) {
-    const BoltsInput& bolts = *patterns[k];
+    const BoltsInput& bolts = patterns[k];
     const std::string table = input.bolts_key(k) + ".";
     const auto below = [&](const std::string& key, double value, const char* limit_key,
                            const std::optional<double>& limit) {
@@ -413,7 +414,7 @@ void check_bolts(Checker& checker, const Input& input) {
     if (bolts.name == "bolts" || bolts.name == "lining")
       checker.report(table + "name", "is what a stage installs all of", "another name");
     for (std::size_t other = 0; other < k; ++other)
-      if (patterns[other]->name == bolts.name)
+      if (patterns[other].name == bolts.name)
         checker.report(table + "name", "is that of another pattern", "a name of its own");
   }
 }
@@ -439,10 +440,8 @@ void check_stages(Checker& checker, Input& input) {
   if (input.stages.empty()) {
     if (checker.faulty("stage") || checker.faulty("round")) return;  // meant to have some
     input.stages.push_back({.name = "excavation and support", .part = SectionPart{}});
-    for (std::size_t k = 0; k < input.bolt_patterns().size(); ++k)
-      input.stages.back().bolts.push_back(k);
-    for (std::size_t k = 0; k < input.linings().size(); ++k)
-      input.stages.back().linings.push_back(k);
+    for (std::size_t k = 0; k < input.bolts.size(); ++k) input.stages.back().bolts.push_back(k);
+    for (std::size_t k = 0; k < input.linings.size(); ++k) input.stages.back().linings.push_back(k);
     return;
   }
   const std::string table = input.has_rounds ? "round" : "stage";
@@ -479,16 +478,16 @@ void check_stages(Checker& checker, Input& input) {
       checker.report(table_key, "is in no stage",
                      "install = [\"" + called + "\"] in one [[" + table + "]]");
   };
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const std::vector<BoltsInput>& patterns = input.bolts;
   for (std::size_t k = 0; k < std::max<std::size_t>(patterns.size(), 1); ++k)
-    check_support(patterns.size() > 1 ? patterns[k]->name : "bolts", input.bolts_key(k),
+    check_support(patterns.size() > 1 ? patterns[k].name : "bolts", input.bolts_key(k),
                   !patterns.empty(), [&](const StageInput& stage) {
                     return std::find(stage.bolts.begin(), stage.bolts.end(), k) !=
                            stage.bolts.end();
                   });
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<LiningInput>& linings = input.linings;
   for (std::size_t k = 0; k < std::max<std::size_t>(linings.size(), 1); ++k)
-    check_support(linings.size() > 1 ? linings[k]->name : "lining", input.lining_key(k),
+    check_support(linings.size() > 1 ? linings[k].name : "lining", input.lining_key(k),
                   !linings.empty(), [&](const StageInput& stage) {
                     return std::find(stage.linings.begin(), stage.linings.end(), k) !=
                            stage.linings.end();
@@ -497,13 +496,13 @@ void check_stages(Checker& checker, Input& input) {
 
 void check_diagram(Checker& checker, const Input& input) {
   if (!input.diagram || checker.faulty("diagram")) return;
-  if (!input.bolts && input.diagram->spacing.front() && !checker.faulty("support"))
+  if (input.bolts.empty() && input.diagram->spacing.front() && !checker.faulty("support"))
     checker.report("diagram.spacing", "varies bolts, which the file does not describe",
                    "a table [support.bolts]");
-  if (input.bolts && !input.bolts->bars.empty() && input.diagram->spacing.front())
+  if (!input.bolts.empty() && !input.bolts.front().bars.empty() && input.diagram->spacing.front())
     checker.report("diagram.spacing", "varies bolts that are given one by one",
                    "a first [[support.bolts]] with a spacing");
-  if (!input.lining && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
+  if (input.linings.empty() && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
     checker.report("diagram.thickness", "varies a lining, which the file does not describe",
                    "a table [support.lining]");
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <voussoir/contact/law_in_situ.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/units.hpp>
@@ -398,68 +399,36 @@ JointLawInput read_joint_law(Section& s, const JointLawInput* common) {
   if (!is_known || law.values.size() < row.parameters.size()) return law;
   for (const LawParameter& parameter : row.parameters)
     if (s.faulty(parameter.key)) return law;
-  if (const auto fault = row.fault(law)) s.complain(fault->key, fault->complaint, fault->accepted);
+  if (const auto fault = row.fault(law))
+    s.complain(fault->key, fault->complaint, fault->accepted);
+  else
+    law.is_sound = true;
   return law;
 }
 
 const JointLawInput& law_of_set(const Input& input, int set) {
-  if (set < 0) return input.joint;
-  const auto& own = input.joint_sets[static_cast<std::size_t>(set)].law;
-  return own ? *own : input.joint;
+  if (set < 0) return input.joint_law;
+  const auto& own = input.set_files[static_cast<std::size_t>(set)].law;
+  return own ? *own : input.joint_law;
 }
 
 std::vector<const JointLawInput*> laws_in_use(const Input& input) {
   std::vector<const JointLawInput*> laws;
-  bool has_own = input.joints_file.empty() && !input.joint_sets.empty();
-  for (const JointSetInput& set : input.joint_sets) {
+  bool has_own = input.joints_file.empty() && !input.set_files.empty();
+  for (const JointSetFile& set : input.set_files) {
     if (set.law) laws.push_back(&*set.law);
     has_own = has_own && set.law;
   }
-  if (!has_own) laws.insert(laws.begin(), &input.joint);
-  return laws;
-}
-
-LawsBySet<AnyJoint> laws_of(const Input& input) {
-  LawsBySet<AnyJoint> laws(joint_of(input.joint));
-  for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
-    if (const auto& own = input.joint_sets[k].law) laws.add(static_cast<int>(k), joint_of(*own));
+  if (!has_own) laws.insert(laws.begin(), &input.joint_law);
   return laws;
 }
 
 AnyJoint joint_of(const JointLawInput& law) { return joint_law_row(law.law).make(law); }
 
-double normal_stiffness_at(const JointLawInput& law, double stress) {
-  const AnyJoint joint = joint_of(law);
-  // A hundredth of what it closes by, no less than the digits of a stress bear.
-  const double step = 0.01 * stress / joint.joint_normal_stiffness();
-  PointLoad<2> load{1, {stress, zeros<Vec<1>>()}, {-step, zeros<Vec<1>>()}};
-  return (joint.force(load, AnyJoint::State<2>{}).normal - stress) / step;
-}
-
-double friction_angle_at(const JointLawInput& law, double stress) {
-  const AnyJoint joint = joint_of(law);
-  double steepest = 0;
-  for (double slip = 1e-6; slip < 0.1; slip *= 1.1) {
-    // Free to lift: it opens until the stress is that asked for.
-    double low = 0, high = 0.05, ratio = 0;
-    for (int k = 0; k < 60; ++k) {
-      const double opening = k == 0 ? 0.0 : 0.5 * (low + high);
-      const PointLoad<2> load{1, {stress, zeros<Vec<1>>()}, {opening, Vec<1>(-slip)}};
-      const PointForce<2> force = joint.force(load, AnyJoint::State<2>{});
-      const bool is_pressed = force.normal > stress * (1 + 1e-9);
-      if (is_pressed || k == 0) ratio = force.tangential[0] / force.normal;
-      if (k == 0 && !is_pressed) break;
-      (is_pressed ? low : high) = opening;
-    }
-    steepest = std::max(steepest, ratio);
-  }
-  return elementary::angle_of(steepest, 1.0);
-}
-
 double least_friction_angle(const Input& input, double stress) {
   double least = 0.5 * std::numbers::pi;
   for (const JointLawInput* law : laws_in_use(input))
-    least = std::min(least, friction_angle_at(*law, stress));
+    least = std::min(least, friction_angle_at(joint_of(*law), stress));
   return least;
 }
 

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 #include <voussoir/contact/any_joint.hpp>
-#include <voussoir/contact/laws_by_set.hpp>
 
 #include "input.hpp"
 #include "input_section.hpp"
@@ -65,13 +64,7 @@ struct JointLawRow {
 [[nodiscard]] std::vector<const JointLawInput*> laws_in_use(const Input& input);
 
 [[nodiscard]] AnyJoint joint_of(const JointLawInput& law);
-/// The law of the joints, and of those sets that differ.
-[[nodiscard]] LawsBySet<AnyJoint> laws_of(const Input& input);
-/// What a joint does at a normal stress [Pa]: the stiffness across it [Pa/m] and the largest angle
-/// of friction, cohesion and roughness included, that a monotonic slip of up to 0.1 m meets [rad].
-[[nodiscard]] double normal_stiffness_at(const JointLawInput& law, double stress);
-[[nodiscard]] double friction_angle_at(const JointLawInput& law, double stress);
-/// The least of the latter among the laws in use [rad].
+/// The least `friction_angle_at` a stress among the laws in use [rad].
 [[nodiscard]] double least_friction_angle(const Input& input, double stress);
 
 /// "kn 5 GPa/m, ks 500 MPa/m, friction 35 deg"; laws other than the first row's begin with their

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/joint_sets.hpp>
 
 #include "joint_laws.hpp"
-#include "joint_sets.hpp"
 #include "mapped_rock.hpp"
 
 namespace voussoir::program {

@@ -25,6 +25,15 @@ struct JointSource {
   std::optional<MappedSet> mapped = {};  ///< none: they are random
 };
 
+/// What the maker of the rock must be told about it.
+struct DescribedRock {
+  std::vector<JointSource> joints = {};
+  std::vector<std::string> warnings = {};
+  std::string joints_read =
+      {};  ///< how the file of traces was read, in words; empty: there is none
+  std::vector<std::string> in_section = {};  ///< how sets by azimuth show there, a line each
+};
+
 /// No result without its rock: joints asked for and not used are said.
 /// @throws InvalidInput  no joint cuts the rock
 void check_slicing(const Input& input, const SlicingReport& slicing,

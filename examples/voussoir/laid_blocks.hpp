@@ -2,17 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/vec.hpp>
 
 /// A model of blocks that are laid one by one, as an input file describes it.
 namespace voussoir::program {
 
 /// x, y [m]
-using Point = std::array<double, 2>;
+using Point = Vec2;
 
 /// [[block]], or one of [blocks] file: a block that is laid.
 struct LaidBlockInput {
@@ -24,7 +24,7 @@ struct LaidBlockInput {
 /// [[load]] on a laid block. Per metre out of plane.
 struct BlockLoadInput {
   int block = -1;
-  Point force = {0.0, 0.0};     ///< [N/m]
+  Point force = Vec2::Zero();   ///< [N/m]
   std::optional<Point> at;      ///< where it acts; none: in the centroid [m]
   double moment = 0;            ///< anticlockwise [N]
   bool is_proportional = true;  ///< comes on with the loading; false: with the weight
@@ -33,8 +33,8 @@ struct BlockLoadInput {
 /// [[displacement]] of a fixed block.
 struct BlockDisplacementInput {
   int block = -1;
-  Point by = {0.0, 0.0};  ///< of its centroid [m]
-  double rotation = 0;    ///< about it, anticlockwise [rad]
+  Point by = Vec2::Zero();  ///< of its centroid [m]
+  double rotation = 0;      ///< about it, anticlockwise [rad]
 };
 
 /// A model of blocks that are laid one by one, in place of rock around a tunnel.

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/openings.hpp>
 #include <voussoir/io/operating_system.hpp>
 #include <voussoir/rockmass/trace_coverage.hpp>
 #include <voussoir/rockmass/trace_file.hpp>
@@ -16,7 +17,6 @@
 #include "drawn_outline.hpp"
 #include "geojson_traces.hpp"
 #include "joint_laws.hpp"
-#include "openings.hpp"
 
 namespace voussoir::program {
 
@@ -29,15 +29,6 @@ std::string metres(double length) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f m", length);
   return text;
-}
-
-/// Pieces of traces in the domain: they are cut in a quarter of a minute.
-constexpr std::size_t most_pieces = 200'000;
-
-/// Half of what the smallest block measures from its middle: a bridge of rock that is narrower
-/// holds no block.
-double snap_of(const Input& input) {
-  return input.mapped.snap.value_or(0.5 * input.blocks.min_inscribed_radius);
 }
 
 /// What of a set is not as it was mapped.
@@ -62,7 +53,7 @@ void warn_of(const Input& input, const MappedSet& set, std::vector<std::string>&
 TraceFile drawn_traces(std::istream& in, const std::string& name, const Input& input,
                        const Vec2& origin, const Progress& progress) {
   DxfLimits limits;
-  limits.metres = input.mapped.unit;
+  limits.metres = input.trace_file.unit;
   DxfFile drawing;
   try {
     drawing = read_dxf(in, name, origin, limits, progress);
@@ -107,7 +98,7 @@ std::string set_name(const Input& input, int set) {
 }
 
 std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>& domain,
-                                            const Progress& progress, GeneratedRock& rock) {
+                                            const Progress& progress, DescribedRock& rock) {
   const std::string name = utf8_text(input.joints_file);
   const std::string accepted =
       "\n   = accepted: the name of a file of traces, relative to the input file";
@@ -123,7 +114,7 @@ std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>&
   TraceFileLimits limits;
   limits.sets = static_cast<int>(input.joint_sets.size());
   for (const JointSetInput& set : input.joint_sets) limits.set_names.push_back(set.name);
-  limits.first_set = input.mapped.first_set;
+  limits.first_set = input.trace_file.first_set;
   limits.first_set_key = "joints.first_set";
   TraceFile read = is_drawing(input.joints_file)
                        ? drawn_traces(file, name, input, domain.site_origin, progress)
@@ -142,30 +133,12 @@ std::vector<MappedTrace> read_mapped_traces(const Input& input, const Domain<2>&
   return std::move(read.traces);
 }
 
-void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<MappedTrace> traces,
-                     const std::vector<Joint>& random, const Progress& progress,
-                     GeneratedRock& rock) {
-  std::size_t inside = 0;
-  for (const Joint& piece : straight_pieces(traces))
-    inside += inside_of(domain, piece.trace).has_value();
-  if (inside > most_pieces)
-    throw InvalidInput("joints.file: " + counted(inside, "piece") +
-                       " of traces lie in the domain\n   = accepted: at most " +
-                       std::to_string(most_pieces) +
-                       ": a smaller domain, or a map without traces shorter than blocks");
-  const MappedRule rule{snap_of(input), input.mapped.dead_ends};
-  const MappedJoints mapped = mapped_joints(std::move(traces), domain, rule, progress);
-  const BlockLimits limits{input.blocks.min_inscribed_radius, input.blocks.max_elongation};
-  std::vector<SimplePolygon> openings;
-  for (std::size_t k = 0; k <= input.openings.size(); ++k)
-    if (is_modelled(input, k)) openings.push_back(opening_in_section(input, k));
-  MappedRock made = slice_mapped(domain, mapped, random, limits, openings, progress);
-  rock.mass = std::move(made.mass);
-  if (mapped.duplicates > 0)
-    rock.warnings.push_back("joints.file: " + counted(mapped.duplicates, "trace") +
+void report_mapped(const Input& input, const JointedRock<Planar>& made, DescribedRock& rock) {
+  if (made.duplicates > 0)
+    rock.warnings.push_back("joints.file: " + counted(made.duplicates, "trace") +
                             " left out: a longer one runs within joints.snap = " +
-                            format_quantity(rule.snap, dimension::length) + " all along");
-  for (const MappedSet& set : made.sets) {
+                            format_quantity(snap_of(input), dimension::length) + " all along");
+  for (const MappedSet& set : made.mapped) {
     JointSource source{"joints.file, " + set_name(input, set.set)};
     source.asked = set.joints;
     source.used = set.used;

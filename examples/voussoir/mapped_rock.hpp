@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/progress.hpp>
+#include <voussoir/design/rock.hpp>
 #include <voussoir/rockmass/mapped_slicing.hpp>
 
-#include "analysis.hpp"
 #include "input.hpp"
+#include "joint_report.hpp"
 
 /// Rock with the mapped joints of `joints.file`.
 namespace voussoir::program {
@@ -17,13 +18,10 @@ namespace voussoir::program {
 [[nodiscard]] std::vector<MappedTrace> read_mapped_traces(const Input& input,
                                                           const Domain<2>& domain,
                                                           const Progress& progress,
-                                                          GeneratedRock& rock);
+                                                          DescribedRock& rock);
 
-/// Slices by traces, then by random joints: fills `rock`, with a source for every set that was
-/// mapped.
-void slice_by_traces(const Input& input, const Domain<2>& domain, std::vector<MappedTrace> traces,
-                     const std::vector<Joint>& random, const Progress& progress,
-                     GeneratedRock& rock);
+/// What became of the mapped joints: a source for every set that has some, and what is to be said.
+void report_mapped(const Input& input, const JointedRock<Planar>& made, DescribedRock& rock);
 
 /// "bedding", of the set with an index; "no set" of -1.
 [[nodiscard]] std::string set_name(const Input& input, int set);

@@ -13,13 +13,13 @@
 #include <vector>
 #include <voussoir/core/units.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/design/openings.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/drawing/page_map.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
-#include "openings.hpp"
 #include "output_parts.hpp"
 #include "survey.hpp"
 
@@ -225,14 +225,15 @@ std::string run_json(const Input& input, const RunResult& run) {
   if (input.survey) json["survey"] = survey_json(input);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
   if (run.tunnel.bolt_count() > 0)
-    json["bolts"] = {{"strength", strength_json(bolt_strengths(input, run.tunnel))},
-                     {"of_its_strength", number_json(most_of_bolt_strength(input, run.tunnel))},
-                     {"largest_stress_in_bar_MPa", 1e-6 * bar_stress(input, run).stress},
-                     {"count", run.tunnel.bolt_count()},
-                     {"largest_force_kN", 1e-3 * e.largest_bolt_force},
-                     {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
-                     {"mean_over_p0_D_and_spacing",
-                      e.mean_bolt_force / (centre_stress * diameter * input.bolts->out_of_plane)}};
+    json["bolts"] = {
+        {"strength", strength_json(bolt_strengths(input, run.tunnel))},
+        {"of_its_strength", number_json(most_of_bolt_strength(input, run.tunnel))},
+        {"largest_stress_in_bar_MPa", 1e-6 * bar_stress(input, run).stress},
+        {"count", run.tunnel.bolt_count()},
+        {"largest_force_kN", 1e-3 * e.largest_bolt_force},
+        {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
+        {"mean_over_p0_D_and_spacing",
+         e.mean_bolt_force / (centre_stress * diameter * input.bolts.front().out_of_plane)}};
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"strength", not_checked},
                       {"of_its_strength", nullptr},
@@ -250,9 +251,9 @@ std::string run_json(const Input& input, const RunResult& run) {
                                       {"settlement_mm", 1e3 * foot.settlement},
                                       {"settlement_that_stays_mm", 1e3 * foot.plastic_settlement}});
     if (std::isnan(foot.utilisation)) json["lining"]["feet"].back()["strength"] = not_checked;
-    if (input.lining->feet && input.lining->feet->beam)
+    if (input.linings.front().feet && input.linings.front().feet->beam)
       json["lining"]["feet"].back()["beam_moment_kNm"] =
-          1e-3 * beam_moment(*input.lining->feet, foot.bearing);
+          1e-3 * beam_moment(*input.linings.front().feet, foot.bearing);
   }
   return json.dump(2) + "\n";
 }
@@ -267,7 +268,7 @@ std::string lining_csv(const RunResult& run) { return lining_table(lining_forces
 std::string blocks_svg(const Input& input, const RunResult& run) {
   TunnelPictureText text;
   if (!input.title.empty()) text.title = input.title;
-  if (input.linings().size() == 1) text.lining_thickness = input.lining->thickness;
+  if (input.linings.size() == 1) text.lining_thickness = input.linings.front().thickness;
   if (run.fallen_measure() > 0) {
     text.remarks.push_back(with_superscripts(rockfall_sentence(input, run)));
   }
@@ -328,8 +329,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
              (std::isfinite(foot.utilisation)
                   ? text(" (%.0f %% of its strength)", 100 * foot.utilisation)
                   : std::string());
-    if (input.lining->feet && input.lining->feet->beam) {
-      const FeetInput& made = *input.lining->feet;
+    if (input.linings.front().feet && input.linings.front().feet->beam) {
+      const FeetInput& made = *input.linings.front().feet;
       double most = 0;
       for (const auto& foot : feet) most = std::max(most, beam_moment(made, foot.bearing));
       out += text("; beam under ribs %.3g m apart", made.beam->spacing) +

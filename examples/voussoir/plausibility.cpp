@@ -6,12 +6,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <voussoir/contact/law_in_situ.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/joint_sets.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
 #include "joint_laws.hpp"
-#include "joint_sets.hpp"
 
 namespace voussoir::program {
 
@@ -178,11 +179,11 @@ void look_at_law(const std::string& table, const JointLawInput& law, Look& look)
 }
 
 void look_at_joints(const Input& input, Look& look) {
-  look_at_law("joint.", input.joint, look);
+  look_at_law("joint.", input.joint_law, look);
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k) {
     const JointSetInput& set = input.joint_sets[k];
     const std::string table = entry("joint_set", k) + ".";
-    if (set.law) look_at_law(table, *set.law, look);
+    if (const auto& own = input.set_files[k].law) look_at_law(table, *own, look);
     look.at(table + "dip", set.plane.dip, dip, dimension::angle);
     look.at(table + "sd", set.sd, scatter, dimension::angle);
     if (set.fisher) look.at(table + "K", *set.fisher, fisher);
@@ -212,22 +213,21 @@ void look_at_joints(const Input& input, Look& look) {
 }
 
 void look_at_bolts(const std::string& table, const BoltsInput& bolts, Look& look) {
-  for (const auto& [head, tip] : bolts.bars)
-    look.at(table + "bars (the length of one)",
-            elementary::length(tip[0] - head[0], tip[1] - head[1]), {0.5, 40}, dimension::length);
+  for (const Segment& bar : bolts.bars)
+    look.at(table + "bars (the length of one)", bar.length(), {0.5, 40}, dimension::length);
   if (bolts.bars.empty()) look.at(table + "length", bolts.length, {0.5, 40}, dimension::length);
   look.at(table + "out_of_plane", bolts.out_of_plane, {0.2, 10}, dimension::length);
   look.at(table + "diameter", bolts.diameter, {0.008, 0.08}, dimension::length);
   look.at(table + "arc (its angle)", bolts.arc.to - bolts.arc.from, {2 * degree, 360 * degree},
           dimension::angle);
   look.at(table + "stiffness", bolts.stiffness, bolt_stiffness, dimension::stiffness);
-  if (bolts.law == BoltLaw::axial_shear)
+  if (bolts.law == BoltKind::axial_shear)
     look.at(table + "shear_stiffness", bolts.shear_stiffness, dowel_stiffness,
             dimension::stiffness);
   look.at(table + "pretension", bolts.pretension, pretension, dimension::force);
   look.at(table + "yield_force", bolts.yield_force, bolt_strength, dimension::force);
   look.at(table + "rupture_force", bolts.rupture_force, bolt_strength, dimension::force);
-  if (bolts.anchors == BoltAnchors::lorig)
+  if (bolts.anchors == AnchorKind::lorig)
     look.at(table + "anchor_offset", bolts.anchor_offset, {0.005, 2}, dimension::length);
 }
 
@@ -272,7 +272,7 @@ void look_at_lining(const std::string& table, const LiningInput& lining, Look& l
 void look_at_run(const Input& input, Look& look) {
   const RunInput& run = input.run;
   look.at("run.tolerance", run.tolerance, {1e-5, 9e-3});
-  if (run.method == RunMethod::explicit_) {
+  if (run.method == MethodKind::explicit_) {
     look.at("run.damping", run.damping, {0.02, 0.95, true});
     look.at("run.ramp_steps", run.ramp_steps, {500, 400000, true});
   }
@@ -293,15 +293,15 @@ std::vector<std::string> unusual_values(const Input& input) {
   look.at("rock.density", input.rock.density, density, dimension::density);
   if (!input.laid) look_at_model(input, look);
   look_at_joints(input, look);
-  const std::vector<const BoltsInput*> patterns = input.bolt_patterns();
+  const std::vector<BoltsInput>& patterns = input.bolts;
   for (std::size_t k = 0; k < patterns.size(); ++k) {
     const std::string table = input.bolts_key(k) + ".";
-    look_at_bolts(table, *patterns[k], look);
-    if (patterns[k]->bars.empty()) look_at_spacing(table + "spacing", patterns[k]->spacing, look);
+    look_at_bolts(table, patterns[k], look);
+    if (patterns[k].bars.empty()) look_at_spacing(table + "spacing", patterns[k].spacing, look);
   }
-  const std::vector<const LiningInput*> linings = input.linings();
+  const std::vector<LiningInput>& linings = input.linings;
   for (std::size_t k = 0; k < linings.size(); ++k)
-    look_at_lining(input.lining_key(k) + ".", *linings[k], look);
+    look_at_lining(input.lining_key(k) + ".", linings[k], look);
   for (std::size_t k = 0; k < input.stages.size(); ++k)
     look.at(entry(input.has_rounds ? "round" : "stage", k) + ".wall_traction",
             input.stages[k].wall_traction, {0.01, 1, true}, dimension::number);
@@ -345,7 +345,7 @@ std::string unusual_among(const Input& input, std::initializer_list<std::string_
 InSituClosure in_situ_closure(const Input& input, double stress, double block, double spacing) {
   double softest = std::numeric_limits<double>::infinity();
   for (const JointLawInput* law : laws_in_use(input))
-    softest = std::min(softest, normal_stiffness_at(*law, stress));
+    softest = std::min(softest, normal_stiffness_at(joint_of(*law), stress));
   const double opening = 2 * input.tunnel.half_width();
   return {stress, stress / softest, block, stress / softest * (opening / spacing), opening};
 }

@@ -11,11 +11,11 @@
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/version.hpp>
+#include <voussoir/design/construction_plan.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/rockmass/carving.hpp>
 
-#include "construction_plan.hpp"
 #include "mapped_rock.hpp"
 #include "plausibility.hpp"
 #include "survey.hpp"
@@ -91,7 +91,7 @@ void add_wall(const Input& input, const RockMass<Geometry>& mass, const Progress
 }
 
 template <class Geometry>
-RockBlocks blocks_of(const Input& input, GeneratedRockIn<Geometry> made,
+RockBlocks blocks_of(const Input& input, RockIn<Geometry> made,
                      const typename Geometry::Opening& opening, double smallest,
                      const Progress& progress) {
   RockBlocks rock{made.mass.bodies.size(),
@@ -162,9 +162,9 @@ RockBlocks rock_blocks(const Input& input, const Report& report) {
   const SimplePolygon section = opening_of(input);
   const double smallest = input.blocks.min_wall_area;
   if (input.is_spatial())
-    return blocks_of<Spatial>(input, spatial_rock_of(input, progress), driven_tunnel(input),
+    return blocks_of<Spatial>(input, described_spatial_rock(input, progress), driven_tunnel(input),
                               smallest * std::sqrt(smallest), progress);
-  return blocks_of<Planar>(input, rock_of(input, progress), section, smallest, progress);
+  return blocks_of<Planar>(input, described_rock(input, progress), section, smallest, progress);
 }
 
 std::string rock_blocks_text(const Input& input, const RockBlocks& rock) {

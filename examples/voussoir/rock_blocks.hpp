@@ -65,7 +65,7 @@ struct RockBlocks {
   std::variant<RockMass<Planar>, RockMass<Spatial>> excavated;
 };
 
-/// @throws as `rock_of`, `spatial_rock_of`
+/// @throws as `described_rock`, `described_spatial_rock`
 /// @pre  the input has a tunnel
 [[nodiscard]] RockBlocks rock_blocks(const Input& input, const Report& report);
 

@@ -207,17 +207,14 @@ void read_opening(Section& s, Input& input, OpeningInput& opening,
   for (const char* const key : {"place", "from", "to", "round_length"}) note_unused(input, s, key);
 }
 
-void read_round_outline(Section& s, const Input& input, StageInput& round,
+void read_round_outline(Section& s, Input& input, StageInput& round,
                         const std::filesystem::path& directory) {
   OutlineInput outline;
-  Point centre = input.model.origin;
-  if (round.opening > 0) {
-    const Point& at = input.openings[round.opening - 1].at;
-    centre = {centre[0] + at[0], centre[1] + at[1]};
-  }
+  Vec2 centre = input.model.origin;
+  if (round.opening > 0) centre += input.openings[round.opening - 1].at;
   read_outline(s, outline, centre, false, false, directory);
   round.outline = outline.vertices;
-  round.is_drawn = !outline.drawn.empty();
+  if (!outline.drawn.empty()) input.drawn_rounds.push_back(input.stages.size() - 1);
 }
 
 namespace {
@@ -260,13 +257,14 @@ void read_persistence(Section& s, JointSetInput& set) {
 
 }  // namespace
 
-void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped,
-                    bool is_surveyed) {
+void read_joint_set(Section& s, Input& input, JointSetInput& set, JointSetFile& set_file,
+                    bool is_mapped, bool is_surveyed) {
   std::vector<const char*> given{"intensity", "P32", "P30", "spacing"};
   std::erase_if(given, [&](const char* key) { return !s.has(key); });
   const bool is_random = !given.empty();
-  set.wants_survey = is_surveyed && is_random && !s.has("dip") && !s.has("dip_direction");
-  const Need need = (is_mapped && !is_random) || set.wants_survey ? Need::optional : Need::required;
+  set_file.wants_survey = is_surveyed && is_random && !s.has("dip") && !s.has("dip_direction");
+  const Need need =
+      (is_mapped && !is_random) || set_file.wants_survey ? Need::optional : Need::required;
   s.text("name", set.name);
   read_orientation(s, set, need);
   s.quantity("intensity", set.intensity, dimension::intensity,
@@ -295,20 +293,23 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
   if (set.p30 && std::isinf(set.extent) && !s.faulty("extent"))
     s.complain("P30", "counts joints, and their area is not known without an extent",
                R"(extent = "2 m" besides it, or P32)");
-  else if (set.p30 && !set.is_azimuth && !set.wants_survey && !input.tunnel.trend)
+  else if (set.p30 && !set.is_azimuth && !set_file.wants_survey && !input.tunnel.trend)
     s.complain(
         "P30", "is of a set of the section, whose joints go on along the tunnel without end",
         R"(intensity, the number of traces per area; or a dip_direction by azimuth and tunnel.trend)");
   if (s.has("sd") && s.has("K"))
     s.complain("K", "is given besides sd", "one of the two; K = 1 / sd^2, sd in radians");
-  if (set.strike_extent && !set.is_azimuth && !set.wants_survey && !input.tunnel.trend)
+  if (set.strike_extent && !set.is_azimuth && !set_file.wants_survey && !input.tunnel.trend)
     s.complain("strike_extent",
                "is of a set of the section, whose joints go on along the tunnel without end",
                "no strike_extent, or a dip_direction by azimuth and tunnel.trend");
   else if (set.strike_extent && std::isinf(set.extent) && !s.faulty("extent"))
     s.complain("strike_extent", "is of joints that have no extent down the dip",
                R"(extent = "2 m" besides it)");
-  if (JointLawInput law = read_joint_law(s, &input.joint); !law.given.empty()) set.law = law;
+  if (const JointLawInput law = read_joint_law(s, &input.joint_law); !law.given.empty()) {
+    set_file.law = law;
+    if (law.is_sound) set.law = joint_of(law);
+  }
   if (given.size() > 1) {
     s.complain(given.back(), std::string("is given besides ") + given.front(),
                "one of intensity, spacing, P32 and P30");
@@ -326,8 +327,8 @@ void read_joint_set(Section& s, Input& input, JointSetInput& set, bool is_mapped
 }
 
 void read_mapped(Section& s, Input& input, const std::filesystem::path& directory) {
-  MappedInput& mapped = input.mapped;
-  s.integer("first_set", mapped.first_set, 0, 1);
+  TracesInput& mapped = input.mapped;
+  s.integer("first_set", input.trace_file.first_set, 0, 1);
   s.quantity("snap", mapped.snap, dimension::length, above(0));
   (void)s.choice<DeadEnds>(
       "dead_ends", mapped.dead_ends,
@@ -336,7 +337,7 @@ void read_mapped(Section& s, Input& input, const std::filesystem::path& director
   const bool has_survey = s.has("orientations");
   input.joints_file = read_path(s, "file", has_survey ? Need::optional : Need::required, directory);
   s.only_with(is_drawing(input.joints_file), "a drawing as file",
-              [&] { read_drawing_unit(s, mapped.unit); });
+              [&] { read_drawing_unit(s, input.trace_file.unit); });
   if (const auto file = read_path(s, "orientations", Need::optional, directory); !file.empty())
     input.survey.emplace().file = file;
   SurveyInput unused;

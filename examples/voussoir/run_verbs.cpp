@@ -17,7 +17,6 @@
 #include "outputs.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
-#include "spatial_analysis.hpp"
 #include "survey.hpp"
 #include "templates.hpp"
 #include "verbs.hpp"
@@ -134,13 +133,12 @@ int run_verb(const Options& options) {
   if (input.laid) return run_blocks_verb(options, input);
   if (input.is_spatial())
     return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles& history) {
-      return run_spatial_tunnel(
-          input, report,
-          [&](const SpatialTunnel& tunnel, const StageResult&) { history.add(tunnel); });
+      return spatial_run_of(input, report, [&](const SpatialTunnel& tunnel, const StageResult&) {
+        history.add(tunnel);
+      });
     });
-  return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles&) {
-    return run_tunnel(input, report);
-  });
+  return run_tunnel_verb(
+      options, input, [&](const Report& report, HistoryFiles&) { return run_of(input, report); });
 }
 
 int check_verb(const Options& options, bool wants_picture) {

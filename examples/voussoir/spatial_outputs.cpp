@@ -13,7 +13,6 @@
 #include "mapped_rock.hpp"
 #include "output_parts.hpp"
 #include "outputs.hpp"
-#include "spatial_analysis.hpp"
 #include "survey.hpp"
 
 // What the program writes of a run in 3-D.
@@ -27,7 +26,9 @@ Convergence shown_convergence(const Input& input, const SpatialRunResult& run) {
 }
 
 /// Of the lining [m]; 0: there is none.
-double strip_width_of(const Input& input) { return input.lining ? strip_width(input) : 0.0; }
+double strip_width_of(const Input& input) {
+  return input.linings.empty() ? 0.0 : strip_width(input);
+}
 
 double driven_length(const Input& input) { return input.round_count() * input.stretch(); }
 
@@ -166,6 +167,7 @@ HistoryFiles::HistoryFiles(const Input& input, std::function<void(const NamedDoc
     : input_(&input), write_(std::move(write)) {}
 
 void HistoryFiles::add(const SpatialTunnel& tunnel) {
+  if (!input_->picture.history) return;
   const int stage = static_cast<int>(stages_.size()) + 1;
   std::vector<NamedDocument> files = stage_files(tunnel, stage, strip_width_of(*input_));
   for (NamedDocument& file : files) file.name = folder + ("/" + file.name);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/openings.hpp>
 
 #include "input_checks.hpp"
-#include "openings.hpp"
 #include "rock_input.hpp"
 
 namespace voussoir::program {
@@ -86,7 +86,7 @@ void read_lined_arc(Section& s, LiningInput& lining) {
 }
 
 /// Bars one by one: head and tip of each.
-void read_bars(const Value& value, std::vector<std::array<Point, 2>>& bars) {
+void read_bars(const Value& value, std::vector<Segment>& bars) {
   const std::string form = bars_form;
   const auto entries = value.as_list(1, 1000, form);
   for (std::size_t k = 0; entries && k < entries->size(); ++k) {
@@ -138,32 +138,32 @@ void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
   s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
   s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
 
-  const bool anchors_known = s.choice<BoltAnchors>("anchors", bolts.anchors,
-                                                   {{"lorig", BoltAnchors::lorig},
-                                                    {"garga-wang", BoltAnchors::garga_wang},
-                                                    {"joint-face", BoltAnchors::joint_face}},
-                                                   Need::optional);
+  const bool anchors_known = s.choice<AnchorKind>("anchors", bolts.anchors,
+                                                  {{"lorig", AnchorKind::lorig},
+                                                   {"garga-wang", AnchorKind::garga_wang},
+                                                   {"joint-face", AnchorKind::joint_face}},
+                                                  Need::optional);
   std::optional<double> offset;
   const auto read_offset = [&] {
     s.quantity("anchor_offset", offset, dimension::length, above(0));
   };
   if (anchors_known) {
-    s.only_with(bolts.anchors == BoltAnchors::lorig, "anchors = \"lorig\"", read_offset);
+    s.only_with(bolts.anchors == AnchorKind::lorig, "anchors = \"lorig\"", read_offset);
   } else {
     s.unread(read_offset);
   }
   // As Boon et al. (2015), section 5.2.
   bolts.anchor_offset = offset.value_or(1.2 * bolts.diameter);
 
-  const bool law_known = s.choice<BoltLaw>(
-      "law", bolts.law, {{"axial", BoltLaw::axial}, {"axial-shear", BoltLaw::axial_shear}},
+  const bool law_known = s.choice<BoltKind>(
+      "law", bolts.law, {{"axial", BoltKind::axial}, {"axial-shear", BoltKind::axial_shear}},
       Need::optional);
   const auto shear = [&] {
     s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness, bolt_range,
                Need::required);
   };
   if (law_known) {
-    s.only_with(bolts.law == BoltLaw::axial_shear, "law = \"axial-shear\"", shear);
+    s.only_with(bolts.law == BoltKind::axial_shear, "law = \"axial-shear\"", shear);
   } else {
     s.unread(shear);
   }
@@ -237,7 +237,7 @@ enum class Excavated { section, rest, nothing };
 
 /// What a round excavates: of the section what lies between the limits or in the outline given, or
 /// what rounds before it have left.
-void read_part(Section& s, const Input& input, StageInput& round,
+void read_part(Section& s, Input& input, StageInput& round,
                const std::filesystem::path& directory) {
   Excavated excavated = Excavated::section;
   const bool known = s.choice<Excavated>(
@@ -287,9 +287,9 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round,
   const auto value = s.find("install", Need::optional, form);
   if (!value) return;
   std::vector<std::string> words{"bolts", "lining"};  // all of a kind, or one by its name
-  const std::size_t patterns = input.bolt_patterns().size();
-  for (const BoltsInput* pattern : input.bolt_patterns()) words.push_back(pattern->name);
-  for (const LiningInput* lining : input.linings()) words.push_back(lining->name);
+  const std::size_t patterns = input.bolts.size();
+  for (const BoltsInput& pattern : input.bolts) words.push_back(pattern.name);
+  for (const LiningInput& lining : input.linings) words.push_back(lining.name);
   const auto items = value->as_list(0, words.size(), form);
   if (!items) return;
   for (const Value& item : *items) {
@@ -303,9 +303,9 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round,
                         last = are_all ? std::max<std::size_t>(supports.size(), 1) : number + 1;
       for (std::size_t k = first; k < last; ++k) {
         // All of a kind are those of the opening in which the round works.
-        if (k < supports.size() && supports[k]->opening != stage.opening) {
+        if (k < supports.size() && supports[k].opening != stage.opening) {
           if (!are_all)
-            item.refuse("is of the " + opening_name(input, supports[k]->opening) +
+            item.refuse("is of the " + opening_name(input, supports[k].opening) +
                             ", and the round works in the " + opening_name(input, stage.opening),
                         "what is of the opening of the round");
           continue;
@@ -315,9 +315,9 @@ void read_stage(Section& s, Input& input, StageInput& stage, bool is_round,
       }
     };
     if (*word == 0 || (*word >= 2 && *word < 2 + patterns))
-      install(stage.bolts, *word == 0, input.bolt_patterns(), *word - 2);
+      install(stage.bolts, *word == 0, input.bolts, *word - 2);
     else
-      install(stage.linings, *word == 1, input.linings(), *word - 2 - patterns);
+      install(stage.linings, *word == 1, input.linings, *word - 2 - patterns);
     if (is_again) item.refuse("is in the list twice", "each support once");
   }
 }

@@ -59,7 +59,7 @@ void take(Section& file, Input& input, std::size_t index) {
   const FittedSet& fit = survey.fits[*at];
   set.plane = fit.mean;
   set.is_azimuth = true;
-  set.surveyed = static_cast<int>(*at);
+  input.set_files[index].surveyed = static_cast<int>(*at);
   if (set.fisher || set.sd > 0) return;
   // Planes all alike have no K, and a set no scatter.
   if (!fit.concentration) {
@@ -118,15 +118,15 @@ void read_survey(Section& file, Input& input) {
     return refuse(std::string("cannot be used: ") + fault.what());
   }
   int wanting = 0;
-  for (const JointSetInput& set : input.joint_sets) wanting += set.wants_survey;
+  for (const JointSetFile& set : input.set_files) wanting += set.wants_survey;
   if (survey.has_one_set && wanting > 1)
     return file.complain(key, "names no sets, and more than one [[joint_set]] has no dip",
                          "a column set in the file, or dip and dip_direction of all but one");
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
-    if (input.joint_sets[k].wants_survey) take(file, input, k);
+    if (input.set_files[k].wants_survey) take(file, input, k);
   for (std::size_t k = 0; k < survey.fits.size(); ++k)
-    if (std::none_of(input.joint_sets.begin(), input.joint_sets.end(),
-                     [&](const JointSetInput& set) { return set.surveyed == static_cast<int>(k); }))
+    if (std::none_of(input.set_files.begin(), input.set_files.end(),
+                     [&](const JointSetFile& set) { return set.surveyed == static_cast<int>(k); }))
       survey.left_out.push_back(survey.fits[k].name);
 }
 

@@ -28,6 +28,7 @@
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/equilibrium/any_method.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
 #include <voussoir/equilibrium/two_level.hpp>

@@ -13,6 +13,7 @@ TEST_SUITE("models/methods_long") {
 
   TEST_CASE("TwoLevel") { at_rest_only<TwoLevel>(no_method).print(); }
   TEST_CASE("Relaxation") { at_rest_only<Relaxation>(no_method).print(); }
+  TEST_CASE("AnyMethod") { at_rest_only<AnyMethod>(no_method).print(); }
   TEST_CASE("Explicit") { at_rest_only<Explicit>(no_method).print(); }
 
   TEST_CASE("CutContacts") { in_all_settings<CutContacts>().print(); }

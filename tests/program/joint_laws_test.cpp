@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+#include <voussoir/contact/law_in_situ.hpp>
 #include <voussoir/core/dimension.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
@@ -216,25 +217,26 @@ TEST_SUITE("program/joint_laws") {
 
   TEST_CASE("stiffness and friction of a law at a stress are those of its formulas") {
     const auto law_of = [](const std::string& joint) {
-      return read_input_text(tunnel(joint, "", ""), "case.toml", ".").joint;
+      return read_input_text(tunnel(joint, "", ""), "case.toml", ".").joint.value();
     };
     for (const double stress : {0.2e6, 1e6, 3e6}) {
       CAPTURE(stress);
-      const JointLawInput plain = law_of(coulomb);
-      CHECK(std::abs(normal_stiffness_at(plain, stress) / 5e9 - 1) < 1e-9);
-      CHECK(std::abs(friction_angle_at(plain, stress) - 55 * degree) < 1e-9);
-      const JointLawInput bonded =
+      const voussoir::AnyJoint plain = law_of(coulomb);
+      CHECK(std::abs(voussoir::normal_stiffness_at(plain, stress) / 5e9 - 1) < 1e-9);
+      CHECK(std::abs(voussoir::friction_angle_at(plain, stress) - 55 * degree) < 1e-9);
+      const voussoir::AnyJoint bonded =
           law_of("law = \"mohr-coulomb\"\n" + coulomb + "cohesion = \"300 kPa\"\n");
-      CHECK(std::abs(std::tan(friction_angle_at(bonded, stress)) -
+      CHECK(std::abs(std::tan(voussoir::friction_angle_at(bonded, stress)) -
                      (std::tan(55 * degree) + 0.3e6 / stress)) < 1e-9);
       // K_ni / (1 - V / V_m)^2 = K_ni (1 + sigma / (K_ni V_m))^2, over a hundredth of the closure.
-      const JointLawInput hyperbolic = law_of(rough);
+      const voussoir::AnyJoint hyperbolic = law_of(rough);
       const double ratio = 1 + stress / (5e9 * 1e-3);
-      CHECK(std::abs(normal_stiffness_at(hyperbolic, stress) / (5e9 * ratio * ratio) - 1) < 0.01);
+      CHECK(std::abs(voussoir::normal_stiffness_at(hyperbolic, stress) / (5e9 * ratio * ratio) -
+                     1) < 0.01);
       // The peak, between two slips a tenth apart; one step there dilates as a curve in small
       // steps does to within a degree.
       const double peak = 30 * degree + 10 * degree * std::log10(60e6 / stress);
-      const double found = friction_angle_at(hyperbolic, stress);
+      const double found = voussoir::friction_angle_at(hyperbolic, stress);
       CAPTURE(found / degree);
       CAPTURE(peak / degree);
       CHECK(found < peak + 1e-9);

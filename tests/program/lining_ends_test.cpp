@@ -73,7 +73,7 @@ ArchOnFeet carried(const Section& section, double from, double to) {
                            "interface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n"
                            "[support.lining.feet]\nstiffness = \"5 GPa/m\"\n";
   const Input input = read_input_text(text, "ends", folder / ".", {"run.tolerance=1e-6"});
-  const RunResult run = run_tunnel(input, [](const std::string&, double) { return true; });
+  const RunResult run = run_of(input, [](const std::string&, double) { return true; });
   REQUIRE(run.verdict() == voussoir::Verdict::stable);
   return arch_on_feet(run.tunnel);
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Several openings in one file: twin tunnels, a cross-drift, a shaft; outlines of their own for
 // rounds; a tunnel that plunges.
-#include "openings.hpp"
-
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
+#include <voussoir/design/construction_plan.hpp>
+#include <voussoir/design/openings.hpp>
 
-#include "construction_plan.hpp"
 #include "input.hpp"
 #include "run_results.hpp"
 
@@ -204,6 +204,35 @@ TEST_SUITE("program/openings") {
     }
   }
 
+  TEST_CASE("a drift through the wall of a lined tunnel opens the lining, at once or afterwards") {
+    // From 1 m on, within the tunnel: what of it lies beyond the wall is rock.
+    const std::string drift =
+        opening("drift", "[\"0 m\", \"0 m\"]",
+                "place = \"5 m\"\nturn = \"90 deg\"\nfrom = \"2 m\"\nto = \"6 m\"\n" + square("1"));
+    const std::string lining =
+        "[support.lining]\nthickness = \"10 cm\"\nE = \"25 GPa\"\nnodes = 32\n"
+        "interface = { kn = \"5 GPa/m\", friction = \"35 deg\" }\n";
+    const std::string lined = "install = [\"lining\"]\n";
+    const auto members = [](const Results& run) {
+      const std::string& table = run.files.at("lining.csv");
+      return std::count(table.begin(), table.end(), '\n') - 1;
+    };
+    const Results whole = results_of(rock(deep, "") + lining + "[[round]]\n" + lined),
+                  before = results_of(rock(deep, drift) + lining + round_of("tunnel", lined) +
+                                      round_of("drift")),
+                  after =
+                      results_of(rock(deep, drift) + lining + round_of("tunnel") +
+                                 round_of("drift") + "[[round]]\nexcavate = \"nothing\"\n" + lined);
+    for (const Results* run : {&whole, &before, &after}) CHECK(run->json.at("verdict") == "stable");
+    CHECK(members(before) < members(whole));
+    CHECK(members(before) == members(after));
+    // A lining that bears the excavation of the drift alone carries less than one from the start.
+    const auto thrust = [](const Results& run) {
+      return run.json.at("lining").at("largest_thrust_kN_per_m").get<double>();
+    };
+    CHECK(thrust(after) < thrust(before));
+  }
+
   TEST_CASE("forepoles lie over the rock ahead, and a section has none") {
     const std::string poles =
         "[support.bolts]\nname = \"poles\"\nlength = \"5 m\"\nspacing = \"0.5 m\"\n"
@@ -214,7 +243,8 @@ TEST_SUITE("program/openings") {
                              poles + "[[round]]\ninstall = [\"bolts\"]\n";
     const voussoir::program::Input input =
         voussoir::program::read_input_text(text, "case.toml", ".");
-    const auto bars = voussoir::program::rows_of_pattern(input, *input.bolts, input.bolts->spacing);
+    const auto bars =
+        voussoir::design::rows_of_pattern(input, input.bolts.front(), input.bolts.front().spacing);
     CHECK(bars.size() % 3 == 0);
     CHECK(bars.size() >= 3 * 6);
     for (const auto& bar : bars) {

@@ -22,9 +22,9 @@ using voussoir::Progress;
 
 std::string design_case() { return read_file(VOUSSOIR_TEST_EXAMPLES "/paper/tunnel.toml"); }
 
-GeneratedRock rock(const std::string& text, const std::vector<std::string>& overrides = {},
+RockIn<voussoir::Planar> rock(const std::string& text, const std::vector<std::string>& overrides = {},
                    const std::string& directory = ".", const Progress& progress = {}) {
-  return rock_of(read_input_text(text, "case.toml", directory, overrides), progress);
+  return described_rock(read_input_text(text, "case.toml", directory, overrides), progress);
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -40,7 +40,7 @@ std::string said(const std::string& traces, const std::vector<std::string>& over
   std::vector<std::string> all = {"blocks.max_elongation=1000"};
   all.insert(all.end(), overrides.begin(), overrides.end());
   try {
-    const GeneratedRock found = rock(mapped.text(), all, folder / "");
+    const RockIn<voussoir::Planar> found = rock(mapped.text(), all, folder / "");
     return found.warnings.empty() ? "" : "warning: " + found.warnings.front();
   } catch (const InvalidInput& error) {
     return std::string("refused: ") + error.what();
@@ -52,7 +52,7 @@ std::string said(const std::string& traces, const std::vector<std::string>& over
 TEST_SUITE("program/rock") {
   TEST_CASE("a wide or flat model is as jointed as the design case, and nothing is to be said") {
     const auto density = [](const std::vector<std::string>& overrides) {
-      const GeneratedRock found = rock(design_case(), overrides);
+      const RockIn<voussoir::Planar> found = rock(design_case(), overrides);
       CHECK(found.warnings.empty());
       return static_cast<double>(found.mass.bodies.size()) / found.mass.domain.measure();
     };
@@ -67,7 +67,7 @@ TEST_SUITE("program/rock") {
   }
 
   TEST_CASE("joints asked for and not used are said, with the counts and the key") {
-    const GeneratedRock few = rock(design_case(), {"blocks.max_elongation=2"});
+    const RockIn<voussoir::Planar> few = rock(design_case(), {"blocks.max_elongation=2"});
     REQUIRE(few.warnings.size() == 1);
     CHECK(contains(few.warnings[0], "most joints leave no trace in the rock: 12600 joints"));
     CHECK(contains(few.warnings[0], " cuts made, "));
@@ -78,7 +78,7 @@ TEST_SUITE("program/rock") {
         doctest::Contains("no joint cuts the rock, which stays one block: 432 "
                           "joints"),
         InvalidInput);
-    const GeneratedRock none = rock(InputText{}.text(), {"joint_set[0].intensity=1e-9 /m^2",
+    const RockIn<voussoir::Planar> none = rock(InputText{}.text(), {"joint_set[0].intensity=1e-9 /m^2",
                                                          "joint_set[1].intensity=1e-9 /m^2"});
     REQUIRE(none.warnings.size() == 1);
     CHECK(contains(none.warnings[0], "one block without joints, though there are joint sets: 0"));

@@ -147,6 +147,10 @@ TEST_SUITE("program/spatial_pictures") {
         contains(files.at("blocks.svg"),
                  "Seen from the portal: cut across at 4.5 m along the axis, the face is at 6 m."));
 
+    CHECK_FALSE(contains(run({"--set", "picture.history=false"}).out, "history"));
+    CHECK(files_below(out).count("history.pvd") == 0);
+    CHECK(files_below(out).count("history/stage_001.vtm") == 0);
+
     // One stage: no history, and nothing is left of the one before, but what is not ours.
     (void)write_file(out + "/history/notes.txt", "mine");
     (void)write_file(out + "/history/stage_001_mine.vtu", "<?xml version=\"1.0\"?>\n<VTKFile/>\n");

@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include <voussoir/design/joint_sets.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
 #include "analysis.hpp"
 #include "harness.hpp"
 #include "input.hpp"
-#include "joint_sets.hpp"
 #include "plausibility.hpp"
 #include "run_results.hpp"
 #include "support/near.hpp"

@@ -174,14 +174,14 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   write_file(folder / "traces.csv", traces_text(d, given));
   const Input input = read_input_text(input_text(d, given), "case.toml", folder / ".", {});
   const Report quiet = [](const std::string&, double) { return true; };
-  const RunResult run = run_tunnel(input, quiet);
+  const RunResult run = run_of(input, quiet);
   Answer made{{}, run.last().is_from_motion || run.fallen_measure() > 0};
   add_tables("run.json", Json::parse(run_json(input, run)), given.is_mirrored(), made.tables);
   made.tables["bolts.csv"] = bolts_csv(input, run);
   made.tables["lining.csv"] = lining_csv(run);
   // With all digits, as the journal of a sweep has it.
   const TunnelResult row =
-      supported_tunnel(input, excavated_rock(input, false, quiet), supports_of(input), quiet);
+      tunnel_in(input, rock_in_situ(input, false, quiet), supports_of(input), quiet);
   add_tables("sweep", Json::parse(result_json(row)), given.is_mirrored(), made.tables);
   return made;
 }

@@ -27,10 +27,10 @@ using Json = nlohmann::json;
 const std::string data = VOUSSOIR_TEST_DATA "/traces/";
 
 /// The rock of a case among the data, with another file of traces.
-GeneratedRock rock_of_case(const std::string& name, const std::string& traces,
-                           std::vector<std::string> overrides = {}) {
+RockIn<voussoir::Planar> rock_of_case(const std::string& name, const std::string& traces,
+                                      std::vector<std::string> overrides = {}) {
   overrides.push_back("joints.file=" + traces);
-  return rock_of(read_input_text(read_file(data + name), name, data, overrides));
+  return described_rock(read_input_text(read_file(data + name), name, data, overrides));
 }
 
 std::size_t blocks(const std::string& name, const std::string& traces,
@@ -57,11 +57,11 @@ TEST_SUITE("program/traces") {
   }
 
   TEST_CASE("metres that are mapped and not cut, or made where none was mapped, are warned of") {
-    const GeneratedRock left = rock_of_case("overshoot.toml", "short-trace.csv",
-                                            {"joints.dead_ends=do_not_cut"}),
-                        cut = rock_of_case("overshoot.toml", "short-trace.csv"),
-                        good = rock_of_case("overshoot.toml", "overshoot.csv");
-    const auto said = [](const GeneratedRock& rock, const std::string& part) {
+    const RockIn<voussoir::Planar> left = rock_of_case("overshoot.toml", "short-trace.csv",
+                                                       {"joints.dead_ends=do_not_cut"}),
+                                   cut = rock_of_case("overshoot.toml", "short-trace.csv"),
+                                   good = rock_of_case("overshoot.toml", "overshoot.csv");
+    const auto said = [](const RockIn<voussoir::Planar>& rock, const std::string& part) {
       return std::any_of(rock.warnings.begin(), rock.warnings.end(),
                          [&](const std::string& warning) { return contains(warning, part); });
     };
@@ -158,7 +158,7 @@ TEST_SUITE("program/traces") {
       std::string found;
       try {
         for (const JointSource& source :
-             rock_of(read_input_text(mapped_case(sets), "case.toml", "", overrides)).joints)
+             described_rock(read_input_text(mapped_case(sets), "case.toml", "", overrides)).joints)
           found += source.name + " ";
       } catch (const voussoir::InvalidInput& error) {
         return std::string(error.what());
@@ -205,8 +205,8 @@ TEST_SUITE("program/traces") {
         "dip_direction = \"E\"\nsd = \"5 deg\"\nintensity = \"0.2 /m^2\"\nextent = \"4 m\"\n";
     const std::string traces = write_file(
         folder / "map.csv", "-40,-12,40,-12,mapped\n-40,12,0,14,mapped\n0,14,40,12,mapped\n");
-    const GeneratedRock rock =
-        rock_of(read_input_text(mapped_case(set), "case.toml", "", {"joints.file=" + traces}));
+    const RockIn<voussoir::Planar> rock = described_rock(
+        read_input_text(mapped_case(set), "case.toml", "", {"joints.file=" + traces}));
     REQUIRE(rock.joints.size() == 2);
     CHECK(rock.joints[0].name == "joints.file, mapped");
     CHECK(rock.joints[0].asked == 2);  // two touch, and go on in nearly the same direction

@@ -96,7 +96,7 @@ Answer answer_of(const Shape& shape, double degrees, const std::string& edge, bo
       {"boundary.sides=\"" + edge + '"', "boundary.base=\"" + edge + '"', "model.width=36 m",
        "model.below_invert=10 m", "tunnel.cover=14 m", "joints.file=beds.csv"});
   write_file(folder / "beds.csv", beds(Wall(opening_of(input), degrees), behind, ends));
-  const RunResult run = run_tunnel(input, [](const std::string&, double) { return true; });
+  const RunResult run = run_of(input, [](const std::string&, double) { return true; });
   CHECK(run.verdict() == voussoir::Verdict::stable);
   // What a reader of run.json and of the screen sees: numbers, and a wall that is all there.
   const auto json = nlohmann::json::parse(run_json(input, run));

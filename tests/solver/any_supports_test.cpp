@@ -11,7 +11,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 #include <voussoir/bolt/any_anchors.hpp>
 #include <voussoir/bolt/any_bolt.hpp>
@@ -20,6 +19,7 @@
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/dynamics/moving_rock.hpp>
 #include <voussoir/dynamics/set_in_motion.hpp>
+#include <voussoir/equilibrium/any_method.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
 #include <voussoir/equilibrium/relaxation.hpp>
 #include <voussoir/equilibrium/two_level.hpp>
@@ -52,23 +52,6 @@ using voussoir_test::small_opening;
 using voussoir_test::small_rock;
 
 namespace {
-
-/// Any of the procedures, which halves the solvers to compile.
-class AnyMethod {
- public:
-  using role = roles::Equilibrium;
-  static constexpr const char* name = "AnyMethod";
-  AnyMethod() = default;
-  template <class Method>
-  explicit AnyMethod(Method method) : method_(std::move(method)) {}
-  template <class System>
-  [[nodiscard]] EquilibriumReport find(System& system, const SearchContext& context) const {
-    return std::visit([&](const auto& method) { return method.find(system, context); }, method_);
-  }
-
- private:
-  std::variant<TwoLevel, Relaxation, Explicit> method_;
-};
 
 const CoulombJoint joint({5e9, 5e8, 35 * degree});
 const CoulombJoint interface({1e9, 1e9, 30 * degree});

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+// One of the sources of voussoir::design: its functions that are no templates.
+#define VOUSSOIR_DESIGN_SOURCE
+#include <voussoir/design/analysis.hpp>
+#include <voussoir/design/bolt_strength.hpp>
+#include <voussoir/design/size_estimate.hpp>

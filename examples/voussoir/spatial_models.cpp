@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "models.hpp"
-
-template class voussoir::ComposedSolver<voussoir::program::SpatialTunnel::Parts::Models>;

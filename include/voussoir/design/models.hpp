@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <voussoir/bolt/any_anchors.hpp>
+#include <voussoir/bolt/any_bolt.hpp>
+#include <voussoir/bolt/axial_bolt.hpp>
+#include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/contact/any_joint.hpp>
+#include <voussoir/contact/mohr_coulomb_joint.hpp>
+#include <voussoir/contact/rock_on_lining.hpp>
+#include <voussoir/core/roles.hpp>
+#include <voussoir/design/analysis_input.hpp>
+#include <voussoir/design/bodies.hpp>
+#include <voussoir/equilibrium/any_method.hpp>
+#include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/equilibrium/relaxation.hpp>
+#include <voussoir/equilibrium/two_level.hpp>
+#include <voussoir/geometry/planar.hpp>
+#include <voussoir/geometry/spatial.hpp>
+#include <voussoir/linear/linear_method.hpp>
+#include <voussoir/lining/any_lining.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/solver/solver.hpp>
+
+/// The physics of an analysis whose models are chosen at run time, as policies.
+///
+/// A program that knows its physics composes exactly that (see examples/minimal.cpp). Where it is
+/// data, the choices are made inside the policies, and one solver type serves every input:
+/// `AnyJoint` is any contact law, `AnyBolt` any bolt, `AnyAnchors` any way of gripping the rock,
+/// `AnyLining` any lining, `AnyMethod` any way to equilibrium; each joint set, pattern and lining
+/// has its own. An interface with `MohrCoulombJoint` without cohesion is one with `CoulombJoint`.
+namespace voussoir::design {
+
+template <class Geometry>
+using TunnelIn = Solver<Geometry, AnyJoint, RockOnLining<MohrCoulombJoint>, AnyAnchors, AnyBolt,
+                        AnyLining, AnyMethod>;
+using Tunnel = TunnelIn<Planar>;
+using SpatialTunnel = TunnelIn<Spatial>;
+
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts);
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyBolt bolt_of(const BoltsInput& bolts);
+/// Rock on lining: friction, and a bond until it fails, which leaves the friction.
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE MohrCoulombJoint interface_of(const LiningInput& lining);
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE LiningSection section_of(const LiningInput& lining,
+                                                              double thickness);
+/// @param linear  what the computer has for elastic equations; how they are solved is the input's
+/// choice; as many threads as make a factor follow a stage in which rock fails
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyMethod method_of(const AnalysisInput& input,
+                                                         LinearSettings linear, RangeSought range);
+
+/// 3-D: of a strip of the lining.
+/// @param width  along the tunnel; of those that run along it, around the section [m]
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE LiningSection strip_of(const LiningInput& lining,
+                                                            double thickness, double width);
+
+#if VOUSSOIR_DESIGN_BODIES
+
+VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts) {
+  switch (bolts.anchors) {
+    case AnchorKind::lorig:
+      return LorigAnchors{bolts.anchor_offset};
+    case AnchorKind::garga_wang:
+      return GargaWangAnchors{};
+    case AnchorKind::joint_face:
+      return JointFaceAnchors{};
+  }
+  throw std::logic_error("unknown bolt anchors");
+}
+
+VOUSSOIR_DESIGN_INLINE AnyBolt bolt_of(const BoltsInput& bolts) {
+  AxialBolt::Params axial{.axial_stiffness = bolts.stiffness, .pretension = bolts.pretension};
+  if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
+  if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;
+  // The quantities of an input have their units: a pretension of 500 N is meant.
+  switch (bolts.law) {
+    case BoltKind::axial:
+      return AxialBolt(axial, any_units);
+    case BoltKind::axial_shear:
+      return AxialShearBolt({.axial = axial, .shear_stiffness = bolts.shear_stiffness}, any_units);
+  }
+  throw std::logic_error("unknown bolt law");
+}
+
+VOUSSOIR_DESIGN_INLINE MohrCoulombJoint interface_of(const LiningInput& lining) {
+  return MohrCoulombJoint({.joint_normal_stiffness = lining.interface_normal_stiffness,
+                           .joint_shear_stiffness = lining.interface_shear_stiffness,
+                           .friction_angle = lining.interface_friction_angle,
+                           .cohesion = lining.shear_bond,
+                           .tensile_strength = lining.tensile_bond},
+                          any_units);
+}
+
+VOUSSOIR_DESIGN_INLINE LiningSection section_of(const LiningInput& lining, double thickness) {
+  LiningSection section =
+      LiningSection::rectangular(thickness, lining.young_modulus, lining.poisson_ratio);
+  section.element = lining.beam;
+  return section;
+}
+
+VOUSSOIR_DESIGN_INLINE LiningSection strip_of(const LiningInput& lining, double thickness,
+                                              double width) {
+  LiningSection section =
+      LiningSection::strip(thickness, width, lining.young_modulus, lining.poisson_ratio);
+  section.element = lining.beam;
+  return section;
+}
+
+VOUSSOIR_DESIGN_INLINE AnyMethod method_of(const AnalysisInput& input, LinearSettings linear,
+                                           RangeSought range) {
+  const RunInput& run = input.run;
+  const MotionTuning motion{.threads = linear.threads, .range = range};
+  linear.method = run.linear_solver;
+  switch (run.method) {
+    case MethodKind::two_level: {
+      TwoLevel::Params params;
+      params.linear = linear;
+      params.motion = motion;
+      if (run.max_steps) params.fallback.max_steps = static_cast<int>(*run.max_steps);
+      return AnyMethod(TwoLevel(params));
+    }
+    case MethodKind::relaxation: {
+      Relaxation::Params params;
+      params.linear = linear;
+      params.motion = motion;
+      if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
+      return AnyMethod(Relaxation(params));
+    }
+    case MethodKind::explicit_: {
+      Explicit::Params params;
+      params.linear = linear;
+      params.motion = motion;
+      params.damping = run.damping;
+      params.ramp_steps = run.ramp_steps;
+      if (run.max_steps) params.max_steps = static_cast<int>(*run.max_steps);
+      return AnyMethod(Explicit(params));
+    }
+  }
+  throw std::logic_error("unknown equilibrium method");
+}
+
+#endif
+
+}  // namespace voussoir::design
+
+#ifdef VOUSSOIR_COMPILED
+/// Compiled once, in voussoir::design.
+#ifndef VOUSSOIR_DESIGN_PLANAR_TEMPLATE
+#define VOUSSOIR_DESIGN_PLANAR_TEMPLATE extern template
+#endif
+#ifndef VOUSSOIR_DESIGN_SPATIAL_TEMPLATE
+#define VOUSSOIR_DESIGN_SPATIAL_TEMPLATE extern template
+#endif
+VOUSSOIR_DESIGN_PLANAR_TEMPLATE class voussoir::ComposedSolver<
+    voussoir::design::Tunnel::Parts::Models>;
+VOUSSOIR_DESIGN_SPATIAL_TEMPLATE class voussoir::ComposedSolver<
+    voussoir::design::SpatialTunnel::Parts::Models>;
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+#include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/segment.hpp>
+#include <voussoir/lining/lining_model.hpp>
+#include <voussoir/theory/foot_beam.hpp>
+#include <voussoir/tunnel/lined_part.hpp>
+#include <voussoir/tunnel/ring_nodes.hpp>
+#include <voussoir/tunnel/section_part.hpp>
+
+/// What is built in the ground, as plain data: bolts, linings, and the stages in which they and the
+/// openings come. Axes and units as in `ground_input.hpp`.
+namespace voussoir::design {
+
+enum class AnchorKind { lorig, garga_wang, joint_face };
+enum class BoltKind { axial, axial_shear };
+
+/// Distance between bolts along the wall: an angle at the tunnel centre or a length.
+struct BoltSpacing {
+  double value = 0;       ///< [rad] or [m], > 0
+  bool is_angle = false;  ///< whether `value` is in radians
+};
+
+/// From one angle anticlockwise to another, from the right-hand springing [rad].
+struct ArcInput {
+  double from = 0;
+  double to = 0;  ///< > from, <= from + 2 pi
+};
+
+/// A pattern of bolts.
+struct BoltsInput {
+  std::string name;
+  std::size_t opening = 0;  ///< in which they are: 0 the tunnel, else one behind it
+  /// Each bar of the section from head to tip, in place of length, spacing and arc [m].
+  std::vector<Segment> bars = {};
+  double length = 0;  ///< [m], > 0
+  BoltSpacing spacing;
+  ArcInput arc;             ///< default 0 to pi: the roof
+  double out_of_plane = 1;  ///< distance between bolts along the tunnel [m], 0.01 to 1000
+  /// 3-D: forepoles, which lie at this angle to the axis over the rock ahead [rad], 1 to 45 deg;
+  /// none: bolts at right angles to it.
+  std::optional<double> ahead = {};
+  double diameter = 0.028;     ///< [m], > 0
+  double stiffness = 0;        ///< axial, of one bolt across one joint [N/m], 1e3 to 1e12
+  double shear_stiffness = 0;  ///< of one bolt across one joint, axial_shear only [N/m]
+  double pretension = 0;       ///< [N], 0 to 1e9
+  std::optional<double> yield_force = {};    ///< of one bolt [N], > 0, <= 1e9
+  std::optional<double> rupture_force = {};  ///< of one bolt [N], > 0, <= 1e9
+  AnchorKind anchors = AnchorKind::lorig;
+  double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0
+  BoltKind law = BoltKind::axial;
+};
+
+/// On which the ends of an arc of lining stand.
+struct FeetInput {
+  double width = 0;                     ///< [m], 1e-3 to 10
+  double stiffness = 0;                 ///< bearing pressure over settlement [Pa/m], 1e3 to 1e12
+  std::optional<double> strength = {};  ///< bearing [Pa], 1e3 to 1e12; none: no end to it
+  double friction_angle = 0;            ///< [rad], 0 <= . < pi/2
+  /// A beam along the tunnel on which ribs stand, as wide as the feet; none: the lining stands on
+  /// the rock all along. depth [m], 1e-3 to 10; E [Pa], 1e6 to 1e12; spacing [m], 0.01 to 1000.
+  std::optional<FootBeam> beam = {};
+
+  /// What the beam makes of the feet; nothing without one.
+  [[nodiscard]] FeetOnBeam on_beam() const {
+    return beam ? feet_on_beam(stiffness, *beam) : FeetOnBeam{1, 0};
+  }
+};
+
+/// A stretch of lining, or all of it.
+struct LiningInput {
+  std::string name;
+  std::size_t opening = 0;     ///< as of bolts
+  double thickness = 0;        ///< [m], 1e-3 to 10, less than half the opening's width
+  double young_modulus = 0;    ///< E [Pa], 1e6 to 1e12
+  double poisson_ratio = 0.2;  ///< nu [-], -1 < . < 0.5
+  LiningElement beam = LiningElement::euler_bernoulli;
+  double interface_normal_stiffness = 0;  ///< lining on rock [Pa/m], 1e3 to 1e12
+  double interface_shear_stiffness = 0;   ///< the same [Pa/m], 1e3 to 1e12
+  double interface_friction_angle = 0;    ///< the same [rad], 0 <= . < pi/2
+  /// Bond to the rock until it fails [Pa], 100 to 1e9; 0: none. In tension no more than friction
+  /// makes of the shear bond, c / tan(phi).
+  double shear_bond = 0, tensile_bond = 0;
+  /// On the full ring, 8 to 2000, for a tensile bond no farther apart than
+  /// `coarsest_bonded_spacing`; none: as many as facets, or more where joints are closer or the
+  /// bond needs them.
+  std::optional<int> nodes = {};
+  /// How far behind the outline it fills the holes of dropped pieces [m], 0 to 10.
+  double fill_depth = default_fill_depth;
+  std::optional<ArcInput> arc = {};  ///< none: the full ring
+  /// 3-D: width of a strip along the tunnel [m], 0.01 to 1000; none: 1 m, or a shorter round.
+  std::optional<double> rib_spacing = {};
+  std::optional<LinedPart> part = {};  ///< arc as a word, of which `arc` then has the angles
+  std::optional<FeetInput> feet = {};  ///< of an arc alone
+
+  /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
+  [[nodiscard]] bool bends_on_bond() const {
+    return tensile_bond > 0 && beam != LiningElement::pinned;
+  }
+};
+
+/// One step of the construction.
+struct StageInput {
+  std::string name;
+  std::size_t opening = 0;  ///< in which it works: 0 the tunnel, else one behind it
+  /// What of the section is excavated at the start; none: nothing.
+  std::optional<SectionPart> part = {};
+  std::vector<Vec2> outline = {};  ///< in place of limits: what of the section lies in it [m]
+  bool takes_rest = false;         ///< what rounds before it have left of the section
+  /// 3-D, of a tunnel that is driven in rounds: so many of them behind the face, 0 to 1000.
+  int behind = 0;
+  double wall_traction = 0;  ///< left on the wall at the end / in-situ traction [-], 0 to 1
+  double duration = 0;       ///< for which joints creep at its end [s], >= 0
+  std::vector<std::size_t> bolts = {};    ///< patterns installed at the start of the stage
+  std::vector<std::size_t> linings = {};  ///< the same
+};
+
+}  // namespace voussoir::design
