@@ -20,6 +20,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "lining_strength.hpp"
 #include "output_parts.hpp"
 #include "survey.hpp"
 
@@ -235,12 +236,13 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"mean_over_p0_D_and_spacing",
          e.mean_bolt_force / (centre_stress * diameter * input.bolts.front().out_of_plane)}};
   if (run.tunnel.first_lining_node() >= 0)
-    json["lining"] = {{"strength", not_checked},
-                      {"of_its_strength", nullptr},
-                      {"largest_stress_MPa", 1e-6 * lining_stress(input, run)},
+    json["lining"] = {{"largest_stress_MPa", 1e-6 * lining_stress(input, run)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
+  if (run.tunnel.first_lining_node() >= 0)
+    add_lining_strength(input, lining_utilisations(input, supports_of(input), run.tunnel),
+                        json["lining"]);
   if (run.bonded_nodes > 0) json["lining"]["nodes_chosen_for_the_bond"] = run.bonded_nodes;
   for (const auto& foot : foot_forces(run.tunnel)) {
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
@@ -263,7 +265,10 @@ std::string bolts_csv(const Input& input, const RunResult& run) {
                     bolt_strengths(input, run.tunnel));
 }
 
-std::string lining_csv(const RunResult& run) { return lining_table(lining_forces(run.tunnel)); }
+std::string lining_csv(const Input& input, const RunResult& run) {
+  return lining_table(lining_forces(run.tunnel),
+                      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel)));
+}
 
 std::string blocks_svg(const Input& input, const RunResult& run) {
   TunnelPictureText text;
@@ -318,7 +323,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
   if (has_standing_lining(run.tunnel))
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
-           text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);
+           text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment) +
+           lining_strength_line(input, lining_utilisations(input, supports_of(input), run.tunnel));
   if (run.bonded_nodes > 0)
     out += "         " + std::to_string(run.bonded_nodes) + " nodes on the full ring, " +
            text("%.3g m apart, chosen for the bond\n", run.opening.perimeter() / run.bonded_nodes);

@@ -17,7 +17,7 @@ namespace voussoir::program {
 /// One row per bolt and joint crossed.
 [[nodiscard]] std::string bolts_csv(const Input& input, const RunResult& run);
 /// One row per lining node.
-[[nodiscard]] std::string lining_csv(const RunResult& run);
+[[nodiscard]] std::string lining_csv(const Input& input, const RunResult& run);
 /// The rock around the tunnel with its supports.
 [[nodiscard]] std::string blocks_svg(const Input& input, const RunResult& run);
 
@@ -28,7 +28,7 @@ namespace voussoir::program {
 [[nodiscard]] std::string run_json(const Input& input, const SpatialRunResult& run);
 [[nodiscard]] std::string bolts_csv(const Input& input, const SpatialRunResult& run);
 /// One row per member.
-[[nodiscard]] std::string lining_csv(const SpatialRunResult& run);
+[[nodiscard]] std::string lining_csv(const Input& input, const SpatialRunResult& run);
 /// The tunnel cut open along its axis.
 [[nodiscard]] std::string blocks_svg(const Input& input, const SpatialRunResult& run);
 /// All files for ParaView with their names, `blocks.vtu` among them; `tunnel.vtm` opens them.

@@ -107,7 +107,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
   outputs.add("run.json", run_json(input, run), id);
   outputs.add("bolts.csv", bolts_csv(input, run), id);
-  outputs.add("lining.csv", lining_csv(run), id);
+  outputs.add("lining.csv", lining_csv(input, run), id);
   outputs.add("blocks.svg", blocks_svg(input, run), id);
   if (input.survey) {
     outputs.add("stereonet.svg", stereonet_svg(input), id);

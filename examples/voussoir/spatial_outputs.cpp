@@ -10,6 +10,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "lining_strength.hpp"
 #include "mapped_rock.hpp"
 #include "output_parts.hpp"
 #include "outputs.hpp"
@@ -120,12 +121,13 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force}};
   if (run.tunnel.first_lining_node() >= 0)
-    json["lining"] = {{"strength", not_checked},
-                      {"of_its_strength", nullptr},
-                      {"strip_width_m", strip_width(input)},
+    json["lining"] = {{"strip_width_m", strip_width(input)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
+  if (run.tunnel.first_lining_node() >= 0)
+    add_lining_strength(input, lining_utilisations(input, supports_of(input), run.tunnel),
+                        json["lining"]);
   for (const auto& foot : foot_forces(run.tunnel))
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
                                       {"y_m", foot.place.y()},
@@ -142,7 +144,7 @@ std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
                     bolt_strengths(input, run.tunnel));
 }
 
-std::string lining_csv(const SpatialRunResult& run) {
+std::string lining_csv(const Input&, const SpatialRunResult& run) {
   return lining_table(lining_members(run.tunnel));
 }
 
@@ -224,7 +226,8 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
     out += text("lining   strips %.3g m wide: thrust up to ", strip_width(input)) +
            text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
-           text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment);
+           text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment) +
+           lining_strength_line(input, lining_utilisations(input, supports_of(input), run.tunnel));
   std::string names;
   for (const std::string& name : unchecked_supports(input))
     names += (names.empty() ? "" : ", ") + name;

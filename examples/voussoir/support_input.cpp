@@ -8,6 +8,7 @@
 #include <voussoir/design/openings.hpp>
 
 #include "input_checks.hpp"
+#include "lining_strength.hpp"
 #include "rock_input.hpp"
 
 namespace voussoir::program {
@@ -209,6 +210,9 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   s.quantity("rib_spacing", lining.rib_spacing, dimension::length, rib_spacing_range);
   if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
+  s.optional_table("concrete", [&](Section& table) {
+    read_concrete(table, lining.concrete.emplace(), lining.thickness);
+  });
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     std::optional<double> width, friction;

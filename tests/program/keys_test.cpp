@@ -84,6 +84,7 @@ E = "25 GPa"
 interface = { kn = "1 GPa/m", friction = "35 deg", shear_bond = "1 MPa", tensile_bond = "0.5 MPa" }
 arc = ["0 deg", "180 deg"]
 feet = { stiffness = "2 GPa/m", beam = { depth = "30 cm", E = "30 GPa", spacing = "1 m" } }
+concrete = { fck = "30 MPa" }
 )";
 
 /// A file, and where the paths in it begin.
@@ -107,10 +108,13 @@ std::vector<Base> bases() {
        "dip = \"60 deg\"\ndip_direction = \"130 deg\"\nP32 = \"0.5 m^2/m^3\"\nextent = \"4 m\"\n"
        "strike_extent = \"8 m\"\nK = 100\n" +
        horseshoe + "round_length = \"2 m\"\nrounds = 3\n" +
-       replaced(supports,
-                "feet = { stiffness = \"2 GPa/m\", beam = { depth = \"30 cm\", E = "
-                "\"30 GPa\", spacing = \"1 m\" } }\n",
-                "rib_spacing = \"1 m\"\n") +
+       replaced(replaced(supports,
+                         "feet = { stiffness = \"2 GPa/m\", beam = { depth = \"30 cm\", E = "
+                         "\"30 GPa\", spacing = \"1 m\" } }\n",
+                         "rib_spacing = \"1 m\"\n"),
+                "{ fck = \"30 MPa\" }",
+                "{ fck = \"30 MPa\", bars = [{ diameter = \"8 mm\", spacing = \"15 cm\", depth = "
+                "\"5 cm\" }] }") +
        "[[round]]\nabove = \"-1 m\"\n[[round]]\nbelow = \"-1 m\"\nbehind = 1\n"
        "[picture]\nfrom = \"face\"\n"},
       {replaced(ground + joints,

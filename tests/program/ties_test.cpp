@@ -178,7 +178,7 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   Answer made{{}, run.last().is_from_motion || run.fallen_measure() > 0};
   add_tables("run.json", Json::parse(run_json(input, run)), given.is_mirrored(), made.tables);
   made.tables["bolts.csv"] = bolts_csv(input, run);
-  made.tables["lining.csv"] = lining_csv(run);
+  made.tables["lining.csv"] = lining_csv(input, run);
   // With all digits, as the journal of a sweep has it.
   const TunnelResult row =
       tunnel_in(input, rock_in_situ(input, false, quiet), supports_of(input), quiet);

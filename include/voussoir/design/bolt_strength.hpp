@@ -56,7 +56,9 @@ VOUSSOIR_DESIGN_INLINE std::vector<std::string> unchecked_supports(const Analysi
   if (std::any_of(input.bolts.begin(), input.bolts.end(),
                   [](const BoltsInput& pattern) { return std::isinf(bolt_strength(pattern)); }))
     unchecked.emplace_back("bolts");
-  if (!input.linings.empty()) unchecked.emplace_back("lining");
+  if (std::any_of(input.linings.begin(), input.linings.end(),
+                  [](const LiningInput& lining) { return !lining.concrete; }))
+    unchecked.emplace_back("lining");
   if (std::any_of(input.linings.begin(), input.linings.end(),
                   [](const LiningInput& lining) { return lining.feet && !lining.feet->strength; }))
     unchecked.emplace_back("feet of the lining");

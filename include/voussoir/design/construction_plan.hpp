@@ -54,7 +54,8 @@ struct SupportChoice {
 /// In 3-D: as many as facets; none where they are chosen for a bond.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::optional<int> rib_nodes(const AnalysisInput& input,
                                                                   const LiningInput& lining);
-/// Linings in the order in which stages install them: the number of a lining in tables.
+/// Linings in the order in which they are installed, in rounds along the tunnel once for every
+/// stretch: the number of a lining in forces and tables.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::vector<const LiningInput*> linings_as_installed(
     const AnalysisInput& input, const SupportChoice& supports);
 /// That of the input, or for the first lining what is chosen; 0: it is left out [m].
@@ -100,6 +101,14 @@ VOUSSOIR_DESIGN_INLINE BoltPattern pattern_of(const BoltsInput& bolts, const Bol
 }
 
 namespace detail {
+
+/// The stretch of its opening in which a stage works when the tunnel's face has advanced so often.
+VOUSSOIR_DESIGN_INLINE std::optional<int> stretch_at(const AnalysisInput& input,
+                                                     const StageInput& stage, int face) {
+  const int k = face - stage.behind;
+  if (k < 0 || k >= drive_of(input, stage.opening).count) return std::nullopt;
+  return k;
+}
 
 /// About the centre of the opening.
 VOUSSOIR_DESIGN_INLINE std::vector<Segment> local_bars(const AnalysisInput& input,
@@ -223,10 +232,19 @@ VOUSSOIR_DESIGN_INLINE double thickness_of(const AnalysisInput& input, const Lin
 VOUSSOIR_DESIGN_INLINE std::vector<const LiningInput*> linings_as_installed(
     const AnalysisInput& input, const SupportChoice& supports) {
   std::vector<const LiningInput*> installed;
-  for (const StageInput& stage : input.stages)
+  const auto install = [&](const StageInput& stage) {
     for (const std::size_t k : stage.linings)
       if (thickness_of(input, input.linings[k], supports) > 0)
         installed.push_back(&input.linings[k]);
+  };
+  if (!input.is_spatial() || !input.tunnel.round_length) {
+    for (const StageInput& stage : input.stages)
+      if (is_modelled(input, stage.opening)) install(stage);
+    return installed;
+  }
+  for (int face = 0; face < advance_count(input); ++face)
+    for (const StageInput& stage : input.stages)
+      if (detail::stretch_at(input, stage, face)) install(stage);
   return installed;
 }
 
@@ -407,17 +425,14 @@ VOUSSOIR_DESIGN_INLINE Construction<SpatialTunnel> construction_of(const Analysi
     return construction;
   }
   const int rounds = input.round_count();
-  const auto stretches = [&](const StageInput& entry) {
-    return drive_of(input, entry.opening).count;
-  };
   const int advances = advance_count(input);
   for (int face = 0; face < advances; ++face) {
     auto& stage = construction.add_stage(face < rounds ? "round " + std::to_string(face + 1)
                                                        : "behind the face " +
                                                              std::to_string(face - rounds + 1));
     for (const StageInput& entry : input.stages)
-      if (const int k = face - entry.behind; k >= 0 && k < stretches(entry)) {
-        work.add(entry, k, stage);
+      if (const auto k = detail::stretch_at(input, entry, face)) {
+        work.add(entry, *k, stage);
         stage.duration = std::max(stage.duration, entry.duration);  // they work side by side
       }
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/design/section_capacity.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/lining/lining_model.hpp>
 #include <voussoir/theory/foot_beam.hpp>
@@ -97,6 +98,9 @@ struct LiningInput {
   std::optional<double> rib_spacing = {};
   std::optional<LinedPart> part = {};  ///< arc as a word, of which `arc` then has the angles
   std::optional<FeetInput> feet = {};  ///< of an arc alone
+  /// By which it is checked; thickness and width are those of the lining, areas of bars per metre
+  /// of it [m^2/m]. None: it is not checked.
+  std::optional<ConcreteSection> concrete = {};
 
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {

@@ -122,18 +122,27 @@ class BoltStrengths {
 }
 
 /// One row for every node of all linings in 2-D, these numbered in the order of their installation
-/// and nodes within each. They have no strength: that is not checked.
-[[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining) {
+/// and nodes within each.
+/// @param of_strength  what each node carries of what it can [-]; not a number, or left out: that is
+///                     not checked; infinite: it bears no part of it
+[[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining,
+                                              const std::vector<double>& of_strength = {}) {
   CsvTable table({"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
                   "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength"},
                  8);
   int node = 0, of = -1;
-  for (const LiningForce& at : lining) {
+  for (std::size_t k = 0; k < lining.size(); ++k) {
+    const LiningForce& at = lining[k];
     node = at.lining == of ? node + 1 : 1;
     of = at.lining;
+    const double use =
+        k < of_strength.size() ? of_strength[k] : std::numeric_limits<double>::quiet_NaN();
     table.add_row(of + 1, node, detail::angle_in_degrees(at.position - at.centre), at.position.x(),
                   at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
-                  1e3 * at.convergence, at.is_lost, "-");
+                  1e3 * at.convergence, at.is_lost,
+                  std::isnan(use)   ? std::string("-")
+                  : std::isinf(use) ? std::string("beyond")
+                                    : significant_text(use, 4));
   }
   return table.text();
 }

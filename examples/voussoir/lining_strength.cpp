@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "lining_strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <voussoir/core/units.hpp>
+#include <voussoir/design/bolt_strength.hpp>
+
+#include "output_parts.hpp"
+
+namespace voussoir::program {
+
+namespace {
+
+constexpr Range factor_range{.low = 1, .high = 3};
+
+/// Bars by their diameter and distance: their area per metre of lining.
+void read_bars(Section& s, BarLayer& bars, double thickness) {
+  double diameter = 0, spacing = 0;
+  s.quantity("diameter", diameter, dimension::length, between(1e-3, 0.06), Need::required);
+  s.quantity("spacing", spacing, dimension::length, between(0.01, 2), Need::required);
+  s.quantity("depth", bars.depth, dimension::length, above(0), Need::required);
+  s.quantity("yield", bars.yield_strength, dimension::pressure, between(1e8, 2e9), Need::optional);
+  s.quantity("E", bars.modulus, dimension::pressure, between(5e10, 3e11), Need::optional);
+  s.number("gamma", bars.partial_factor, factor_range, Need::optional);
+  if (s.faulty("diameter") || s.faulty("spacing") || !(spacing > 0)) return;
+  bars.area = 0.25 * std::numbers::pi * diameter * diameter / spacing;
+  if (spacing < diameter)
+    s.complain("spacing", "is less than their diameter", "more than the diameter of the bars");
+  if (!s.faulty("depth") && thickness > 0 && !(bars.depth + 0.5 * diameter < thickness))
+    s.complain("depth", "is outside of the lining",
+               "from its inner face, within " + format_quantity(thickness, dimension::length));
+}
+
+double utilisation_of(const NodeUtilisation& node) { return node.use.value; }
+
+}  // namespace
+
+void read_concrete(Section& s, ConcreteSection& concrete, double thickness) {
+  s.quantity("fck", concrete.strength, dimension::pressure, between(1e6, 90e6), Need::required);
+  s.number("alpha_cc", concrete.long_term_factor, between(0.5, 1), Need::optional);
+  s.number("gamma", concrete.partial_factor, factor_range, Need::optional);
+  s.quantity("fibre_strength", concrete.fibre_strength, dimension::pressure, between(0, 2e7),
+             Need::optional);
+  s.number("gamma_fibre", concrete.fibre_partial_factor, factor_range, Need::optional);
+  s.tables("bars", [&](Section& bars, std::size_t) {
+    read_bars(bars, concrete.bars.emplace_back(), thickness);
+  });
+  s.number("largest_eccentricity", concrete.largest_eccentricity, between(0, 0.5), Need::optional);
+  if (concrete.largest_eccentricity < 0.5 &&
+      (!concrete.bars.empty() || concrete.fibre_strength > 0))
+    s.complain("largest_eccentricity", "is of concrete without bars and fibres",
+               "no such key, or neither bars nor fibre_strength");
+}
+
+void add_lining_strength(const Input& input, const std::vector<NodeUtilisation>& nodes,
+                         nlohmann::json& lining) {
+  const NodeUtilisation* const most = governing(nodes);
+  if (most == nullptr) {
+    lining["strength"] = not_checked;
+    lining["of_its_strength"] = nullptr;
+    return;
+  }
+  const double width = input.is_spatial() ? strip_width(input) : 1.0;
+  lining["strength"] = "thrust and moment by EN 1992-1-1, 6.1";
+  lining["of_its_strength"] = number_json(utilisation_of(*most));
+  lining["bears_it"] = utilisation_of(*most) <= 1;
+  nlohmann::json at = {{"lining", most->lining + 1},
+                       {"angle_deg", most->angle * 180 / std::numbers::pi},
+                       {"place", lining_place(most->angle)},
+                       {"mode", to_string(most->use.mode)},
+                       {"thrust_kN_per_m", 1e-3 * most->load.thrust / width},
+                       {"moment_kNm_per_m", 1e-3 * most->load.moment / width}};
+  if (input.is_spatial()) at["along_m"] = most->along;
+  lining["governing"] = std::move(at);
+}
+
+std::string lining_strength_line(const Input& input, const std::vector<NodeUtilisation>& nodes) {
+  const NodeUtilisation* const most = governing(nodes);
+  if (most == nullptr) return "";
+  const double width = input.is_spatial() ? strip_width(input) : 1.0;
+  const double value = utilisation_of(*most);
+  return "         " +
+         (std::isinf(value) ? std::string("beyond its strength")
+                            : text("%.0f %% of its strength", 100 * value)) +
+         " at the " + lining_place(most->angle) +
+         text(", %.0f deg", most->angle * 180 / std::numbers::pi) +
+         (input.is_spatial() ? text(", %.3g m along", most->along) : std::string()) + ": " +
+         to_string(most->use.mode) + text(", thrust %.0f kN/m", 1e-3 * most->load.thrust / width) +
+         text(", moment %.1f kN m/m\n", 1e-3 * most->load.moment / width);
+}
+
+std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes) {
+  std::vector<double> values;
+  for (const NodeUtilisation& node : nodes) {
+    values.resize(std::max(values.size(), node.node + 1), std::numeric_limits<double>::quiet_NaN());
+    values[node.node] = utilisation_of(node);
+  }
+  return values;
+}
+
+}  // namespace voussoir::program

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+#include <voussoir/design/lining_utilisation.hpp>
+
+#include "input.hpp"
+#include "input_section.hpp"
+
+/// The strength of a lining: its keys, and what is printed of it.
+namespace voussoir::program {
+
+/// [support.lining.concrete]
+/// @param thickness  of the lining, within which bars lie [m]
+void read_concrete(Section& s, ConcreteSection& concrete, double thickness);
+
+/// Of a lining that stands, beside its forces: "strength", "of_its_strength", "governing".
+/// @param nodes  of all linings whose concrete is given
+void add_lining_strength(const Input& input, const std::vector<NodeUtilisation>& nodes,
+                         nlohmann::json& lining);
+/// A line for a terminal; empty: nothing is checked.
+[[nodiscard]] std::string lining_strength_line(const Input& input,
+                                               const std::vector<NodeUtilisation>& nodes);
+/// For every node of a table its utilisation; not a number: it is not checked.
+[[nodiscard]] std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes);
+
+}  // namespace voussoir::program

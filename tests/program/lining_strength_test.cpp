@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// What a lining carries of what it can, from an input file, in 2-D and 3-D.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+#include <voussoir/design/section_capacity.hpp>
+
+#include "run_results.hpp"
+
+namespace lining_strength_test {
+
+using namespace voussoir_test;
+using voussoir::design::ConcreteSection;
+using voussoir::design::SectionCapacity;
+using voussoir::design::SectionForces;
+
+namespace {
+
+constexpr double thickness = 0.15;
+
+std::string tunnel(const std::string& concrete, const std::string& dimension = "") {
+  return replaced(CircleInRock{.length = "2 m"}.text(), "[model]\n", "[model]\n" + dimension) +
+         "[support.lining]\nthickness = \"15 cm\"\nE = \"25 GPa\"\nnodes = 24\n"
+         "interface = { kn = \"5 GPa/m\", friction = \"35 deg\" }\n" +
+         concrete;
+}
+
+const std::string spatial = "dimension = 3\n";
+const std::string plain = "[support.lining.concrete]\nfck = \"25 MPa\"\n";
+const std::string mesh =
+    plain +
+    "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"4 cm\"\n"
+    "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"11 cm\"\n";
+
+/// The columns of a table by their place in its rows.
+std::vector<std::vector<std::string>> cells_of(const std::string& table) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+std::size_t column(const std::vector<std::vector<std::string>>& rows, const char* name) {
+  const auto at = std::find(rows.front().begin(), rows.front().end(), name);
+  REQUIRE(at != rows.front().end());
+  return static_cast<std::size_t>(at - rows.front().begin());
+}
+
+ConcreteSection section(bool has_bars) {
+  ConcreteSection made{.thickness = thickness, .strength = 25e6};
+  const double area = 0.25 * 3.14159265358979323846 * 0.008 * 0.008 / 0.1;
+  if (has_bars) made.bars = {{.area = area, .depth = 0.04}, {.area = area, .depth = 0.11}};
+  return made;
+}
+
+}  // namespace
+
+TEST_SUITE("program/lining_strength") {
+  TEST_CASE("every node of a table has what its thrust and moment come to") {
+    for (const bool has_bars : {false, true}) {
+      const Results run = results_of(tunnel(has_bars ? mesh : plain));
+      REQUIRE(run.json.at("verdict") == "stable");
+      const SectionCapacity capacity(section(has_bars));
+      const auto rows = cells_of(run.files.at("lining.csv"));
+      const std::size_t thrust = column(rows, "thrust_kN_per_m"),
+                        moment = column(rows, "moment_kNm_per_m"),
+                        use = column(rows, "of_its_strength");
+      REQUIRE(rows.size() == 25);
+      double most = 0;
+      for (std::size_t k = 1; k < rows.size(); ++k) {
+        const double expected =
+            capacity
+                .utilisation({1e3 * std::stod(rows[k][thrust]), 1e3 * std::stod(rows[k][moment])})
+                .value;
+        // Eight digits of forces, four of the result.
+        CHECK(std::abs(std::stod(rows[k][use]) / expected - 1) < 1e-3);
+        most = std::max(most, expected);
+      }
+      const auto& lining = run.json.at("lining");
+      CHECK(std::abs(lining.at("of_its_strength").get<double>() / most - 1) < 1e-5);
+      CHECK(lining.at("bears_it") == (most <= 1));
+      const auto& at = lining.at("governing");
+      const SectionForces load{1e3 * at.at("thrust_kN_per_m").get<double>(),
+                               1e3 * at.at("moment_kNm_per_m").get<double>()};
+      CHECK(std::abs(capacity.utilisation(load).value / most - 1) < 1e-5);
+      CHECK(run.outcome.out.find("% of its strength at the " + at.at("place").get<std::string>()) !=
+            std::string::npos);
+      CHECK(run.outcome.out.find("strength lining") == std::string::npos);
+    }
+  }
+
+  TEST_CASE("joints along the tunnel: in 3-D the lining has of its strength what it has in 2-D") {
+    const Results flat = results_of(tunnel(mesh)), deep = results_of(tunnel(mesh, spatial));
+    const double one = flat.json.at("lining").at("of_its_strength").get<double>(),
+                 other = deep.json.at("lining").at("of_its_strength").get<double>();
+    // Strips are beams, a ring in plane strain is none: thrusts agree to 3 %, moments less so.
+    CHECK(std::abs(other / one - 1) < 0.1);
+    CHECK(deep.json.at("lining").at("governing").contains("along_m"));
+    CHECK(deep.outcome.out.find("m along: ") != std::string::npos);
+  }
+
+  TEST_CASE("stronger concrete, bars and fibres leave less; forces stay as they are") {
+    const auto share = [](const std::string& concrete) {
+      return results_of(tunnel(concrete)).json.at("lining");
+    };
+    const auto weak = share("[support.lining.concrete]\nfck = \"15 MPa\"\n"),
+               strong = share("[support.lining.concrete]\nfck = \"45 MPa\"\n"),
+               unchecked = share("");
+    CHECK(weak.at("of_its_strength").get<double>() > strong.at("of_its_strength").get<double>());
+    CHECK(weak.at("largest_thrust_kN_per_m") == strong.at("largest_thrust_kN_per_m"));
+    CHECK(unchecked.at("largest_thrust_kN_per_m") == strong.at("largest_thrust_kN_per_m"));
+    CHECK(unchecked.at("of_its_strength").is_null());
+    CHECK_FALSE(unchecked.contains("governing"));
+    // No part of a moment without thrust is borne by plain concrete.
+    const auto none =
+        share("[support.lining.concrete]\nfck = \"15 MPa\"\nlargest_eccentricity = 0\n");
+    CHECK(none.at("of_its_strength").is_null());
+    CHECK(none.at("bears_it") == false);
+  }
+
+  TEST_CASE("bad input is named with its place") {
+    const auto refused = [](const std::string& concrete, const std::vector<std::string>& parts) {
+      const Folder folder;
+      const Outcome outcome =
+          run_program({"check", write_file(folder / "case.toml", tunnel(concrete))});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      for (const std::string& part : parts) CHECK(outcome.err.find(part) != std::string::npos);
+    };
+    refused("[support.lining.concrete]\n", {"support.lining.concrete", "fck"});
+    refused("[support.lining.concrete]\nfck = 25\n", {"fck", "unit"});
+    refused("[support.lining.concrete]\nfck = \"250 MPa\"\n", {"fck", "90 MPa"});
+    refused(replaced(mesh, "depth = \"11 cm\"", "depth = \"16 cm\""),
+            {"bars[1].depth", "outside of the lining", "150 mm"});
+    refused(replaced(mesh, "spacing = \"10 cm\"\ndepth = \"4 cm\"",
+                     "spacing = \"5 mm\"\ndepth = \"4 cm\""),
+            {"bars[0].spacing"});
+    refused(replaced(mesh, "fck = \"25 MPa\"\n", "fck = \"25 MPa\"\nlargest_eccentricity = 0.3\n"),
+            {"largest_eccentricity", "without bars and fibres"});
+  }
+}
+
+}  // namespace lining_strength_test
