@@ -154,7 +154,7 @@ TEST_SUITE("program/bad_input") {
     CAPTURE(outcome.err);
     CHECK(outcome.status == 2);
     CHECK(outcome.err.find("moduli of the rock cannot be measured") != std::string::npos);
-    CHECK(outcome.err.find("boundary.E and boundary.nu") != std::string::npos);
+    CHECK(outcome.err.find("accepted: E and nu of the ground beyond") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
   }
 

@@ -225,7 +225,7 @@ TEST_SUITE("program/openings") {
                                  round_of("drift") + "[[round]]\nexcavate = \"nothing\"\n" + lined);
     for (const Results* run : {&whole, &before, &after}) CHECK(run->json.at("verdict") == "stable");
     CHECK(members(before) < members(whole));
-    CHECK(members(before) == members(after));
+    CHECK(members(after) < members(whole));
     // A lining that bears the excavation of the drift alone carries less than one from the start.
     const auto thrust = [](const Results& run) {
       return run.json.at("lining").at("largest_thrust_kN_per_m").get<double>();
