@@ -239,7 +239,8 @@ TEST_SUITE("program/survey") {
     };
     CHECK(faults_of(sets, planes) == "");
     refused(sets, head + "A,95,100\n", {"joints.orientations", ":2", "95", "85"});
-    refused(sets, "Set,Dip,Strike\nA,30,10\n", {"joints.orientations", "strike"});
+    refused(sets, "Set,Dip,Strike\nA,30,10\n",
+            {"joints.orientations", "strike", "joints.strike = \"right-hand\""});
     refused(sets, "Set,Dip\nA,30\n", {"joints.orientations"});
     refused(sets, "Set,Dip,Dip,Dip direction\nA,30,30,100\n", {"joints.orientations"});
     refused(sets, "", {"joints.orientations"});
@@ -257,6 +258,34 @@ TEST_SUITE("program/survey") {
     refused(model + two_sets + "[joints]\ndeclination = \"3 deg\"\n", planes,
             {"joints.file", "joints.declination"});
     refused(sets, "dip,dip direction\n30,100\n32,103\n29,98\n", {"names no sets"});
+  }
+
+  TEST_CASE("a survey without sets tells where its poles gather, and is drawn beside given dips") {
+    std::string table = "No,Dip,Dip direction\n";
+    for (const char* row :
+         {"31,99", "75,280", "33,104", "70,285", "28,95", "78,276", "30,100", "74,281"})
+      table += "1," + std::string(row) + "\n";
+    const std::string sets = model + two_sets + of_survey, said = faults_of(sets, table);
+    CAPTURE(said);
+    for (const char* words :
+         {"joints.orientations", "names no sets", "columns that are not read: No",
+          "a column set in the file", "dip, dip_direction and K in every [[joint_set]]",
+          "the poles gather about ", "/100 (4 planes)", "/280 (4 planes)"})
+      CHECK(said.find(words) != std::string::npos);
+    // One set that wants the mean of all of them is refused as well.
+    const std::string one = model + "[[joint_set]]\nspacing = \"1.6 m\"\n" + of_survey;
+    CHECK(faults_of(one, table).find("do not look like one set") != std::string::npos);
+    CHECK(faults_of(one, table).find("the poles gather about ") != std::string::npos);
+    const std::vector<std::string> dips{
+        "joint_set[0].dip=31 deg", "joint_set[0].dip_direction=100 deg", "joint_set[0].K=200",
+        "joint_set[1].dip=74 deg", "joint_set[1].dip_direction=281 deg", "joint_set[1].K=150"};
+    const Input given = input_of(sets, table, dips);
+    REQUIRE(given.survey);
+    CHECK(given.survey->fits.empty());
+    CHECK(given.survey->left_out.empty());
+    CHECK(given.joint_sets[1].fisher == 150.0);
+    CHECK(survey_lines(given).find("drawn, no mean and K fitted") != std::string::npos);
+    CHECK(stereonet_svg(given).find("8 poles") != std::string::npos);
   }
 
   TEST_CASE("an outline as it is drawn: in millimetres, metres, on the site grid") {
