@@ -39,4 +39,10 @@ struct DrawnOutline {
 /// @param holds_centre  it must contain (0, 0)
 [[nodiscard]] std::string outline_fault(const std::vector<Point>& points, bool holds_centre = true);
 
+/// Whether an outline has a level side on top and an arch below: a horseshoe on its head, as a
+/// drawing in which y counts downwards shows it. One with a curved floor, or level on both sides,
+/// does not tell.
+/// @param points  anticlockwise, simple
+[[nodiscard]] bool is_flat_above_an_arch(const std::vector<Point>& points);
+
 }  // namespace voussoir::program

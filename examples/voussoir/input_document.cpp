@@ -132,6 +132,26 @@ std::optional<Stray> find_stray(std::string_view text) {
   return std::nullopt;
 }
 
+/// Whether a line has a quote that it does not close; what follows # outside of quotes is a
+/// comment.
+bool is_cut_text(std::string_view line) {
+  bool is_open = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '#' && !is_open) return false;
+    if (line[k] == '"' && (k == 0 || line[k - 1] != '\\')) is_open = !is_open;
+  }
+  return is_open;
+}
+
+/// Whether a bare value is a number with a comma: K0 = 0,8.
+bool has_decimal_comma(std::string_view line) {
+  const std::size_t value = line.find_first_not_of(" \t", line.find('=') + 1);
+  if (line.find('=') == std::string_view::npos || value == std::string_view::npos) return false;
+  const std::size_t sign = line.find_first_not_of("0123456789", value);
+  return sign != std::string_view::npos && sign > value && line[sign] == ',' &&
+         sign + 1 < line.size() && line[sign + 1] >= '0' && line[sign + 1] <= '9';
+}
+
 Place place_of(const toml::source_region& region) {
   Place place;
   place.line = static_cast<int>(region.begin.line);
@@ -582,7 +602,14 @@ Document read_document(std::string_view text, const std::string& name,
     const std::string& line = refusal.source_line;
     if (refusal.message.find("cannot redefine") != std::string::npos) {
       refusal.message += ": it is given twice";
-      refusal.accepted = "each key and each table once; only [[joint_set]] and [[stage]] repeat";
+      refusal.accepted =
+          "each key and each table once; lists of tables, in double brackets, repeat: "
+          "[[joint_set]], [[round]], [[stage]], [[opening]], [[support.bolts]], [[support.lining]]";
+    } else if (is_cut_text(line)) {
+      refusal.message = "a text has no closing quote in its line";
+      refusal.accepted = R"(a pair of quotes, such as width = "70 m")";
+    } else if (has_decimal_comma(line)) {
+      refusal.accepted = "a decimal point, such as K0 = 0.8";
     } else if (line.find('=') != std::string::npos && line.find('"') == std::string::npos) {
       refusal.accepted = R"(texts and quantities stand in quotes, such as width = "70 m")";
     } else {

@@ -12,6 +12,7 @@
 #include <voussoir/design/joint_sets.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
+#include "drawn_outline.hpp"
 #include "joint_laws.hpp"
 
 namespace voussoir::program {
@@ -285,6 +286,25 @@ void look_at_run(const Input& input, Look& look) {
     look.beside_opening("run.contact_update_limit", run.contact_update_limit, span, {1e-5, 0.009});
 }
 
+/// Outlines that stand on their head. It is said, and nothing is turned: some are meant so.
+void look_for_arches_below(const Input& input, std::vector<std::string>& found) {
+  const auto look = [&](const std::string& table, const OutlineInput& outline) {
+    if (outline.shape != TunnelShape::polygon || !is_flat_above_an_arch(outline.vertices)) return;
+    const bool is_drawn = !outline.drawn.empty();
+    found.push_back(table + (is_drawn ? "file" : "vertices") +
+                    " has its flat side on top and its arch below, as where y counts downwards; it "
+                    "is read upwards: unless it is meant so, " +
+                    (is_drawn ? "mirror it about a level line in the drawing"
+                              : "change the sign of every second coordinate"));
+  };
+  look("tunnel.", input.tunnel);
+  for (std::size_t k = 0; k < input.openings.size(); ++k) {
+    // The outline of a shaft is a plan, which has no top.
+    const double plunge = input.openings[k].plunge.value_or(0);
+    if (std::abs(plunge) <= 45 * degree) look(entry("opening", k) + ".", input.openings[k]);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unusual_values(const Input& input) {
@@ -316,6 +336,7 @@ std::vector<std::string> unusual_values(const Input& input) {
   }
   look_at_run(input, look);
   std::vector<std::string> found = std::move(look).found();
+  if (!input.laid) look_for_arches_below(input, found);
   for (std::size_t k = 0; k < input.joint_sets.size() && !input.laid; ++k) {
     const JointSetInput& set = input.joint_sets[k];
     if (!std::isfinite(set.extent) || (input.is_spatial() && !is_of_section(input, set))) continue;

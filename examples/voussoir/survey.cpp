@@ -7,12 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/mass_picture.hpp>
 #include <voussoir/io/operating_system.hpp>
 #include <voussoir/io/stereonet_picture.hpp>
+#include <voussoir/rockmass/orientation.hpp>
 #include <voussoir/rockmass/orientation_file.hpp>
 #include <voussoir/rockmass/orientation_sets.hpp>
 
@@ -43,6 +46,40 @@ std::optional<std::size_t> set_named(const SurveyInput& survey, const std::strin
     if (lower_case(name) == own || lower_case(name) == "set " + own) return k;
   }
   return std::nullopt;
+}
+
+/// Where poles gather, for someone whose survey tells of no sets: "34/204 (41 planes)". Densest
+/// places first, each with the planes about it, which are no part of the next.
+std::string gatherings(std::span<const SurveyedPlane> planes) {
+  constexpr std::size_t most = 5, looked_at = 1000;
+  constexpr double sharpness = 29;  // of the density, as in the stereonet
+  const double cosine = std::cos(30 * degree);
+  std::vector<Vec3> normals;
+  const std::size_t stride = 1 + planes.size() / looked_at;
+  for (std::size_t k = 0; k < planes.size(); k += stride)
+    normals.push_back(upward_normal(planes[k].plane));
+  const std::size_t least = std::max<std::size_t>(3, normals.size() / 12);
+  std::string text;
+  for (std::size_t found = 0; found < most && normals.size() >= least; ++found) {
+    Vec3 middle = normals[0];
+    double densest = 0;
+    for (const Vec3& at : normals) {
+      double density = 0;
+      for (const Vec3& other : normals)
+        density += std::exp(sharpness * (std::abs(at.dot(other)) - 1));
+      if (density > densest) densest = density, middle = at;
+    }
+    const auto others = std::partition(normals.begin(), normals.end(), [&](const Vec3& normal) {
+      return std::abs(normal.dot(middle)) >= cosine;
+    });
+    const auto count = static_cast<std::size_t>(others - normals.begin());
+    if (count < least) break;
+    text += (text.empty() ? "" : ", ") +
+            orientation_text(mean_orientation(std::span(normals.data(), count))) + " (" +
+            std::to_string(count * stride) + " planes)";
+    normals.erase(normals.begin(), others);
+  }
+  return text;
 }
 
 /// What a joint set takes from the survey; nothing where it cannot, which is noted.
@@ -95,12 +132,10 @@ void read_survey(Section& file, Input& input) {
   if (!input.survey || file.faulty("joints") || file.faulty("joint_set")) return;
   SurveyInput& survey = *input.survey;
   survey.name = utf8_text(survey.file);
-  const auto refuse = [&](const std::string& why) {
-    file.complain(key, why,
-                  "the name of a table of dips and dip directions, relative to the input file");
-  };
   std::ifstream in;
-  if (const std::string fault = open_regular(survey.file, in); !fault.empty()) return refuse(fault);
+  if (const std::string fault = open_regular(survey.file, in); !fault.empty())
+    return file.complain(
+        key, fault, "the name of a table of dips and dip directions, relative to the input file");
   try {
     OrientationFileLimits limits;
     limits.strike_is_right_handed = survey.strike_is_right_handed;
@@ -113,18 +148,41 @@ void read_survey(Section& file, Input& input) {
     survey.layout = std::move(read.layout);
     survey.notes = std::move(read.notes);
     survey.has_one_set = survey.set_names.empty();
-    survey.fits = fitted_sets(survey.planes, survey.set_names);
   } catch (const InvalidInput& fault) {
-    return refuse(std::string("cannot be used: ") + fault.what());
+    const std::string why = fault.what();
+    const bool lacks_rule = why.find("strike without rule") != std::string::npos;
+    return file.complain(key, "cannot be used: " + why,
+                         std::string("a table as under \"Orientations\" in docs/input.md") +
+                             (lacks_rule ? "; joints.strike = \"right-hand\" where every dip is to "
+                                           "the right of its strike"
+                                         : ""));
   }
   int wanting = 0;
   for (const JointSetFile& set : input.set_files) wanting += set.wants_survey;
+  const auto refuse_as_no_sets = [&](const std::string& why) {
+    std::string said = why;
+    for (const std::string& note : survey.notes)
+      if (note.starts_with("columns that are not read")) said += "; " + note;
+    const std::string found = gatherings(survey.planes);
+    file.complain(key, said,
+                  "a column set in the file, with the name of a [[joint_set]] for each plane; or "
+                  "dip, dip_direction and K in every [[joint_set]]" +
+                      (found.empty() ? std::string() : ": the poles gather about " + found));
+  };
   if (survey.has_one_set && wanting > 1)
-    return file.complain(key, "names no sets, and more than one [[joint_set]] has no dip",
-                         "a column set in the file, or dip and dip_direction of all but one");
+    return refuse_as_no_sets("names no sets, and more than one [[joint_set]] has no dip");
+  try {
+    survey.fits = fitted_sets(survey.planes, survey.set_names);
+  } catch (const InvalidInput& fault) {
+    if (!survey.has_one_set || wanting > 0)
+      return refuse_as_no_sets(std::string("cannot be used: ") + fault.what());
+    survey.notes.emplace_back(
+        "no set column, and the planes are no one set: drawn, no mean and K fitted to them");
+  }
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
     if (input.set_files[k].wants_survey) take(file, input, k);
-  for (std::size_t k = 0; k < survey.fits.size(); ++k)
+  // Planes without a set column stand beside sets that have their own dips: nothing is left out.
+  for (std::size_t k = 0; k < survey.fits.size() && !(survey.has_one_set && wanting == 0); ++k)
     if (std::none_of(input.set_files.begin(), input.set_files.end(),
                      [&](const JointSetFile& set) { return set.surveyed == static_cast<int>(k); }))
       survey.left_out.push_back(survey.fits[k].name);

@@ -82,6 +82,11 @@ spacing = "2 m"
 )";
 
 constexpr std::string_view surveyed_joints = R"(
+# Of a table of compass readings beside this file: the key below, and neither dip, dip_direction nor
+# K in the sets whose names are in its set column.
+#[joints]
+#orientations = "joints.csv"
+
 [[joint_set]]             # dip and dip direction as a compass reads them
 name = "bedding"
 dip = "20 deg"
@@ -164,10 +169,13 @@ below_invert = "8 m"
 seed = 1
 
 [tunnel]
+cover = "10 m"            # of the model; what is above it is stress.surcharge
 shape = "horseshoe"
 width = "7 m"
 wall_height = "3 m"
-cover = "10 m"            # of the model; what is above it is stress.surcharge
+#shape = "polygon"        # from a drawing, in place of the three lines above; with model.origin,
+#file = "section.dxf"     # the site coordinates of the tunnel's centre, ["512300 m", "148 m"]
+#layer = "PROFILE"
 trend = "40 deg"          # looking along the tunnel, clockwise from North
 round_length = "2 m"      # driven in rounds
 rounds = 5                # rock is left ahead of the last face
@@ -190,6 +198,17 @@ name = "bolts"
 excavate = "nothing"
 install = ["bolts"]
 behind = 1                # rounds behind the face
+
+# A lining that follows the bolts:
+#[support.lining]
+#thickness = "10 cm"
+#E = "15 GPa"
+#interface = { kn = "5 GPa/m", friction = "35 deg" }  # between rock and lining
+#[[round]]
+#name = "shotcrete"
+#excavate = "nothing"
+#install = ["lining"]
+#behind = 2
 )";
 
 std::string joined(std::string_view title, std::initializer_list<std::string_view> parts) {
@@ -208,7 +227,7 @@ const std::vector<Template>& templates() {
       {"d-shape", "a mine drift, its outline by points, with bolts"},
       {"cavern", "a cavern of 18 m by 20 m, its outline by points, with bolts and shotcrete"},
       {"staged", "a horseshoe in heading and bench, supported in steps"},
-      {"3d", "a tunnel in 3-D, joints as surveyed, driven in rounds"},
+      {"3d", "a tunnel in 3-D, driven in rounds; with the lines for a survey and a drawing"},
   };
   return all;
 }

@@ -11,6 +11,8 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/geometry/line_clip.hpp>
 #include <voussoir/io/mass_picture.hpp>
+#include <voussoir/rockmass/carving.hpp>
+#include <voussoir/tunnel/opening.hpp>
 
 #include "io/xml_check.hpp"
 #include "support/jointed_mass.hpp"
@@ -182,6 +184,45 @@ TEST_SUITE("io/mass_picture") {
     const double shadow =
         size.y() * size.z() * t.x() + size.x() * size.z() * t.y() + size.x() * size.y() * t.z();
     CHECK(std::abs(area / shadow - 1) < 1e-12);
+  }
+
+  TEST_CASE("rock around an opening shows the edges of its blocks, not of the parts they are of") {
+    const AxonometricView view(180 * degree, 0);  // along the axis: at true size
+    const SimplePolygon outline = circular_opening(3, 24);
+    double wall = 0;
+    for (std::size_t k = 0; k < outline.vertices().size(); ++k)
+      wall +=
+          (outline.vertices()[(k + 1) % outline.vertices().size()] - outline.vertices()[k]).norm();
+    const auto rim_of = [&](const RockMass<Spatial>& mass) {
+      const detail::MassScene scene{std::vector<bool>(mass.bodies.size(), true), 0};
+      double length = 0;
+      for (const auto& face : detail::visible_faces(mass, scene, view))
+        for (const auto& [a, b] : face.rim) length += (b - a).norm();
+      return length;
+    };
+    const Domain<3> box{{-4, -3, -3}, {3, 4, 3}};
+    const RockMass<Spatial> whole =
+        carve(slice<Spatial>(box, std::vector<JointOf<3>>{}, {}), PrismaticOpening(outline), 0);
+    REQUIRE(whole.bodies.size() == 1);
+    REQUIRE(whole.bodies[0].parts.size() > 20);
+    CHECK(std::abs(rim_of(whole) - (26 + wall)) < 1e-6);
+    // A level joint: both blocks show the two stretches of it that are in rock.
+    const double height = 0.3;
+    double low = 0, high = 0;
+    for (std::size_t k = 0; k < outline.vertices().size(); ++k) {
+      const Vec2 &a = outline.vertices()[k],
+                 &b = outline.vertices()[(k + 1) % outline.vertices().size()];
+      if ((a.y() < height) == (b.y() < height)) continue;
+      const double x = a.x() + (b.x() - a.x()) * (height - a.y()) / (b.y() - a.y());
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    const std::vector<JointOf<3>> joint{
+        SpatialJoint{joint_disc(Vec3(0, 0, height), Vec3::UnitZ(), 50), 0}};
+    const RockMass<Spatial> halves =
+        carve(slice<Spatial>(box, joint, {}), PrismaticOpening(outline), 0);
+    REQUIRE(halves.bodies.size() == 2);
+    CHECK(std::abs(rim_of(halves) - (26 + wall + 2 * (7 - (high - low)))) < 1e-6);
   }
 
   TEST_CASE("the page is well-formed and names every set with its dip and dip direction") {

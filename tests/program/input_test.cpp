@@ -880,12 +880,12 @@ TEST_SUITE("program/input") {
   TEST_CASE("what is no TOML is refused in the same form") {
     check_refused({
         {"kn = \"5 GPa/m\"\n", "kn = \"5 GPa/m\"\nkn = \"6 GPa/m\"\n", 20, "'kn'", "once"},
-        {"[rock]\n", "[model]\n", 9, "'model'", "once"},
+        {"[rock]\n", "[model]\n", 9, "'model'", "[[round]]"},
         {"width = \"70 m\"", "width = 70 m", 3, "saw 'm'", "stand in quotes"},
-        {"K0 = 1", "K0 = 1,5", 12, "saw ','", "quotes"},
+        {"K0 = 1", "K0 = 1,5", 12, "saw ','", "a decimal point"},
         {"K0 = 1", "K0 =", 12, "expected value", ""},
         {"[stress]", "[stress", 11, "expected ']'", ""},
-        {"width = \"70 m\"", "width = \"70 m", 3, "string", "TOML"},
+        {"width = \"70 m\"", "width = \"70 m", 3, "no closing quote", "a pair of quotes"},
         {"K0 = 1", "K0 = \u201c1\u201d", 12, "`\u201c` outside of quotes", "plain quotes"},
         {"K0 = 1", "K0 = 9\"1\"", 12, "a quote where none can be", "key ="},
         {"[stress]", "[=]", 11, "saw '='", ""},

@@ -5,7 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -16,7 +18,9 @@
 #include "drawn_outline.hpp"
 #include "harness.hpp"
 #include "input.hpp"
+#include "plausibility.hpp"
 #include "run_results.hpp"
+#include "support/near.hpp"
 
 namespace survey_test {
 
@@ -137,6 +141,27 @@ std::string square(double side, double x, double y, const std::string& unit) {
          line(x - h, y + h, x + h, y + h, "WALL") + line(x - h, y + h, x - h, y - h, "WALL") +
          line(x, y, x + h, y, "AXIS") + dxf({{0, "ENDSEC"}, {0, "EOF"}});
 }
+/// Walls, a floor and an arch of 4 m span: its floor below for `upwards` 1, above for -1.
+/// @param rise  of the arch, an ellipse, over half its span
+/// @return  anticlockwise
+std::vector<Point> horseshoe(int chords, double rise, double wall, double upwards) {
+  std::vector<Point> points{{-2, -wall}, {2, -wall}};
+  for (int k = 0; k <= chords; ++k) {
+    const double angle = 180.0 * k / chords * degree;
+    points.push_back({2 * std::cos(angle), 2 * rise * std::sin(angle)});
+  }
+  for (Point& p : points) p[1] *= upwards;
+  if (upwards < 0) std::reverse(points.begin(), points.end());
+  return points;
+}
+std::string outline_drawing(const std::vector<Point>& points) {
+  std::string lines;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point &a = points[k], &b = points[(k + 1) % points.size()];
+    lines += line(a[0], a[1], b[0], b[1], "WALL");
+  }
+  return dxf({{0, "SECTION"}, {2, "ENTITIES"}}) + lines + dxf({{0, "ENDSEC"}, {0, "EOF"}});
+}
 const std::string drawn = R"(
 shape = "polygon"
 file = "section.dxf"
@@ -214,7 +239,8 @@ TEST_SUITE("program/survey") {
     };
     CHECK(faults_of(sets, planes) == "");
     refused(sets, head + "A,95,100\n", {"joints.orientations", ":2", "95", "85"});
-    refused(sets, "Set,Dip,Strike\nA,30,10\n", {"joints.orientations", "strike"});
+    refused(sets, "Set,Dip,Strike\nA,30,10\n",
+            {"joints.orientations", "strike", "joints.strike = \"right-hand\""});
     refused(sets, "Set,Dip\nA,30\n", {"joints.orientations"});
     refused(sets, "Set,Dip,Dip,Dip direction\nA,30,30,100\n", {"joints.orientations"});
     refused(sets, "", {"joints.orientations"});
@@ -232,6 +258,34 @@ TEST_SUITE("program/survey") {
     refused(model + two_sets + "[joints]\ndeclination = \"3 deg\"\n", planes,
             {"joints.file", "joints.declination"});
     refused(sets, "dip,dip direction\n30,100\n32,103\n29,98\n", {"names no sets"});
+  }
+
+  TEST_CASE("a survey without sets tells where its poles gather, and is drawn beside given dips") {
+    std::string table = "No,Dip,Dip direction\n";
+    for (const char* row :
+         {"31,99", "75,280", "33,104", "70,285", "28,95", "78,276", "30,100", "74,281"})
+      table += "1," + std::string(row) + "\n";
+    const std::string sets = model + two_sets + of_survey, said = faults_of(sets, table);
+    CAPTURE(said);
+    for (const char* words :
+         {"joints.orientations", "names no sets", "columns that are not read: No",
+          "a column set in the file", "dip, dip_direction and K in every [[joint_set]]",
+          "the poles gather about ", "/100 (4 planes)", "/280 (4 planes)"})
+      CHECK(said.find(words) != std::string::npos);
+    // One set that wants the mean of all of them is refused as well.
+    const std::string one = model + "[[joint_set]]\nspacing = \"1.6 m\"\n" + of_survey;
+    CHECK(faults_of(one, table).find("do not look like one set") != std::string::npos);
+    CHECK(faults_of(one, table).find("the poles gather about ") != std::string::npos);
+    const std::vector<std::string> dips{
+        "joint_set[0].dip=31 deg", "joint_set[0].dip_direction=100 deg", "joint_set[0].K=200",
+        "joint_set[1].dip=74 deg", "joint_set[1].dip_direction=281 deg", "joint_set[1].K=150"};
+    const Input given = input_of(sets, table, dips);
+    REQUIRE(given.survey);
+    CHECK(given.survey->fits.empty());
+    CHECK(given.survey->left_out.empty());
+    CHECK(given.joint_sets[1].fisher == 150.0);
+    CHECK(survey_lines(given).find("drawn, no mean and K fitted") != std::string::npos);
+    CHECK(stereonet_svg(given).find("8 poles") != std::string::npos);
   }
 
   TEST_CASE("an outline as it is drawn: in millimetres, metres, on the site grid") {
@@ -343,6 +397,70 @@ TEST_SUITE("program/survey") {
           std::string::npos);
   }
 
+  TEST_CASE("an outline on its head is known by its level side over an arch") {
+    for (const int chords : {4, 12, 37, 180})
+      for (const double rise : {0.2, 0.5, 1.0})  // of the arch over half its span
+        for (const double wall : {0.2, 2.0}) {
+          CAPTURE(chords);
+          CAPTURE(rise);
+          CAPTURE(wall);
+          CHECK_FALSE(is_flat_above_an_arch(horseshoe(chords, rise, wall, 1)));
+          CHECK(is_flat_above_an_arch(horseshoe(chords, rise, wall, -1)));
+        }
+    // A floor that falls by 3 % to one side.
+    auto sloping = horseshoe(36, 1, 2, -1);
+    for (auto& p : sloping)
+      if (p[1] > 1.9) p[1] += 0.03 * p[0];
+    CHECK(is_flat_above_an_arch(sloping));
+    // Level on both sides, or on neither; a drain, and an uneven floor under a level roof.
+    const auto is_said = [](std::vector<Point> points) { return is_flat_above_an_arch(points); };
+    CHECK_FALSE(is_said({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}));
+    CHECK_FALSE(is_said({{-1, -2}, {1, -2}, {2, 2}, {-2, 2}}));
+    CHECK_FALSE(is_said(
+        {{-2, -1.5}, {1.5, -1.5}, {1.5, -2}, {1.9, -2}, {1.9, -1.5}, {2, -1.5}, {2, 2}, {-2, 2}}));
+    CHECK_FALSE(is_said({{-2, -1.8}, {-1, -2}, {0, -1.8}, {1, -2}, {2, -1.8}, {2, 2}, {-2, 2}}));
+    std::vector<Point> round;
+    for (int k = 0; k < 72; ++k)
+      round.push_back({3 * std::cos(5 * k * degree), 3 * std::sin(5 * k * degree)});
+    CHECK_FALSE(is_said(round));
+  }
+
+  TEST_CASE("an outline on its head is named by check and run, and stays as it was drawn") {
+    const auto checked = [](double upwards, const std::vector<std::string>& more) {
+      const Folder folder;
+      (void)write_file(folder / "survey.csv", planes);
+      (void)write_file(folder / "section.dxf", outline_drawing(horseshoe(12, 1, 1.5, upwards)));
+      std::vector<std::string> arguments{"check", write_file(folder / "case.toml", with_drawing())};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome outcome = run_program(arguments);
+      CHECK(outcome.status == 0);
+      return outcome.out;
+    };
+    const std::string warned =
+        "warning  tunnel.file has its flat side on top and its arch below, as where y counts "
+        "downwards; it is read upwards: unless it is meant so, mirror it about a level line in the "
+        "drawing";
+    for (const char* dimension : {"model.dimension=2", "model.dimension=3"}) {
+      CHECK(checked(-1, {"--set", dimension}).find(warned) != std::string::npos);
+      CHECK(checked(1, {"--set", dimension}).find("flat side") == std::string::npos);
+    }
+    const auto read = [](double upwards) {
+      std::string points;
+      for (const Point& p : horseshoe(12, 1, 1.5, upwards))
+        points += "[\"" + voussoir::shortest_text(p[0]) + " m\", \"" +
+                  voussoir::shortest_text(p[1]) + " m\"], ";
+      return read_input_text(replaced(model, "shape = \"circle\"\ndiameter = \"4 m\"",
+                                      "shape = \"polygon\"\nvertices = [" + points + "]"),
+                             "case.toml", ".");
+    };
+    const Input turned = read(-1);
+    CHECK(turned.tunnel.crown() == near(1.5));
+    CHECK(turned.tunnel.invert() == near(-2.0));
+    REQUIRE(unusual_values(turned).size() == 1);
+    CHECK(unusual_values(turned)[0].starts_with("tunnel.vertices has its flat side on top"));
+    CHECK(unusual_values(read(1)).empty());
+  }
+
   TEST_CASE("drawings that are no outline are refused, with what to do") {
     const auto said = [](const std::string& drawing,
                          const std::vector<std::string>& overrides = {}) {
@@ -362,7 +480,33 @@ TEST_SUITE("program/survey") {
     };
     has(said(square(4, 50, 0, "6")),
         {"tunnel.file", "does not contain", "model.origin = [\"50 m\""});
+    const std::string place = "model.origin=[\"512300 m\", \"148 m\"]";
+    // In millimetres, which the drawing does not say: the unit, and no place on another planet.
+    has(said(square(4000, 512300e3, 148e3, "0"), {place}),
+        {"does not contain",
+         "unit = \"mm\", with which it is 4 m wide and lies about model.origin"});
+    has(said(square(4000, 512300e3, 148e3, "0")),
+        {"unit = \"mm\", with which it is 4 m wide, and model.origin = [\"512300 m\", \"148 m\"]"});
+    has(said(square(4, 512300, 148, "6"), {place, "tunnel.unit=mm"}),
+        {"unit = \"m\", with which it is 4 m wide and lies about model.origin"});
+    // All that is drawn is no outline: its layers.
+    has(said(square(4, 0, 0, "6"), {"tunnel.layer=axis"}),
+        {"it is open: a gap of 2 m", "places from model.origin", "whose ends meet within 1 mm"});
+    const std::string all = replaced(with_drawing(), "layer = \"wall\"\n", "");
+    const Folder folder;
+    (void)write_file(folder / "survey.csv", planes);
+    (void)write_file(folder / "section.dxf", square(4, 0, 0, "6"));
+    try {
+      (void)read_input(write_file(folder / "case.toml", all), {});
+      CHECK(false);
+    } catch (const InputErrors& errors) {
+      has(errors.what(), {"it is open", "its layer: \"WALL\", \"AXIS\""});
+    }
     has(said(square(4000, 0, 0, "6")), {"model.width"});
+    has(said(square(4, 512300, -148, "6"), {"model.origin=[\"512300 m\", \"148 m\"]"}),
+        {"tunnel.file", "y -298 m to -294 m", "drawn with y downwards; mirror it about y = 0"});
+    CHECK(said(square(4, 512300, -140, "6"), {"model.origin=[\"512300 m\", \"148 m\"]"})
+              .find("downwards") == std::string::npos);
     has(said(square(4, 0, 0, "6"), {"tunnel.layer=lining"}), {"tunnel.file", "layer", "AXIS"});
     has(said(replaced(square(4, 0, 0, "6"), "ENDSEC\n0\nEOF\n", "")), {"tunnel.file"});
     has(said("AutoCAD Binary DXF\r\n"), {"tunnel.file"});

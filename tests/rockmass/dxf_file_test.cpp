@@ -494,9 +494,9 @@ TEST_SUITE("rockmass/dxf_file") {
       REQUIRE(file.lines.size() == 2);
       CHECK(file.lines[0].points == metres.lines[0].points);
       CHECK(file.lines[1].points == metres.lines[1].points);
-      CHECK(
-          read(drawing(head + text, "6"), Vec2::Zero(), {.metres = unit.metres}).lines[0].points ==
-          metres.lines[0].points);
+      const DxfFile told = read(drawing(head + text, "6"), Vec2::Zero(), {.metres = unit.metres});
+      CHECK(told.lines[0].points == metres.lines[0].points);
+      CHECK(told.unit == unit.name);
     }
     const std::string line = "0 LINE, 10 0, 20 0, 11 1, 21 10";
     CHECK(read(drawing(line, "1")).lines[0].points[1].y() == near(0.254).epsilon(1e-15));
@@ -638,7 +638,10 @@ TEST_SUITE("rockmass/dxf_file") {
                    "face.dxf: there is no layer \"Q\"; layers: W (1 line), X (none)"));
     CHECK(contains(refusal(text, {.layers = {"Q"}}),
                    "holds no line, polyline, arc or circle on the layers that were asked for; "
-                   "layers: W (none)"));
+                   "layers: W, X; not read: "));  // nobody counted the lines of others
+    CHECK(contains(refusal(drawing("0 LINE, 8 W, 10 0, 20 0, 11 1, 21 0, 0 TEXT, 8 X, 1 a"),
+                           {.layers = {"x"}}),
+                   "layers: W, X (none); not read: "));
   }
 
   TEST_CASE("names of layers come in UTF-8, whatever the file has them in") {

@@ -481,6 +481,87 @@ TEST_SUITE("rockmass/orientation_file") {
     CHECK_FALSE(has_note(read("dip,dd\n30SE,130\n"), "across which"));
   }
 
+  TEST_CASE("strike and dip in one column are those of two columns") {
+    const auto strike = [](const Whole& plane) { return (plane.direction + 90) % 360; };
+    const auto dip = [](const Whole& plane) {
+      return std::to_string(plane.dip) + quadrant_of(plane.direction);
+    };
+    for (const char* header : {"Orientation", "ATTITUDE", "Strike/Dip", "Strike & Dip [deg]",
+                               "strike and dip (quadrant)"}) {
+      CAPTURE(header);
+      CHECK(unlike_plain(header, [&](const Whole& plane) {
+              return bearing(strike(plane)) + "/" + dip(plane);
+            }) == "");
+    }
+    // Other signs between, other columns before and behind, a strike by azimuth.
+    CHECK(unlike_plain("No;Orientation;Set", [&](const Whole& plane) {
+            return "7;" + bearing(strike(plane), "", "\xC2\xB0") + " / " + dip(plane) + ";J1";
+          }) == "");
+    CHECK(unlike_plain("No;Orientation", [&](const Whole& plane) {
+            return "7;" + bearing(strike(plane), " ") + ", " + dip(plane);
+          }) == "");
+    CHECK(unlike_plain("No;Orientation", [&](const Whole& plane) {
+            return "7;" + bearing(strike(plane), " ") + " " + dip(plane);
+          }) == "");
+    CHECK(unlike_plain("No,Orientation", [&](const Whole& plane) {
+            return "7,\"" + bearing(strike(plane)) + ", " + dip(plane) + "\"";
+          }) == "");
+    CHECK(unlike_plain("Orientation", [&](const Whole& plane) {
+            return std::to_string(strike(plane)) + "/" + dip(plane);
+          }) == "");
+    const OrientationFile file = read("No;Orientation;Set\n1;N45,5E/60SE;B\n2;N-S/30W;A\n");
+    REQUIRE(file.planes.size() == 2);
+    CHECK(is(file.planes[0], 60, 135.5));
+    CHECK(is(file.planes[1], 30, 270));
+    CHECK(file.set_names == std::vector<std::string>{"B", "A"});
+    CHECK(file.planes[1].set == 1);
+    CHECK(file.layout ==
+          "fields separated by ;, decimal comma, columns by the header, strike with the side of "
+          "the dip, both in one column, quadrant notation, angles in degrees");
+    CHECK(has_note(file, "columns that are not read: No"));
+    CHECK(file.notes.size() == 2);
+  }
+
+  TEST_CASE("two numbers in one column are in the order of its name, or refused") {
+    CHECK(is(read("Dip/Dip direction\n60/135\n").planes[0], 60, 135));
+    CHECK(is(read("DipDir/Dip;Set\n135/060;1\n").planes[0], 60, 135));
+    CHECK(is(read("Dip direction/Dip [gon]\n150/50\n").planes[0], 45, 135));
+    CHECK(is(read("Strike/Dip (RHR)\n045/60\n").planes[0], 60, 135));
+    CHECK(contains(refusal("Strike/Dip\n045/60\n"), "survey.csv:1: strike without rule"));
+    CHECK(refusal("No;Orientation\n1;N45E/60SE\n2;135/60\n") ==
+          "survey.csv:3: field 2 (column 3, \"135/60\") is two numbers: which of them is the dip, "
+          "and is the other a strike or a dip direction? The name of the column, \"Orientation\", "
+          "does not say in \"2;135/60\"; accepted: a column named dip/dip direction, dip "
+          "direction/dip or strike/dip (RHR); or strike and dip with letters, as N45E/60SE or "
+          "045/60SE");
+  }
+
+  TEST_CASE("a column of planes yields to clearer ones, and is refused where it is damaged") {
+    const OrientationFile beside = read("Orientation,Dip,Dip direction\nN45E/60SE,30,40\n");
+    CHECK(is(beside.planes[0], 30, 40));
+    CHECK(has_note(beside, "not read: Orientation"));
+    // Dips has a title that names two angles; the line that follows holds none.
+    CHECK(is(read("DIP/DIPDIRECTION\n0\nID,Dip,Dip Direction\n1,30,40\n").planes[0], 30, 40));
+    const auto one = [](const std::string& field) {
+      return refusal("Orientation;Set\nN45E/60SE;1\n" + field + ";1\n");
+    };
+    CHECK(one("N45E") ==
+          "survey.csv:3: field 1 (column 1, \"N45E\") is not two angles in \"N45E;1\"; accepted: "
+          "strike and dip with letters, as N45E/60SE or 045/60SE");
+    CHECK(contains(one("N 45 E"), "field 1 (column 1, \"N 45 E\") is not two angles"));
+    CHECK(contains(one(""), "field 1 (column 1, \"\") is empty"));
+    CHECK(contains(one("N45E/60"),
+                   "survey.csv:3: to which side of its strike is the dip of 60? in \"N45E/60;1\"; "
+                   "accepted: dips with the letters of their side: 60SE or 60NW"));
+    CHECK(contains(one("N45E/60NE"), "the dip towards NE is along the strike, 45 degrees"));
+    CHECK(contains(one("N45E/60QQ"), "field 1 (column 6, \"60QQ\") is not a finite number"));
+    CHECK(contains(one("60SE/N45E"), "field 1 (column 6, \"N45E\") is not a finite number"));
+    CHECK(contains(one("N45E/95SE"), "dip = 95 in"));
+    CHECK(contains(refusal("No;Orientation;Set\n1;N45E/60SE;1\n2;N45E/60SE;1;x\n"),
+                   "survey.csv:3: 4 fields instead of 3 in \"2;N45E/60SE;1;x\"; accepted: a field "
+                   "for each column of the header, which is: No, Orientation, Set"));
+  }
+
   TEST_CASE("quadrant notation that leaves the side open, or contradicts itself, is refused") {
     const auto one = [](const std::string& row) { return refusal("strike;dip\n" + row + "\n"); };
     CHECK(one("N45E;60") ==
@@ -561,6 +642,12 @@ TEST_SUITE("rockmass/orientation_file") {
   }
 
   TEST_CASE("a header that names no plane, or something twice, is refused") {
+    // Once, not for every row below it.
+    const std::string nameless = refusal("ID;Orient1;Orient2\n1;52;202\n2;65;15\n");
+    CHECK(
+        nameless.starts_with("survey.csv:1: the header names neither a dip nor a direction in "
+                             "\"ID;Orient1;Orient2\"; accepted: columns dip and dip direction"));
+    CHECK_FALSE(contains(nameless, ":2:"));
     CHECK(contains(refusal("dip,set\n30,1\n"),
                    "survey.csv:1: a dip without a direction in \"dip,set\"; accepted: columns dip "
                    "and dip direction (or strike (RHR), with the dip to its right)"));
@@ -589,7 +676,11 @@ TEST_SUITE("rockmass/orientation_file") {
           "\"95,40,1\"; accepted: 0 to 90 degrees, downward");
     CHECK(contains(one("100.5,340,1"), "the same plane dips 79.5 towards 160 in"));
     CHECK(contains(one("-5,40,1"), "survey.csv:2: dip = -5 in \"-5,40,1\"; accepted: 0 to 90"));
-    CHECK(contains(one("200,40,1"), "survey.csv:2: dip = 200 in"));
+    CHECK(one("200,40,1") ==
+          "survey.csv:2: dip = 200 in \"200,40,1\"; accepted: 0 to 90 degrees, downward; are the "
+          "columns of dip and dip direction swapped?");
+    CHECK_FALSE(contains(one("200,140,1"), "swapped"));
+    CHECK(contains(refusal("strike rhr,dip\n40,200\n"), "of dip and strike swapped?"));
     CHECK(contains(one("30,360.5,1"),
                    "survey.csv:2: dip direction = 360.5 in \"30,360.5,1\"; accepted: 0 to 360 "
                    "degrees, clockwise from North"));

@@ -24,7 +24,10 @@ namespace voussoir {
 /// Quadrant notation, N45E, N 45 E or N45°E of an azimuth and 60SE or 60 SE of a dip, is read row
 /// by row beside numbers, in degrees. A strike in it is a line, also N, E, NS or EW: the letters of
 /// the dip choose the side, and the dip direction is across the strike. Refused are a dip without
-/// letters, unless it is 0 or 90, and letters within 22.5 degrees of the strike. Of a pole, in the
+/// letters, unless it is 0 or 90, and letters within 22.5 degrees of the strike. Strike and dip may
+/// stand in one column, named Orientation or the like, as N45E/60SE, or with a comma or a blank
+/// between; two numbers in one column need its name to say which is the dip, "Dip direction/Dip".
+/// Of a pole, in the
 /// lower hemisphere, the plane has dip = 90 - plunge and dip direction = trend + 180; a trend and a
 /// plunge that are not told to be of a pole may be of a lineation and are refused.
 ///

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/errors.hpp>
@@ -16,6 +17,7 @@
 #include <voussoir/drawing/page_map.hpp>
 #include <voussoir/drawing/svg.hpp>
 #include <voussoir/geometry/spatial.hpp>
+#include <voussoir/io/detail/face_rim.hpp>
 #include <voussoir/io/detail/painting_order.hpp>
 #include <voussoir/rockmass/domain.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
@@ -43,6 +45,9 @@ inline constexpr Colour side_colour{226, 223, 216};
 struct VisibleFace {
   std::vector<Vec2> corners;  ///< in the picture [m]
   Colour fill;
+  /// Of one of several parts of a block: its edges but the seams to the others.
+  std::vector<std::pair<Vec2, Vec2>> rim = {};
+  bool is_of_part = false;
 };
 
 /// Which blocks are drawn, and how far from their place.
@@ -117,6 +122,10 @@ VOUSSOIR_INLINE std::vector<VisibleFace> visible_faces(const RockMass<Spatial>& 
                                   : side_colour;
         VisibleFace face{{}, shaded(colour, normal, view)};
         for (const int v : part.loop(k)) face.corners.push_back(view(part.vertex(at(v)) + shift));
+        face.is_of_part = body.parts.size() > 1;
+        if (face.is_of_part)
+          for (const auto& [start, end] : face_rim(body, part, k, 10 * mass.domain.tolerance()))
+            face.rim.emplace_back(view(start + shift), view(end + shift));
         faces.push_back(std::move(face));
       }
   }
@@ -129,9 +138,13 @@ VOUSSOIR_INLINE void draw_faces(SvgCanvas& canvas, const std::vector<VisibleFace
     // The rim is a darker shade of the face: blocks stand out, and small ones do not turn black.
     PerceptualColour rim = perceptual(face.fill);
     rim.lightness *= 0.45;
-    canvas.polygon(
-        on_page(face.corners, map),
-        {.fill = face.fill.hex(), .stroke = screen_colour(rim).hex(), .stroke_width = width});
+    const std::string edge = screen_colour(rim).hex();
+    // Where the block goes on the face is a little larger, or its ground would shine through.
+    canvas.polygon(on_page(face.corners, map), {.fill = face.fill.hex(),
+                                                .stroke = face.is_of_part ? face.fill.hex() : edge,
+                                                .stroke_width = width});
+    for (const auto& [a, b] : face.rim)
+      canvas.line(map(a), map(b), {.stroke = edge, .stroke_width = width});
   }
 }
 

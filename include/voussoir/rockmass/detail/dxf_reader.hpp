@@ -109,18 +109,20 @@ class DxfReader {
       const char *code, *name;
       double metres;
     };
+    constexpr NamedUnit known[] = {{"1", "in", 0.0254}, {"2", "ft", 0.3048}, {"4", "mm", 1e-3},
+                                   {"5", "cm", 1e-2},   {"6", "m", 1},       {"7", "km", 1e3},
+                                   {"14", "dm", 0.1}};
     file_.unit = "m";
     if (limits_.metres > 0) {
       file_.unit = message({limits_.metres, " m"});
+      for (const NamedUnit& unit : known)
+        if (unit.metres == limits_.metres) file_.unit = unit.name;
       file_.metres = limits_.metres;
       return file_.metres;
     }
     is_unit_told_ = !unit_.value.empty() && unit_.value != "0";
     if (!is_unit_told_) return 1;
-    for (const NamedUnit& unit :
-         {NamedUnit{"1", "in", 0.0254}, NamedUnit{"2", "ft", 0.3048}, NamedUnit{"4", "mm", 1e-3},
-          NamedUnit{"5", "cm", 1e-2}, NamedUnit{"6", "m", 1}, NamedUnit{"7", "km", 1e3},
-          NamedUnit{"14", "dm", 0.1}})
+    for (const NamedUnit& unit : known)
       if (unit_.value == unit.code) {
         file_.unit = unit.name;
         file_.metres = unit.metres;
@@ -222,7 +224,7 @@ class DxfReader {
     if (file_.lines.empty())
       throw InvalidInput(name_ + ": holds no line, polyline, arc or circle" +
                          (limits_.layers.empty() ? "" : " on the layers that were asked for") +
-                         "; layers: " + dxf_layer_list(file_) +
+                         "; layers: " + names_of_layers() +
                          curves_.left_out().text("; not read: "));
     for (const std::string& asked : limits_.layers) (void)dxf_layer_with_lines(file_, asked);
     if (!is_unit_told_ && limits_.metres <= 0)
@@ -238,6 +240,18 @@ class DxfReader {
     if (is_guessed_)
       file_.notes.push_back("names of layers that are no UTF-8 are taken as Latin-1" +
                             (code_page_.empty() ? "" : "; the file says " + shown(code_page_)));
+  }
+
+  /// With numbers of lines where those on all layers were read.
+  [[nodiscard]] std::string names_of_layers() const {
+    if (limits_.layers.empty()) return dxf_layer_list(file_);
+    constexpr std::size_t most = 30;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(most, file_.layers.size()); ++k)
+      text += (k == 0 ? "" : ", ") + shown(file_.layers[k]) +
+              (dxf_layer_index(limits_.layers, file_.layers[k]) < 0 ? "" : " (none)");
+    if (file_.layers.size() > most) text += message({" and ", file_.layers.size() - most, " more"});
+    return text;
   }
 
   const std::string& name_;

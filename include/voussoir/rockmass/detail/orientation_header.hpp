@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -8,7 +9,9 @@
 #include <vector>
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/rockmass/detail/bounded_lines.hpp>
+#include <voussoir/rockmass/detail/orientation_pair.hpp>
 #include <voussoir/rockmass/detail/orientation_table.hpp>
+#include <voussoir/rockmass/detail/quadrant_angle.hpp>
 #include <voussoir/rockmass/detail/trace_table.hpp>
 
 namespace voussoir::detail {
@@ -22,6 +25,58 @@ orientation_layout(const std::vector<std::string>& lines, bool right_handed, Tra
                    std::size_t& data);
 
 #if VOUSSOIR_BODIES
+
+/// The columns that a line names.
+/// @param next  the line that follows: where blanks separate and the header has more fields, "dip
+///              direction" is one name
+[[nodiscard]] VOUSSOIR_INLINE OrientationLayout header_of(const std::string& line, char told,
+                                                          const std::string& next) {
+  std::string joined = line;  // "dip [deg]" is one name where blanks separate, too
+  for (const char* open : {" [", " ("})
+    for (std::size_t at; (at = joined.find(open)) != std::string::npos;) joined.erase(at, 1);
+  OrientationLayout layout;
+  layout.separator = told != 0 ? told : separator_of(joined);
+  if (layout.separator == ' ' && names_in_pair(line)) layout.separator = ',';  // of one column
+  if (layout.separator != ' ') joined = line;
+  std::vector<std::string> names;
+  for (const TraceField& field : fields_of(joined, layout.separator)) names.push_back(field.text);
+  const std::vector<TraceField> below = fields_of(next, layout.separator);
+  const std::size_t width = below.size();
+  for (std::size_t k = 0; layout.separator == ' ' && names.size() > width && k + 1 < names.size();
+       ++k) {
+    const std::string pair =
+        " " + header_word(names[k]).name + "-" + header_word(names[k + 1]).name + " ";
+    constexpr std::string_view known =
+        " dip-direction dip-dir dip-dirn dip-azimuth dip-angle strike-rhr strike-right pole-trend "
+        "pole-plunge pole-azimuth normal-trend normal-plunge trend-pole plunge-pole joint-set "
+        "set-no set-nr set-id set-name set-number ";
+    if (known.find(pair) == std::string_view::npos) continue;
+    names[k] += " " + names[k + 1];
+    names.erase(names.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+  }
+  divide_pair_column(layout, names, below);
+  std::vector<bool> weak;
+  bool has_easting = false;
+  for (const std::string& name : names) {
+    bool is_weak = false;
+    const HeaderWord word = header_word(name);
+    layout.columns.push_back(orientation_column(word, is_weak));
+    weak.push_back(is_weak);
+    has_easting = has_easting || column_named(word.name) == TraceColumn::x;
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    // A dip direction beside an azimuth, of the scanline; n, the northing beside an easting.
+    OrientationColumn& column = layout.columns[k];
+    const bool is_northing = column == OrientationColumn::weight && has_easting;
+    if (weak[k] && (is_northing || layout.count(column) > 1)) column = OrientationColumn::other;
+    // An azimuth beside a plunge is that of the line.
+    if (weak[k] && column == OrientationColumn::direction &&
+        layout.count(OrientationColumn::plunge) > 0 && layout.count(OrientationColumn::dip) == 0)
+      column = OrientationColumn::trend;
+  }
+  layout.names = std::move(names);
+  return layout;
+}
 
 [[nodiscard]] VOUSSOIR_INLINE bool is_angle(OrientationColumn column) {
   using enum OrientationColumn;
@@ -199,6 +254,17 @@ VOUSSOIR_INLINE OrientationLayout orientation_layout(const std::vector<std::stri
     data = first.value_or(lines.size());
     if (half) check_orientation_columns(half_layout, right_handed, lines[*half], *half + 1, faults);
     if (!first) return layout;
+    const std::vector<TraceField> words =
+        fields_of(lines[*first], told != 0 ? told : orientation_separator(lines[*first]));
+    const bool is_header = std::none_of(words.begin(), words.end(), [](const TraceField& field) {
+      return written_number(field.text).fault.empty() || quadrant_text(field.text) ||
+             parts_of_pair(field);
+    });
+    if (is_header) {  // every row would lack its columns
+      faults.add(*first + 1, "the header names neither a dip nor a direction", lines[*first],
+                 orientation_names);
+      faults.finish();
+    }
     layout.separator = told != 0 ? told : orientation_separator(lines[*first]);
     layout.columns = {dip, direction};
     return layout;
@@ -214,6 +280,8 @@ VOUSSOIR_INLINE OrientationLayout orientation_layout(const std::vector<std::stri
   check_orientation_columns(layout, right_handed, header, number, faults);
   std::vector<TraceField> units;
   if (data < lines.size()) units = fields_of(lines[data], layout.separator);
+  if (layout.pair && *layout.pair < units.size())  // one unit for both
+    units.insert(units.begin() + static_cast<std::ptrdiff_t>(*layout.pair), units[*layout.pair]);
   if (!is_line_of_units(layout, units))
     units.clear();
   else

@@ -100,6 +100,9 @@ VOUSSOIR_INLINE WrittenPlane plane_of(const WrittenAngle& tilt, const WrittenAng
                      " towards " + text(within(plane.direction + half));
     }
     plane.accepted = "0 to " + text(quarter) + " " + layout.unit + ", downward";
+    if (!by_pole && tilt.value > half && azimuth.value <= quarter)
+      plane.accepted += std::string("; are the columns of dip and ") +
+                        (by_strike ? "strike" : "dip direction") + " swapped?";
     return plane;
   }
   if (!tilt.side.empty()) return sided_plane(tilt, plane.direction, is_settled, by_strike);

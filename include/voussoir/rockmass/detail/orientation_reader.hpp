@@ -16,6 +16,7 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/rockmass/detail/bounded_lines.hpp>
 #include <voussoir/rockmass/detail/orientation_header.hpp>
+#include <voussoir/rockmass/detail/orientation_pair.hpp>
 #include <voussoir/rockmass/detail/orientation_plane.hpp>
 #include <voussoir/rockmass/detail/orientation_table.hpp>
 #include <voussoir/rockmass/detail/quadrant_angle.hpp>
@@ -101,6 +102,7 @@ class OrientationReader {
     stop_();
     if (is_orientation_comment(line)) return;
     std::vector<TraceField> fields = fields_of(line, layout_.separator);
+    const auto [fault, forms] = divide_pair_field(layout_, fields);
     const std::size_t columns = layout_.columns.size();
     while (fields.size() > columns && fields.back().text.empty()) fields.pop_back();
     if (++rows_ > limits_.planes) {
@@ -108,12 +110,15 @@ class OrientationReader {
                   "at most " + std::to_string(limits_.planes) + " planes");
       faults_.finish();
     }
+    if (!fault.empty()) return faults_.add(number, fault, line, forms);
     std::size_t needed = 0;
     for (std::size_t k = 0; k < columns; ++k)
       if (layout_.columns[k] != other && layout_.columns[k] != set) needed = k + 1;
     if (fields.size() < needed || fields.size() > columns) {
-      std::string what =
-          std::to_string(fields.size()) + " fields instead of " + std::to_string(columns);
+      // As the line has them: one that was divided counts once.
+      const bool is_divided = layout_.pair && *layout_.pair < fields.size();
+      std::string what = std::to_string(fields.size() - (is_divided ? 1 : 0)) +
+                         " fields instead of " + std::to_string(columns - (layout_.pair ? 1 : 0));
       if (layout_.separator == ',' && fields.size() == 2 * columns)
         what += ": are these decimal commas? Fields must then be separated by ;";
       else if (fields.size() < needed && separator_of(line) != layout_.separator)
@@ -126,7 +131,9 @@ class OrientationReader {
           std::string("dip and dip direction, or a header: ") + orientation_names;
       if (layout_.has_header) accepted = "a field for each column of the header, which is: ";
       for (std::size_t k = 0; k < layout_.names.size(); ++k)
-        accepted += (k == 0 ? "" : ", ") + layout_.names[k];
+        if (!(layout_.pair && k == *layout_.pair + 1))
+          accepted +=
+              (k == 0 ? "" : ", ") + (layout_.pair == k ? layout_.pair_name : layout_.names[k]);
       return faults_.add(number, what, line, accepted);
     }
     const auto fall = angle(fields, tilt_column(), line, number),
@@ -213,8 +220,9 @@ class OrientationReader {
   [[nodiscard]] std::string field_name(const std::vector<TraceField>& fields,
                                        OrientationColumn column) const {
     const std::size_t k = layout_.index(column);
-    return "field " + std::to_string(k + 1) + " (column " + std::to_string(fields[k].column) +
-           ", \"" + shown(fields[k].text) + "\") ";
+    const std::size_t divided = layout_.pair && k > *layout_.pair ? 1 : 0;
+    return "field " + std::to_string(k + 1 - divided) + " (column " +
+           std::to_string(fields[k].column) + ", \"" + shown(fields[k].text) + "\") ";
   }
 
   /// What a column may have, for messages.
@@ -341,8 +349,8 @@ class OrientationReader {
                    (comma_line_ != 0 ? ", decimal comma" : "") +
                    (std::string_view(lines_.encoding()) == "UTF-8" ? "" : ", UTF-16") +
                    (layout_.has_header ? ", columns by the header" : ", two columns, no header") +
-                   planes + (quadrants_ > 0 ? ", quadrant notation" : "") + ", angles in " +
-                   layout_.unit;
+                   planes + (layout_.pair ? ", both in one column" : "") +
+                   (quadrants_ > 0 ? ", quadrant notation" : "") + ", angles in " + layout_.unit;
     const bool by_pole = column == OrientationColumn::pole_trend;
     if (by_pole)
       file_.notes.push_back(

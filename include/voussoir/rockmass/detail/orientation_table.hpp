@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,10 @@ struct OrientationLayout {
   double turn = 360;               ///< a full one in that unit
   std::string header;              ///< the line that has it
   std::size_t header_line = 0;     ///< its number, from 1
+  /// The column whose fields hold two angles, N45E/60SE: the second is the column after it.
+  std::optional<std::size_t> pair;
+  std::string pair_name;        ///< of that column, as the header has it
+  bool pair_has_order = false;  ///< it says which of two numbers is the dip
   std::vector<std::string> notes;
   [[nodiscard]] std::size_t count(OrientationColumn column) const {
     return static_cast<std::size_t>(std::count(columns.begin(), columns.end(), column));
@@ -51,8 +56,9 @@ struct OrientationLayout {
 
 inline constexpr const char* orientation_names =
     "columns dip and dip direction (or strike (RHR), with the dip to its right), or strike and dip "
-    "as N45E and 60SE, or pole trend and pole plunge, and set and weight if wanted, in any order, "
-    "with a unit in brackets where it is not degrees: dip [rad]";
+    "as N45E and 60SE, or both in one as N45E/60SE in a column orientation, or pole trend and pole "
+    "plunge, and set and weight if wanted, in any order, with a unit in brackets where it is not "
+    "degrees: dip [rad]";
 
 /// What tells, in brackets, that a strike has the dip to its right.
 inline constexpr std::string_view right_hand_rules =
@@ -201,55 +207,6 @@ struct HeaderWord {
     if (!number.fault.empty() || !number.has_comma) return separator;
   }
   return ' ';
-}
-
-/// The columns that a line names.
-/// @param width  fields of the line that follows: where blanks separate and the header has more,
-///               "dip direction" is one name
-[[nodiscard]] VOUSSOIR_INLINE OrientationLayout header_of(const std::string& line, char told,
-                                                          const std::string& next) {
-  std::string joined = line;  // "dip [deg]" is one name where blanks separate, too
-  for (const char* open : {" [", " ("})
-    for (std::size_t at; (at = joined.find(open)) != std::string::npos;) joined.erase(at, 1);
-  OrientationLayout layout;
-  layout.separator = told != 0 ? told : separator_of(joined);
-  if (layout.separator != ' ') joined = line;
-  std::vector<std::string> names;
-  for (const TraceField& field : fields_of(joined, layout.separator)) names.push_back(field.text);
-  const std::size_t width = fields_of(next, layout.separator).size();
-  for (std::size_t k = 0; layout.separator == ' ' && names.size() > width && k + 1 < names.size();
-       ++k) {
-    const std::string pair =
-        " " + header_word(names[k]).name + "-" + header_word(names[k + 1]).name + " ";
-    constexpr std::string_view known =
-        " dip-direction dip-dir dip-dirn dip-azimuth dip-angle strike-rhr strike-right pole-trend "
-        "pole-plunge pole-azimuth normal-trend normal-plunge trend-pole plunge-pole joint-set "
-        "set-no set-nr set-id set-name set-number ";
-    if (known.find(pair) == std::string_view::npos) continue;
-    names[k] += " " + names[k + 1];
-    names.erase(names.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-  }
-  std::vector<bool> weak;
-  bool has_easting = false;
-  for (const std::string& name : names) {
-    bool is_weak = false;
-    const HeaderWord word = header_word(name);
-    layout.columns.push_back(orientation_column(word, is_weak));
-    weak.push_back(is_weak);
-    has_easting = has_easting || column_named(word.name) == TraceColumn::x;
-  }
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    // A dip direction beside an azimuth, of the scanline; n, the northing beside an easting.
-    OrientationColumn& column = layout.columns[k];
-    const bool is_northing = column == OrientationColumn::weight && has_easting;
-    if (weak[k] && (is_northing || layout.count(column) > 1)) column = OrientationColumn::other;
-    // An azimuth beside a plunge is that of the line.
-    if (weak[k] && column == OrientationColumn::direction &&
-        layout.count(OrientationColumn::plunge) > 0 && layout.count(OrientationColumn::dip) == 0)
-      column = OrientationColumn::trend;
-  }
-  layout.names = std::move(names);
-  return layout;
 }
 
 /// A message about the lines of a file of traces, for one of orientations.
