@@ -206,7 +206,8 @@ void check_bolt_ends(const Input& input, const std::vector<std::optional<BoltSpa
                        ": a bolt would end at " + found->end + " m, outside the rock" +
                        unusual_among(input, {"model.", "tunnel.", "support.bolts."}) +
                        "\n   = accepted: bolts that end within " + found->low + " and " +
-                       found->high + " m");
+                       found->high + " m; this one could be " +
+                       number(std::floor(1e3 * found->room) / 1e3) + " m long");
   }
 }
 

@@ -157,14 +157,14 @@ std::string joint_lines(const std::vector<JointSource>& sources) {
   return out;
 }
 
-std::string stage_lines(const std::vector<StageResult>& stages) {
+std::string stage_lines(const std::vector<StageResult>& stages, const std::string& crown_of) {
   std::string out;
   for (const StageResult& stage : stages) {
     out += "stage    " + stage.name + ": " + to_string(stage.report) +
            text(" at a residual wall traction of %.3g %%", 100 * stage.wall_traction);
     if (!stage.fully_unloaded())
       out += text(", ended on the way to the %.3g %% asked for", 100 * stage.wall_traction_asked);
-    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm";
+    out += "; crown " + millimetres_text(stage.convergence.crown) + " mm" + crown_of;
     if (!stage.crept.empty())
       out += ", after " + format_quantity(stage.crept.back().time, dimension::time) +
              " of creep, " + std::to_string(stage.crept.size()) +

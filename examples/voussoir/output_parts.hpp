@@ -52,7 +52,9 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// Lines for a terminal.
 [[nodiscard]] std::string joint_lines(const std::vector<JointSource>& sources);
-[[nodiscard]] std::string stage_lines(const std::vector<StageResult>& stages);
+/// @param crown_of  behind the crown of each
+[[nodiscard]] std::string stage_lines(const std::vector<StageResult>& stages,
+                                      const std::string& crown_of = "");
 /// What has come off.
 struct LossText {
   double fallen;     ///< over all stages

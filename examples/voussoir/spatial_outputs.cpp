@@ -206,7 +206,7 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
   if (input.tunnel.round_length)
     out += " in " + counted(static_cast<std::size_t>(input.round_count()), "round") +
            text(" of %.3g m", input.stretch());
-  out += "\n" + stage_lines(run.built.stages);
+  out += "\n" + stage_lines(run.built.stages, " in the mean of all that is driven");
   const std::string margin = margin_text(run.rockfall(), "m3");
   out +=
       verdict_lines(run.last(), {run.fallen_measure(), "m3", run.built.has_lost_lining(), margin},

@@ -267,7 +267,7 @@ TEST_SUITE("design/analysis") {
                 }),
                 {"drift", "rock of the tunnel"}));
     CHECK(names(refusal([](auto& in) { in.bolts[0].length = 40; }),
-                {"bolts: a bolt would end at", "must end within"}));
+                {"bolts: a bolt would end at", "could be 10 m long", "must end within"}));
     design::AnalysisInput without_law = circle(2, 1);
     without_law.joint.reset();
     CHECK_THROWS_WITH_AS((void)design::laws_of(without_law),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -27,6 +28,7 @@ VOUSSOIR_DESIGN_INLINE void check_input(const AnalysisInput& input, int dimensio
 struct BoltOutside {
   std::size_t pattern;
   std::string end, low, high;  ///< where it would end, and the corners of the rock [m]
+  double room;                 ///< how long it could be to end at the edge of the rock [m]
 };
 /// The first of those patterns whose spacing is given; none: all end in the rock.
 /// @param spacings  of each pattern of the input; none: it is not looked at
@@ -40,6 +42,17 @@ VOUSSOIR_DESIGN_INLINE void check_bolts(const AnalysisInput& input, const Suppor
 
 namespace detail {
 
+/// How far it is from a place to the edge of the rock; 0: it lies outside [m].
+template <int Dim>
+double room_from(const Vec<Dim>& head, const Vec<Dim>& way, const Domain<Dim>& domain) {
+  double share = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double edge = way[axis] > 0 ? domain.high[axis] : domain.low[axis];
+    if (way[axis] != 0) share = std::min(share, (edge - head[axis]) / way[axis]);
+  }
+  return std::max(share, 0.0) * length_of(way);
+}
+
 template <int Dim, class Bars>
 std::optional<BoltOutside> end_outside(std::size_t pattern, const Bars& bars,
                                        const Domain<Dim>& domain) {
@@ -47,7 +60,8 @@ std::optional<BoltOutside> end_outside(std::size_t pattern, const Bars& bars,
     for (const Vec<Dim>& end : {bar.start, bar.end})
       if ((end.array() < domain.low.array()).any() || (end.array() > domain.high.array()).any())
         return BoltOutside{pattern, text_of<Dim>(end), text_of<Dim>(domain.low),
-                           text_of<Dim>(domain.high)};
+                           text_of<Dim>(domain.high),
+                           room_from(bar.start, Vec<Dim>(bar.end - bar.start), domain)};
   return std::nullopt;
 }
 
@@ -157,8 +171,9 @@ VOUSSOIR_DESIGN_INLINE void check_bolts(const AnalysisInput& input, const Suppor
   for (std::size_t k = 1; k < input.bolts.size(); ++k) spacings.push_back(input.bolts[k].spacing);
   if (const auto found = bolt_outside(input, spacings))
     throw InvalidInput(input.bolts[found->pattern].name + ": a bolt would end at " + found->end +
-                       " m, outside the rock; must end within " + found->low + " and " +
-                       found->high + " m");
+                       message({" m, outside the rock; it could be ", found->room,
+                                " m long there: must end within "}) +
+                       found->low + " and " + found->high + " m");
 }
 
 #endif
