@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/analysis.hpp>
 #include <voussoir/design/bolt_strength.hpp>
+#include <voussoir/io/curve_picture.hpp>
 
 #include "output_parts.hpp"
 
@@ -91,6 +94,50 @@ std::string lining_strength_line(const Input& input, const std::vector<NodeUtili
          (input.is_spatial() ? text(", %.3g m along", most->along) : std::string()) + ": " +
          to_string(most->use.mode) + text(", thrust %.0f kN/m", 1e-3 * most->load.thrust / width) +
          text(", moment %.1f kN m/m\n", 1e-3 * most->load.moment / width);
+}
+
+std::string lining_strength_svg(const Input& input, const std::vector<NodeUtilisation>& nodes) {
+  const auto installed = linings_as_installed(input, supports_of(input));
+  const double width = input.is_spatial() ? strip_width(input) : 1.0;
+  const auto place = [&](const SectionForces& forces) {
+    return Vec2(1e-3 * forces.moment / width, 1e-3 * forces.thrust / width);
+  };
+  const char* const colours[] = {"#1f4e79", "#b3541e", "#5b8c3e", "#7a4f9a"};
+  CurvePicture picture;
+  picture.header.title = input.title.empty() ? "Strength of the lining" : input.title;
+  picture.header.lines = {
+      "Thrust and moment at every node, and what its section bears of them (EN 1992-1-1, 6.1). A "
+      "moment is positive where the outer fibre is in tension."};
+  picture.across = "moment [kN m/m]";
+  picture.up = "thrust [kN/m], compression positive";
+  for (std::size_t k = 0; k < input.linings.size(); ++k) {
+    const LiningInput& lining = input.linings[k];
+    const auto section = section_of_lining(input, lining, supports_of(input));
+    Curve points{.name = lining.name + ": nodes",
+                 .points = {},
+                 .colour = colours[k % std::size(colours)],
+                 .is_joined = false};
+    for (const NodeUtilisation& node : nodes)
+      if (installed[static_cast<std::size_t>(node.lining)] == &lining)
+        points.points.push_back(place(node.load));
+    if (points.points.empty() || !section) continue;
+    Curve envelope{.name = lining.name + ": strength",
+                   .points = {},
+                   .colour = colours[k % std::size(colours)],
+                   .is_marked = false};
+    for (const SectionForces& at : SectionCapacity(*section).envelope())
+      envelope.points.push_back(place(at));
+    envelope.points.push_back(envelope.points.front());
+    picture.curves.push_back(std::move(envelope));
+    picture.curves.push_back(std::move(points));
+  }
+  const NodeUtilisation& most = *governing(nodes);
+  picture.header.lines.push_back("Most of its strength at the " + lining_place(most.angle) + ": " +
+                                 (std::isinf(most.use.value)
+                                      ? std::string("beyond it")
+                                      : text("%.0f %%", 100 * most.use.value)) +
+                                 ", " + to_string(most.use.mode) + ".");
+  return draw_curve_picture(picture);
 }
 
 std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes) {

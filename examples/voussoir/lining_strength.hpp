@@ -23,6 +23,10 @@ void add_lining_strength(const Input& input, const std::vector<NodeUtilisation>&
 /// A line for a terminal; empty: nothing is checked.
 [[nodiscard]] std::string lining_strength_line(const Input& input,
                                                const std::vector<NodeUtilisation>& nodes);
+/// Thrust over moment of every node, within what the section of its lining bears.
+/// @pre  something is checked
+[[nodiscard]] std::string lining_strength_svg(const Input& input,
+                                              const std::vector<NodeUtilisation>& nodes);
 /// For every node of a table its utilisation; not a number: it is not checked.
 [[nodiscard]] std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes);
 

@@ -14,6 +14,7 @@
 #include "blocks_outputs.hpp"
 #include "check.hpp"
 #include "ground_reaction.hpp"
+#include "lining_strength.hpp"
 #include "outputs.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
@@ -101,7 +102,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   work.doing = "writing the results";
   // Only some runs write these.
   for (const char* const name : {"blocks.vtu", "joints.vtu", "bolts.vtu", "lining.vtu",
-                                 "tunnel.vtm", HistoryFiles::collection})
+                                 "tunnel.vtm", "lining_strength.svg", HistoryFiles::collection})
     outputs.replace(name);
   outputs.replace_all_in(HistoryFiles::folder);
   std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
@@ -109,6 +110,11 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   outputs.add("bolts.csv", bolts_csv(input, run), id);
   outputs.add("lining.csv", lining_csv(input, run), id);
   outputs.add("blocks.svg", blocks_svg(input, run), id);
+  if (const auto nodes = lining_utilisations(input, supports_of(input), run.tunnel);
+      !nodes.empty()) {
+    outputs.add("lining_strength.svg", lining_strength_svg(input, nodes), id);
+    names += ", lining_strength.svg";
+  }
   if (input.survey) {
     outputs.add("stereonet.svg", stereonet_svg(input), id);
     names += ", stereonet.svg";

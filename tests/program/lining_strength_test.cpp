@@ -95,6 +95,13 @@ TEST_SUITE("program/lining_strength") {
       CHECK(run.outcome.out.find("% of its strength at the " + at.at("place").get<std::string>()) !=
             std::string::npos);
       CHECK(run.outcome.out.find("strength lining") == std::string::npos);
+      // The envelope and a dot for each node.
+      const std::string& picture = run.files.at("lining_strength.svg");
+      CHECK(picture.find("lining 1: strength") != std::string::npos);
+      std::size_t dots = 0;
+      for (std::size_t at = 0; (at = picture.find("<circle", at)) != std::string::npos; ++at)
+        ++dots;
+      CHECK(dots == 24 + 1);  // and that of the legend
     }
   }
 

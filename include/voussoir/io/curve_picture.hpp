@@ -15,13 +15,14 @@
 
 namespace voussoir {
 
-/// Points joined by straight lines.
+/// Points, joined by straight lines unless these are left out.
 struct Curve {
   std::string name;  ///< for the legend
   std::vector<Vec2> points;
   std::string colour = "#1f4e79";
   std::string dash = {};  ///< see `SvgStyle::dash`
   bool is_marked = true;  ///< a dot at each point
+  bool is_joined = true;
 };
 
 /// Curves over one pair of axes.
@@ -89,8 +90,9 @@ VOUSSOIR_INLINE std::string draw_curve_picture(const CurvePicture& picture) {
   std::vector<LegendItem> items;
   for (const Curve& curve : picture.curves)
     items.push_back({curve.name, [curve](SvgCanvas& c, const Vec2& at) {
-                       c.line(at - Vec2(12, 0), at + Vec2(12, 0),
-                              {.stroke = curve.colour, .stroke_width = 2, .dash = curve.dash});
+                       if (curve.is_joined)
+                         c.line(at - Vec2(12, 0), at + Vec2(12, 0),
+                                {.stroke = curve.colour, .stroke_width = 2, .dash = curve.dash});
                        if (curve.is_marked) c.circle(at, 3.2, {.fill = curve.colour});
                      }});
   const Legend legend(items, picture_width - 2 * picture_margin);
@@ -107,7 +109,8 @@ VOUSSOIR_INLINE std::string draw_curve_picture(const CurvePicture& picture) {
     canvas.begin_layer(curve.name);
     std::vector<Vec2> points;
     for (const Vec2& p : curve.points) points.push_back(map(p));
-    canvas.polyline(points, {.stroke = curve.colour, .stroke_width = 2, .dash = curve.dash});
+    if (curve.is_joined)
+      canvas.polyline(points, {.stroke = curve.colour, .stroke_width = 2, .dash = curve.dash});
     if (curve.is_marked)
       for (const Vec2& p : points) canvas.circle(p, 3.2, {.fill = curve.colour});
     canvas.end_layer();
