@@ -3,4 +3,5 @@
 #define VOUSSOIR_DESIGN_SOURCE
 #include <voussoir/design/analysis.hpp>
 #include <voussoir/design/bolt_strength.hpp>
+#include <voussoir/design/lining_utilisation.hpp>
 #include <voussoir/design/size_estimate.hpp>
