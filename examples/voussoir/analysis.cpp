@@ -15,6 +15,7 @@
 #include <voussoir/tunnel/support_demand.hpp>
 
 #include "joint_laws.hpp"
+#include "lining_strength.hpp"
 #include "mapped_rock.hpp"
 #include "plausibility.hpp"
 #include "survey.hpp"
@@ -52,6 +53,10 @@ void warn_of_stress_and_supports(const Input& input, const RunResultIn<Geometry>
                        " deg of friction; joints that cannot carry the in-situ shear slip at the "
                        "first equilibrium");
   append(warnings, remarks_on(support_condition(run.tunnel)));
+  if (std::string text =
+          lining_strength_warning(lining_utilisations(input, supports_of(input), run.tunnel));
+      !text.empty())
+    warnings.push_back(std::move(text));
 }
 
 std::vector<std::string> warnings_of(const Input& input, const RunResult& run) {

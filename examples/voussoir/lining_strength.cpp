@@ -140,6 +140,18 @@ std::string lining_strength_svg(const Input& input, const std::vector<NodeUtilis
   return draw_curve_picture(picture);
 }
 
+std::string lining_strength_warning(const std::vector<NodeUtilisation>& nodes) {
+  const auto over = std::count_if(nodes.begin(), nodes.end(), [](const NodeUtilisation& node) {
+    return utilisation_of(node) > 1;
+  });
+  if (over == 0) return "";
+  const NodeUtilisation& most = *governing(nodes);
+  return "the lining carries more than its section bears at " + std::to_string(over) + " of " +
+         std::to_string(nodes.size()) + " nodes, most at the " + lining_place(most.angle) + " (" +
+         to_string(most.use.mode) +
+         "): it stays elastic in the model, where it would crack or yield";
+}
+
 std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes) {
   std::vector<double> values;
   for (const NodeUtilisation& node : nodes) {

@@ -27,6 +27,8 @@ void add_lining_strength(const Input& input, const std::vector<NodeUtilisation>&
 /// @pre  something is checked
 [[nodiscard]] std::string lining_strength_svg(const Input& input,
                                               const std::vector<NodeUtilisation>& nodes);
+/// A warning where it carries more than it can; empty: it does not, or nothing is checked.
+[[nodiscard]] std::string lining_strength_warning(const std::vector<NodeUtilisation>& nodes);
 /// For every node of a table its utilisation; not a number: it is not checked.
 [[nodiscard]] std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes);
 

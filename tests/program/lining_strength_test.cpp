@@ -132,6 +132,13 @@ TEST_SUITE("program/lining_strength") {
         share("[support.lining.concrete]\nfck = \"15 MPa\"\nlargest_eccentricity = 0\n");
     CHECK(none.at("of_its_strength").is_null());
     CHECK(none.at("bears_it") == false);
+    const Results beyond = results_of(tunnel("[support.lining.concrete]\nfck = \"1 MPa\"\n"));
+    CHECK(beyond.json.at("lining").at("of_its_strength").get<double>() > 1);
+    CHECK(beyond.outcome.out.find("warning  the lining carries more than its section bears") !=
+          std::string::npos);
+    const double angle = beyond.json.at("lining").at("governing").at("angle_deg").get<double>();
+    CHECK(angle >= 0);
+    CHECK(angle < 360);
   }
 
   TEST_CASE("bad input is named with its place") {

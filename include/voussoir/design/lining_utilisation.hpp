@@ -26,7 +26,8 @@ namespace voussoir::design {
 struct NodeUtilisation {
   std::size_t node = 0;  ///< index among `lining_forces`, in 3-D among `rib_forces`
   int lining = 0;        ///< which it is of, in the order of installation
-  double angle = 0;      ///< at the centre of its opening, from the right-hand springing [rad]
+  double angle = 0;      ///< at the centre of its opening, from the right-hand springing,
+                         ///< anticlockwise [rad], 0 to 2 pi
   double along = 0;      ///< 3-D: along the axis of its opening [m]
   SectionForces load;    ///< on `SectionCapacity::section` [N], [N m]
   SectionUtilisation use;
@@ -71,6 +72,12 @@ VOUSSOIR_DESIGN_INLINE std::optional<ConcreteSection> section_of_lining(
 
 namespace detail {
 
+/// From the right, anticlockwise [rad], 0 to 2 pi.
+[[nodiscard]] inline double turn_of(const Vec2& out) {
+  const double angle = elementary::angle_of(out.y(), out.x());
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
 /// The capacity of every lining that is installed, none where its concrete is not given.
 VOUSSOIR_DESIGN_INLINE std::vector<std::optional<SectionCapacity>> capacities(
     const AnalysisInput& input, const SupportChoice& supports) {
@@ -96,8 +103,7 @@ VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
     if (!capacity || at.is_lost) continue;
     const Vec2 out = at.position - at.centre;
     const SectionForces load{at.thrust, at.moment};
-    found.push_back({k, at.lining, elementary::angle_of(out.y(), out.x()), 0, load,
-                     capacity->utilisation(load)});
+    found.push_back({k, at.lining, detail::turn_of(out), 0, load, capacity->utilisation(load)});
   }
   return found;
 }
@@ -118,8 +124,8 @@ VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
         opening_in_space(input, opening, outline_of(outline_input(input, opening)));
     const Vec2 out = whole.across(at.position);
     const SectionForces load{at.thrust, at.moment};
-    found.push_back({k, at.lining, elementary::angle_of(out.y(), out.x()), whole.along(at.position),
-                     load, capacity->utilisation(load)});
+    found.push_back({k, at.lining, detail::turn_of(out), whole.along(at.position), load,
+                     capacity->utilisation(load)});
   }
   return found;
 }
