@@ -99,8 +99,7 @@ TEST_SUITE("program/lining_strength") {
       const std::string& picture = run.files.at("lining_strength.svg");
       CHECK(picture.find("lining 1: strength") != std::string::npos);
       std::size_t dots = 0;
-      for (std::size_t at = 0; (at = picture.find("<circle", at)) != std::string::npos; ++at)
-        ++dots;
+      for (std::size_t k = 0; (k = picture.find("<circle", k)) != std::string::npos; ++k) ++dots;
       CHECK(dots == 24 + 1);  // and that of the legend
     }
   }
