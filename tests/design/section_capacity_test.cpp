@@ -188,7 +188,15 @@ TEST_SUITE("design/section_capacity") {
     ConcreteSection limited = plain(0.2, 30e6);
     limited.largest_eccentricity = 0.3;
     CHECK(std::isinf(SectionCapacity(limited).utilisation({1e5, 0.0601e5}).value));
+    CHECK(std::isinf(SectionCapacity(limited).utilisation({1e5, -0.0601e5}).value));
     CHECK(std::isfinite(SectionCapacity(limited).utilisation({1e5, -0.0599e5}).value));
+    // What it would fail of: a thrust that leaves the section bends it, a pull tears it.
+    CHECK(capacity.utilisation({1e5, 0.1001e5}).mode == SectionMode::bending);
+    ConcreteSection alike = plain(0.2, 30e6);
+    alike.bars = {{.area = 5e-4, .depth = 0.04}, {.area = 5e-4, .depth = 0.16}};
+    CHECK(SectionCapacity(alike).utilisation({-1e5, 0}).mode == SectionMode::tension);
+    CHECK(SectionCapacity(alike).utilisation({-1e5, 0}).value ==
+          near(1e5 / (10e-4 * 500e6 / 1.15)).epsilon(1e-6));
   }
 
   TEST_CASE("the envelope is closed, and turned over it is that of the section turned over") {
