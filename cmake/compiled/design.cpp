@@ -3,5 +3,6 @@
 #define VOUSSOIR_DESIGN_SOURCE
 #include <voussoir/design/analysis.hpp>
 #include <voussoir/design/bolt_strength.hpp>
+#include <voussoir/design/factor_of_safety.hpp>
 #include <voussoir/design/lining_utilisation.hpp>
 #include <voussoir/design/size_estimate.hpp>

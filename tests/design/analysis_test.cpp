@@ -239,6 +239,8 @@ TEST_SUITE("design/analysis") {
     CHECK(
         names(refusal([](auto& in) { in.tunnel.cover = std::nan(""); }), {"cover of the tunnel"}));
     CHECK(names(refusal([](auto& in) { in.rock.density = -1; }), {"density", "-1"}));
+    CHECK(names(refusal([](auto& in) { in.run.out_of_balance = 0.2; }),
+                {"out-of-balance", "0.2", "<= 0.1"}));
     CHECK(names(refusal([](auto& in) { in.boundary.base.reset(); }), {"boundary", "together"}));
     CHECK(names(refusal([](auto& in) { in.joint_sets[1].spacing.reset(); }),
                 {"joint set 1", "J1", "must be one"}));

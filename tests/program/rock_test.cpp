@@ -22,8 +22,9 @@ using voussoir::Progress;
 
 std::string design_case() { return read_file(VOUSSOIR_TEST_EXAMPLES "/paper/tunnel.toml"); }
 
-RockIn<voussoir::Planar> rock(const std::string& text, const std::vector<std::string>& overrides = {},
-                   const std::string& directory = ".", const Progress& progress = {}) {
+RockIn<voussoir::Planar> rock(const std::string& text,
+                              const std::vector<std::string>& overrides = {},
+                              const std::string& directory = ".", const Progress& progress = {}) {
   return described_rock(read_input_text(text, "case.toml", directory, overrides), progress);
 }
 
@@ -78,8 +79,9 @@ TEST_SUITE("program/rock") {
         doctest::Contains("no joint cuts the rock, which stays one block: 432 "
                           "joints"),
         InvalidInput);
-    const RockIn<voussoir::Planar> none = rock(InputText{}.text(), {"joint_set[0].intensity=1e-9 /m^2",
-                                                         "joint_set[1].intensity=1e-9 /m^2"});
+    const RockIn<voussoir::Planar> none =
+        rock(InputText{}.text(),
+             {"joint_set[0].intensity=1e-9 /m^2", "joint_set[1].intensity=1e-9 /m^2"});
     REQUIRE(none.warnings.size() == 1);
     CHECK(contains(none.warnings[0], "one block without joints, though there are joint sets: 0"));
   }

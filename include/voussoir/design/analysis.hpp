@@ -68,6 +68,12 @@ struct TunnelRun {
                                                                   JointedRock<Spatial> rock,
                                                                   const StageProgress& report = {});
 
+/// The same of a section between sides that are chosen already.
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
+                                                                  JointedRock<Planar> rock,
+                                                                  const ChosenBoundary& boundary,
+                                                                  const StageProgress& report = {});
+
 /// The supports of the input itself.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE SupportChoice supports_of(const AnalysisInput& input);
 
@@ -203,6 +209,18 @@ VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
   if (input.has_rounds)  // each takes out its part; what the boundary does was asked of the whole
     bounded.tunnel = in_situ_tunnel(bounded.boundary.field);
   return {std::move(bounded.tunnel), opening, std::move(bounded.boundary), unbalance};
+}
+
+VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
+                                                    JointedRock<Planar> rock,
+                                                    const ChosenBoundary& boundary,
+                                                    const StageProgress& report) {
+  const Progress progress = detail::progress_of_blocks(report);
+  const SimplePolygon opening = opening_of(input);
+  Tunnel tunnel(std::move(rock.mass), laws_of(input), in_situ_of(input), progress, boundary.field);
+  const double unbalance = tunnel.out_of_balance_ratio();
+  if (!input.has_rounds) tunnel.excavate(opening, input.blocks.min_wall_area, progress);
+  return {std::move(tunnel), opening, boundary, unbalance};
 }
 
 VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,

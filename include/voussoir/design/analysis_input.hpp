@@ -30,6 +30,8 @@ struct RunInput {
   MethodKind method = MethodKind::two_level;
   LinearMethod linear_solver = LinearMethod::automatic;  ///< of elastic equations
   double tolerance = 1e-3;  ///< accepted error estimate [-], 1e-6 to 0.1
+  /// Accepted of the worst block over its weight [-], > 0, <= 0.1.
+  double out_of_balance = 1e-2;
   /// A block that moved further has come off [m], > 0.
   double displacement_limit = by_the_rock;
   /// Moved so far, contacts are updated [m], > 0.

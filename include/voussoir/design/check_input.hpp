@@ -140,6 +140,8 @@ VOUSSOIR_DESIGN_INLINE void check_input(const AnalysisInput& input, int dimensio
   require(input.rock.density > 0 && std::isfinite(input.rock.density), "density of the rock",
           input.rock.density, "> 0 kg/m3");
   require(input.stress.K0 >= 0 && std::isfinite(input.stress.K0), "K0", input.stress.K0, ">= 0");
+  require(input.run.out_of_balance > 0 && input.run.out_of_balance <= 0.1,
+          "accepted out-of-balance force ratio", input.run.out_of_balance, "> 0 and <= 0.1");
   if (input.boundary.sides.has_value() != input.boundary.base.has_value())
     throw InvalidInput("boundary: sides and base must be given together");
   if (dimension == 3 && (!input.mapped.traces.empty()))

@@ -86,6 +86,7 @@ VOUSSOIR_DESIGN_INLINE Acceptance acceptance_of(const AnalysisInput& input,
                                                 const SimplePolygon& opening) {
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
+  acceptance.unbalance_over_weight = input.run.out_of_balance;
   acceptance.displacement_limit = input.run.displacement_limit;
   acceptance.contact_update_limit = input.run.contact_update_limit;
   acceptance.collapse_measure = collapse_measure_of(opening);

@@ -123,7 +123,8 @@ class BoltStrengths {
 
 /// One row for every node of all linings in 2-D, these numbered in the order of their installation
 /// and nodes within each.
-/// @param of_strength  what each node carries of what it can [-]; not a number, or left out: that is
+/// @param of_strength  what each node carries of what it can [-]; not a number, or left out: that
+/// is
 ///                     not checked; infinite: it bears no part of it
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining,
                                               const std::vector<double>& of_strength = {}) {
