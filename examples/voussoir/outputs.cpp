@@ -217,7 +217,7 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"area_dropped_at_wall_m2", mass.carving.dropped_measure},
         {"blocks_separated_by_the_opening", mass.carving.separated_bodies},
         {"vertical_stress_at_centre_kPa", 1e-3 * centre_stress},
-        {"in_situ_out_of_balance_force_ratio", run.in_situ_unbalance}}},
+        {"in_situ_out_of_balance_force_ratio", run.in_situ_out_of_balance}}},
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};

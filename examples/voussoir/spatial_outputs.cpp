@@ -106,7 +106,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
         {"pieces_dropped_at_wall", mass.carving.dropped_pieces},
         {"volume_dropped_at_wall_m3", mass.carving.dropped_measure},
         {"vertical_stress_at_centre_kPa", 1e-3 * centre_stress},
-        {"in_situ_out_of_balance_force_ratio", run.in_situ_unbalance}}},
+        {"in_situ_out_of_balance_force_ratio", run.in_situ_out_of_balance}}},
       {"warnings", run.warnings},
       {"time_s",
        {{"generation", run.generation_seconds}, {"equilibrium", run.equilibrium_seconds}}}};

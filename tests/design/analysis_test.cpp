@@ -197,7 +197,7 @@ TEST_SUITE("design/analysis") {
       const auto run = design::run_tunnel(circle(2, seed));
       check_same(answer_of(run.tunnel, run.verdict(), run.fallen_measure(), run.convergence()),
                  composed_section(seed));
-      CHECK(run.in_situ_unbalance < 1e-9);
+      CHECK(run.in_situ_out_of_balance < 1e-9);
     }
   }
 

@@ -161,9 +161,10 @@ TEST_SUITE("design/factor_of_safety") {
     for (const AnyMethod& method :
          {AnyMethod(TwoLevel()), AnyMethod(Relaxation()), AnyMethod(Explicit())}) {
       CAPTURE(method.type_name());
-      for (const auto& [joint, expected] :
+      for (const auto& block :
            {std::pair(&friction, by_friction), std::pair(&cohesion, by_cohesion)}) {
-        const AnyJoint* const law = joint;
+        const AnyJoint* const law = block.first;  // clang++ 14 captures no structured bindings
+        const double expected = block.second;
         const auto found =
             bracket_factor([&](double factor) { return incline(weakened(*law, factor), method); },
                            {.width = 5e-3});

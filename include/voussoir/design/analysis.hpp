@@ -33,9 +33,9 @@ namespace voussoir::design {
 /// differs in its supports only. A section that is taken out at once is out.
 struct ExcavatedRock {
   std::variant<Tunnel, SpatialTunnel> tunnel;
-  SimplePolygon opening;         ///< section of the tunnel
-  ChosenBoundary boundary = {};  ///< 2-D; in 3-D there are rollers
-  double in_situ_unbalance = 0;  ///< of the worst block over its weight [-]
+  SimplePolygon opening;              ///< section of the tunnel
+  ChosenBoundary boundary = {};       ///< 2-D; in 3-D there are rollers
+  double in_situ_out_of_balance = 0;  ///< of the worst block over its weight [-]
 };
 
 /// A finished analysis.
@@ -45,7 +45,8 @@ struct TunnelRun {
   SimplePolygon opening;         ///< section of the tunnel
   ChosenBoundary boundary = {};  ///< 2-D; in 3-D there are rollers
   ConstructionResult<Geometry> built = {};
-  double in_situ_unbalance = 0;  ///< of the worst block over its weight, before the excavation [-]
+  double in_situ_out_of_balance =
+      0;  ///< of the worst block over its weight, before the excavation [-]
 
   [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
   /// In words: `to_string(verdict(), fallen_measure(), built.has_lost_lining())`.
@@ -184,7 +185,7 @@ TunnelRun<Geometry> run_of(ExcavatedRock rock) {
           rock.opening,
           std::move(rock.boundary),
           {},
-          rock.in_situ_unbalance};
+          rock.in_situ_out_of_balance};
 }
 
 }  // namespace detail
@@ -195,20 +196,20 @@ VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
   const Progress progress = detail::progress_of_blocks(report);
   const SimplePolygon opening = opening_of(input);
   const LawsBySet<AnyJoint> laws = laws_of(input);
-  double unbalance = 0;
+  double out_of_balance = 0;
   const auto in_situ_tunnel = [&](const FarField<2>& far_field) {
     return Tunnel(rock.mass, laws, in_situ_of(input), progress, far_field);
   };
   const auto tunnel_of = [&](const FarField<2>& far_field) {
     Tunnel tunnel = in_situ_tunnel(far_field);
-    unbalance = tunnel.out_of_balance_ratio();
+    out_of_balance = tunnel.out_of_balance_ratio();
     tunnel.excavate(opening, input.blocks.min_wall_area, progress);
     return tunnel;
   };
   BoundedTunnel bounded = bounded_tunnel(input, rock.mass, laws, tunnel_of, wants_bias, progress);
   if (input.has_rounds)  // each takes out its part; what the boundary does was asked of the whole
     bounded.tunnel = in_situ_tunnel(bounded.boundary.field);
-  return {std::move(bounded.tunnel), opening, std::move(bounded.boundary), unbalance};
+  return {std::move(bounded.tunnel), opening, std::move(bounded.boundary), out_of_balance};
 }
 
 VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
@@ -218,9 +219,9 @@ VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
   const Progress progress = detail::progress_of_blocks(report);
   const SimplePolygon opening = opening_of(input);
   Tunnel tunnel(std::move(rock.mass), laws_of(input), in_situ_of(input), progress, boundary.field);
-  const double unbalance = tunnel.out_of_balance_ratio();
+  const double out_of_balance = tunnel.out_of_balance_ratio();
   if (!input.has_rounds) tunnel.excavate(opening, input.blocks.min_wall_area, progress);
-  return {std::move(tunnel), opening, boundary, unbalance};
+  return {std::move(tunnel), opening, boundary, out_of_balance};
 }
 
 VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
@@ -228,8 +229,8 @@ VOUSSOIR_DESIGN_INLINE ExcavatedRock excavated_rock(const AnalysisInput& input,
                                                     const StageProgress& report) {
   SpatialTunnel tunnel(std::move(rock.mass), laws_of(input), in_situ_of(input),
                        detail::progress_of_blocks(report));
-  const double unbalance = tunnel.out_of_balance_ratio();
-  return {std::move(tunnel), opening_of(input), {}, unbalance};
+  const double out_of_balance = tunnel.out_of_balance_ratio();
+  return {std::move(tunnel), opening_of(input), {}, out_of_balance};
 }
 
 VOUSSOIR_DESIGN_INLINE SupportChoice supports_of(const AnalysisInput& input) {

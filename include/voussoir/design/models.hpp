@@ -29,7 +29,7 @@
 /// A program that knows its physics composes exactly that (see examples/minimal.cpp). Where it is
 /// data, the choices are made inside the policies, and one solver type serves every input:
 /// `AnyJoint` is any contact law, `AnyBolt` any bolt, `AnyAnchors` any way of gripping the rock,
-/// `AnyLining` any lining, `AnyMethod` any way to equilibrium; each joint set, pattern and lining
+/// `AnyLining` any lining, `AnyMethod` any solution procedure; each joint set, pattern and lining
 /// has its own. An interface with `MohrCoulombJoint` without cohesion is one with `CoulombJoint`.
 namespace voussoir::design {
 
