@@ -13,6 +13,7 @@
 #include <voussoir/io/histogram_picture.hpp>
 
 #include "case_statistics.hpp"
+#include "case_uncertainty.hpp"
 #include "diagram_outputs.hpp"
 
 namespace voussoir::program {
@@ -26,6 +27,20 @@ struct KeyColumn {
   std::string name;
   std::vector<std::string> cells;
 };
+
+/// "_GPa_per_m" of "GPa/m".
+std::string unit_suffix(const std::string& unit) {
+  std::string words;
+  for (const char c : unit) {
+    if (c == '/')
+      words += words.empty() ? "per_" : "_per_";
+    else if (c == '%')
+      words += "percent";
+    else if (c != '^' && c != ' ')
+      words += c;
+  }
+  return words.empty() ? "" : "_" + words;
+}
 
 KeyColumn column_of(const VariedKey& varied) {
   KeyColumn column{varied.key, varied.values};
@@ -46,14 +61,7 @@ KeyColumn column_of(const VariedKey& varied) {
     numbers.push_back(digits);
   }
   column.cells = numbers;
-  std::string words;
-  for (const char c : unit) {
-    if (c == '/')
-      words += words.empty() ? "per_" : "_per_";
-    else if (c != '^' && c != ' ')
-      words += c;
-  }
-  if (!words.empty()) column.name += "_" + words;
+  column.name += unit_suffix(unit);
   return column;
 }
 
@@ -73,6 +81,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                         const std::vector<TunnelResult>& results) {
   std::vector<std::string> header;
   for (const KeyColumn& column : columns) header.push_back(column.name);
+  for (const UncertainKey& key : plan.uncertain())
+    header.push_back(key.key + unit_suffix(key.unit));
   for (const char* const name : {"seed",
                                  "verdict",
                                  "marginal",
@@ -101,7 +111,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
   for (std::size_t k = 0; k < results.size(); ++k) {
     const TunnelResult& r = results[k];
     std::vector<std::string> cells = key_cells(columns, k / seeds);
-    for (const std::string& cell : {std::to_string(plan.at(k).seed),
+    const Case the_case = plan.at(k);
+    for (const double value : the_case.drawn) cells.push_back(shortest_text(value));
+    for (const std::string& cell : {std::to_string(the_case.seed),
                                     r.word(),
                                     std::string(r.marginal ? "1" : "0"),
                                     number(r.fallen),
@@ -220,6 +232,14 @@ std::string quantity_text(const Counted& c) {
   return text;
 }
 
+/// A line for every key with a distribution.
+std::string uncertain_keys_text(const CasePlan& plan) {
+  std::string text;
+  for (const UncertainKey& key : plan.uncertain())
+    text += (text.empty() ? "drawn    " : "         ") + key.key + ": " + key.written + "\n";
+  return text;
+}
+
 std::string realisations_json(const CasePlan& plan, const Realised& r) {
   using Json = nlohmann::ordered_json;
   const auto share_json = [](const Share& share) {
@@ -311,15 +331,19 @@ CaseOutputs realisations_outputs(const CasePlan& plan, const std::vector<TunnelR
   outputs.files["realisations.csv"] = tunnels_csv(plan, {}, results);
   outputs.files["realisations.json"] = realisations_json(plan, all);
   outputs.files["realisations.svg"] = realisations_svg(plan, all);
+  const std::vector<UnwantedEvent> events = unwanted_events(plan.input(), results);
   std::string& out = outputs.summary;
-  out = "rock     " + std::to_string(all.count) + " realisations, " + seeds_text(plan) +
-        "\nverdicts " + all.verdicts() + "\nrockfall in " + all.rockfall().text() + "\n";
-  if (all.collapsed > 0) out += "collapse in " + all.collapse().text() + "\n";
+  out = "rock     " + std::to_string(all.count) + " realisations, " + seeds_text(plan) + "\n";
+  if (!plan.uncertain().empty()) out += uncertain_keys_text(plan);
+  out += "verdicts " + all.verdicts() + "\n";
+  for (const UnwantedEvent& event : events) out += event.what + " in " + event.share.text() + "\n";
+  out += probability_text(plan.input().criteria, events) + more_realisations_text(events);
   for (const Counted& c : counted_in(plan, all)) {
     std::string name = c.name;
     name.resize(22, ' ');
     out += name + quantity_text(c) + "\n";
   }
+  if (!plan.uncertain().empty()) out += influences(plan, results).text();
   out +=
       "boundary " + results.front().boundary + "\n" + strength_text(plan) + warnings_text(results);
   return outputs;

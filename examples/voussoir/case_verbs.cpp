@@ -190,7 +190,8 @@ CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& setti
                   .text = read_text(utf8_path(options.file)),
                   .directory = utf8_path(options.file).parent_path(),
                   .overrides = options.overrides,
-                  .realisations = settings.realisations};
+                  .realisations = settings.realisations,
+                  .sampling = settings.sampling == "random" ? Sampling::random : Sampling::latin};
   for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
   return CasePlan(std::move(parts));
 }

@@ -244,6 +244,10 @@ int run_program(int argc, char** argv) {
       count->required();
     else
       count->capture_default_str();
+    verb->add_option("--sampling", plan.sampling,
+                     "of keys with a distribution: Latin hypercube, or plain Monte Carlo")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"latin", "random"}));
     verb->add_flag("--discard", plan.discard,
                    "remove the cases of another input or program from the folder first");
     verb->add_option(

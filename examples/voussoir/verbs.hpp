@@ -107,6 +107,7 @@ inline int say_interrupted() {
 struct PlanOptions {
   std::vector<std::string> varied;  ///< "key=values" of a sweep
   int realisations = 1;
+  std::string sampling = "latin";  ///< of keys with a distribution: or "random"
   bool discard = false;       ///< what the folder holds of another plan
   std::string engine;         ///< to hand the plan to; empty: compute here
   int chunks = 0;             ///< 0: so that each lasts `chunk_minutes`
