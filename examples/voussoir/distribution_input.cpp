@@ -47,14 +47,20 @@ struct Parts {
   bool is_sound = true;
 
   [[nodiscard]] std::string full(const std::string& name) const { return key + "." + name; }
+  /// A value as it stands in the file, or as it was read from an override.
+  [[nodiscard]] static std::string written(const Node& part) {
+    if (!part.written.empty()) return printable(part.written);
+    if (part.kind == Node::Kind::text) return "\"" + printable(part.text) + "\"";
+    const bool is_number = part.kind == Node::Kind::integer || part.kind == Node::Kind::real;
+    return is_number ? shortest_text(part.real) : "...";
+  }
   void complain(const std::string& name, const std::string& complaint,
                 const std::string& accepted = distribution_form) {
     is_sound = false;
     const Node* const part = name.empty() ? nullptr : table.find(name);
     const std::string of =
-        part == nullptr || part->written.empty()
-            ? key + (table.written.empty() ? "" : " = " + printable(table.written))
-            : full(name) + " = " + printable(part->written);
+        part == nullptr ? key + (table.written.empty() ? "" : " = " + printable(table.written))
+                        : full(name) + " = " + written(*part);
     refuse(part == nullptr ? table.place : part->place, name.empty() ? key : full(name),
            of + " " + complaint, accepted);
   }

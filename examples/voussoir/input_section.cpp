@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <tuple>
+#include <voussoir/drawing/number_text.hpp>
 
 namespace voussoir::program {
 
@@ -252,9 +253,9 @@ bool Value::stays_in(const Range& range, const std::string& accepted) const {
   if (!node_->uncertain) return true;
   const UncertainKey& key = *node_->uncertain;
   for (const double end : {key.distribution.low(), key.distribution.high()}) {
-    const std::string text = key.text_of(end);
-    if (range.contains(key.unit.empty() ? end : parse_quantity(text).value)) continue;
-    refuse("reaches " + text + ", which is outside the accepted range",
+    if (range.contains(key.unit.empty() ? end : parse_quantity(key.text_of(end)).value)) continue;
+    refuse("reaches " + significant_text(end, 7) + (key.unit.empty() ? "" : " " + key.unit) +
+               ", which is outside the accepted range",
            accepted + "; min and max cut a distribution off");
     return false;
   }
