@@ -6,3 +6,4 @@
 #include <voussoir/design/factor_of_safety.hpp>
 #include <voussoir/design/lining_utilisation.hpp>
 #include <voussoir/design/size_estimate.hpp>
+#include <voussoir/design/support_costs.hpp>

@@ -74,6 +74,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
   run.warnings = laid.warnings;
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
+  acceptance.unbalance_over_weight = input.run.out_of_balance;
   acceptance.displacement_limit = input.run.displacement_limit;
   acceptance.contact_update_limit = input.run.contact_update_limit;
   acceptance.collapse_measure = half_of_the_free(run.solver);

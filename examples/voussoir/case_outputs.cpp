@@ -113,6 +113,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                                  "bolt_joints_ruptured",
                                  "feet_yielded",
                                  "largest_bolt_force_of_its_strength",
+                                 "lining_of_its_strength",
+                                 "lining_governed_by",
                                  "error_estimate",
                                  "out_of_balance_force_ratio",
                                  "blocks",
@@ -142,7 +144,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
                                     std::to_string(r.bolts_yielded),
                                     std::to_string(r.bolts_ruptured),
                                     std::to_string(r.feet_yielded),
-                                    strength_cell(r),
+                                    strength_cell(r.of_bolt_strength),
+                                    strength_cell(r.of_lining_strength),
+                                    governed_cell(r),
                                     number(r.error_estimate),
                                     number(r.out_of_balance),
                                     std::to_string(r.blocks),
@@ -166,7 +170,7 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
     header.emplace_back(name);
   for (const std::string quantity :
        {"crown_convergence_mm", "largest_bolt_force_kN", "mean_bolt_force_kN",
-        "largest_thrust_kN_per_m", "largest_moment_kNm_per_m"})
+        "largest_thrust_kN_per_m", "largest_moment_kNm_per_m", "lining_of_its_strength"})
     for (const std::string& what :
          {std::string("_mean"), std::string("_deviation"), std::string("_mean_low_95"),
           std::string("_mean_high_95"), quantile})
@@ -194,6 +198,7 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
     add(r.mean_bolt_force, 1e-3);
     add(r.largest_thrust, 1e-3);
     add(r.largest_moment, 1e-3);
+    add(r.of_lining_strength, 1);
     table.add_cells(cells);
   }
   return table.text();
@@ -216,6 +221,10 @@ std::vector<Counted> counted_in(const CasePlan& plan, const Realised& r) {
   if (!plan.input().linings.empty()) {
     all.push_back({"largest lining thrust", "kN/m", &r.largest_thrust, 1e-3});
     all.push_back({"largest lining moment", "kN m/m", &r.largest_moment, 1e-3});
+    const auto& linings = plan.input().linings;
+    if (std::any_of(linings.begin(), linings.end(),
+                    [](const LiningInput& lining) { return lining.concrete.has_value(); }))
+      all.push_back({"lining of its strength", "%", &r.of_lining_strength, 100});
   }
   return all;
 }
@@ -425,9 +434,14 @@ std::string warnings_cell(const TunnelResult& result) {
   return text;
 }
 
-std::string strength_cell(const TunnelResult& result) {
-  return std::isfinite(result.of_bolt_strength) ? significant_text(result.of_bolt_strength, 6)
-                                                : std::string("-");
+std::string strength_cell(double utilisation) {
+  return std::isnan(utilisation)   ? "-"
+         : std::isinf(utilisation) ? "inf"
+                                   : significant_text(utilisation, 6);
+}
+
+std::string governed_cell(const TunnelResult& result) {
+  return result.lining_governed_by.empty() ? "-" : result.lining_governed_by;
 }
 
 std::string warnings_text(const std::vector<TunnelResult>& results) {

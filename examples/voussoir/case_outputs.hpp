@@ -27,8 +27,10 @@ struct CaseOutputs {
 /// none.
 [[nodiscard]] std::string strength_text(const CasePlan& plan);
 
-/// The largest bolt force over the strength of a bolt, "-" where none was given.
-[[nodiscard]] std::string strength_cell(const TunnelResult& result);
+/// A utilisation [-]; "-" where no strength was given.
+[[nodiscard]] std::string strength_cell(double utilisation);
+/// Where the lining is nearest to its strength, "-" where none was given.
+[[nodiscard]] std::string governed_cell(const TunnelResult& result);
 
 /// Warnings of one tunnel.
 [[nodiscard]] std::string warnings_cell(const TunnelResult& result);

@@ -61,6 +61,7 @@ Realised::Realised(std::span<const TunnelResult> results) {
     add(mean_bolt_force, stands, r.demand.mean_bolt_force);
     add(largest_thrust, stands, r.demand.largest_thrust);
     add(largest_moment, stands, r.demand.largest_moment);
+    add(of_lining_strength, stands, r.of_lining_strength);
   }
 }
 
@@ -89,8 +90,7 @@ std::string Realised::verdicts() const {
   say(failed, "failed");
   if (marginal > 0) text += "; " + std::to_string(marginal) + " of these marginal";
   if (yielded > 0)
-    text += "; " + std::to_string(yielded) +
-            " of those that stand with bolts or feet at their strength";
+    text += "; " + std::to_string(yielded) + " of those that stand with supports at their strength";
   return text;
 }
 

@@ -50,7 +50,8 @@ struct Realised {
   int whole = 0, shedding = 0, without_lining = 0, collapsed = 0, undecided = 0, failed = 0;
   int marginal = 0;  ///< of any of these (`TunnelResult::marginal`)
   int yielded = 0;   ///< of those that stand: with supports at their strength
-  Quantity crown, largest_bolt_force, mean_bolt_force, largest_thrust, largest_moment;  ///< SI
+  Quantity crown, largest_bolt_force, mean_bolt_force, largest_thrust, largest_moment,
+      of_lining_strength;  ///< SI
 
   explicit Realised(std::span<const TunnelResult> results);
   /// @param points  of a Latin hypercube at which they were computed: a list of values for each key
@@ -59,8 +60,8 @@ struct Realised {
   [[nodiscard]] Share rockfall() const { return {shedding + collapsed, decided()}; }
   [[nodiscard]] Share collapse() const { return {collapsed, decided()}; }
   [[nodiscard]] int decided() const { return count - undecided - failed; }
-  /// "47 stable, 2 stable after rockfall, 1 collapse; 2 of these marginal; 3 with bolts or feet at
-  /// their strength"
+  /// "47 stable, 2 stable after rockfall, 1 collapse; 2 of these marginal; 3 of those that stand
+  /// with supports at their strength"
   [[nodiscard]] std::string verdicts() const;
 };
 

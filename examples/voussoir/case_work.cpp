@@ -39,6 +39,14 @@ double number_at(const Json& json, const char* key) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+/// A utilisation may be infinite besides.
+constexpr const char* beyond_any = "infinite";
+Json utilisation_json(double value) { return std::isinf(value) ? Json(beyond_any) : Json(value); }
+double utilisation_at(const Json& json, const char* key) {
+  return json.at(key) == beyond_any ? std::numeric_limits<double>::infinity()
+                                    : number_at(json, key);
+}
+
 std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot read '" + utf8_text(path) + "'");
@@ -191,6 +199,8 @@ std::string result_json(const TunnelResult& r) {
                      {"bolts_ruptured", r.bolts_ruptured},
                      {"feet_yielded", r.feet_yielded},
                      {"of_bolt_strength", r.of_bolt_strength},
+                     {"of_lining_strength", utilisation_json(r.of_lining_strength)},
+                     {"lining_governed_by", r.lining_governed_by},
                      {"error_estimate", r.error_estimate},
                      {"out_of_balance_force_ratio", r.out_of_balance},
                      {"blocks", r.blocks},
@@ -228,6 +238,8 @@ TunnelResult result_from_json(const std::string& text) {
     r.bolts_ruptured = json.at("bolts_ruptured");
     r.feet_yielded = json.at("feet_yielded");
     r.of_bolt_strength = number_at(json, "of_bolt_strength");
+    r.of_lining_strength = utilisation_at(json, "of_lining_strength");
+    r.lining_governed_by = json.at("lining_governed_by");
     r.error_estimate = number_at(json, "error_estimate");
     r.out_of_balance = number_at(json, "out_of_balance_force_ratio");
     r.blocks = json.at("blocks");

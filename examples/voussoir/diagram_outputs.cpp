@@ -61,12 +61,27 @@ const char* spacing_column(const DiagramInput& axes) {
 
 std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) {
   const DiagramInput& axes = *plan.input().diagram;
-  CsvTable table({spacing_column(axes), "lining_thickness_cm", "verdict", "failed", "marginal",
-                  "crown_convergence_mm", "crown_convergence_percent_of_radius", "detached_area_m2",
-                  "largest_bolt_force_kN", "mean_bolt_force_kN", "largest_thrust_kN_per_m",
-                  "largest_moment_kNm_per_m", "bolt_joints_yielded", "bolt_joints_ruptured",
-                  "feet_yielded", "largest_bolt_force_of_its_strength", "error_estimate",
-                  "out_of_balance_force_ratio", "warnings"},
+  CsvTable table({spacing_column(axes),
+                  "lining_thickness_cm",
+                  "verdict",
+                  "failed",
+                  "marginal",
+                  "crown_convergence_mm",
+                  "crown_convergence_percent_of_radius",
+                  "detached_area_m2",
+                  "largest_bolt_force_kN",
+                  "mean_bolt_force_kN",
+                  "largest_thrust_kN_per_m",
+                  "largest_moment_kNm_per_m",
+                  "bolt_joints_yielded",
+                  "bolt_joints_ruptured",
+                  "feet_yielded",
+                  "largest_bolt_force_of_its_strength",
+                  "lining_of_its_strength",
+                  "lining_governed_by",
+                  "error_estimate",
+                  "out_of_balance_force_ratio",
+                  "warnings"},
                  6);
   const double radius = plan.input().tunnel.half_width();
   for (const Place& place : places) {
@@ -76,7 +91,8 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
                   1e2 * r.convergence.crown / radius, r.fallen, 1e-3 * r.demand.largest_bolt_force,
                   1e-3 * r.demand.mean_bolt_force, 1e-3 * r.demand.largest_thrust,
                   1e-3 * r.demand.largest_moment, r.bolts_yielded, r.bolts_ruptured, r.feet_yielded,
-                  strength_cell(r), r.error_estimate, r.out_of_balance, warnings_cell(r));
+                  strength_cell(r.of_bolt_strength), strength_cell(r.of_lining_strength),
+                  governed_cell(r), r.error_estimate, r.out_of_balance, warnings_cell(r));
   }
   return table.text();
 }
@@ -215,7 +231,7 @@ std::string tunnels_svg(const CasePlan& plan, const std::vector<Place>& places) 
         {"tunnels marginal", std::to_string(marginal) + " of " + count});
   if (yielded > 0)
     picture.header.key_numbers.push_back(
-        {"stable with bolts or feet at their strength", std::to_string(yielded) + " of " + count});
+        {"stable with supports at their strength", std::to_string(yielded) + " of " + count});
   if (undecided > 0) {
     const std::string text = std::to_string(undecided) + " of " + count;
     picture.header.key_numbers.push_back({"tunnels undecided", text});
@@ -305,7 +321,7 @@ std::string tunnels_summary(const CasePlan& plan, const std::vector<Place>& plac
         "~: marginal, another displacement limit, other damping or slower unloading changes what falls\n";
   const bool any_yielded =
       std::any_of(results.begin(), results.end(), [](const auto& r) { return r.has_yielded(); });
-  if (any_yielded) out += "y: bolts or feet have reached their strength\n";
+  if (any_yielded) out += "y: supports have reached their strength\n";
   out += "\n" + table_text(plan, places, [&](const Place& place) {
            const TunnelResult& r = place.tunnels.front();
            const char* const mark = !r.is_decided()                  ? " ?"
@@ -333,7 +349,7 @@ std::string realised_summary(const CasePlan& plan, const std::vector<Place>& pla
   int yielded = 0;
   for (const Place& place : places) yielded += place.realised.yielded;
   if (yielded > 0)
-    out += "\nbolts or feet have reached their strength in " + std::to_string(yielded) + " of " +
+    out += "\nsupports have reached their strength in " + std::to_string(yielded) + " of " +
            std::to_string(results.size()) + " tunnels\n";
   out += "\nrealisations in which rock falls [%]; ?: some are undecided; ~: some are marginal\n\n";
   out += table_text(plan, places, [](const Place& place) {

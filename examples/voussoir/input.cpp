@@ -39,6 +39,7 @@ void read_run(Section& s, RunInput& run) {
                           {"iterative", LinearMethod::iterative}},
                          Need::optional);
   s.number("tolerance", run.tolerance, tolerance_range, Need::optional);
+  s.number("out_of_balance", run.out_of_balance, tolerance_range, Need::optional);
   std::optional<double> displacement_limit, contact_update_limit;
   s.quantity("displacement_limit", displacement_limit, dimension::length, above(0));
   run.displacement_limit = displacement_limit.value_or(run.displacement_limit);

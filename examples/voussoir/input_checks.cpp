@@ -505,6 +505,22 @@ void check_diagram(Checker& checker, const Input& input) {
   if (input.linings.empty() && input.diagram->thickness.back() > 0 && !checker.faulty("support"))
     checker.report("diagram.thickness", "varies a lining, which the file does not describe",
                    "a table [support.lining]");
+  if (input.linings.empty() || checker.faulty("support")) return;
+  const LiningInput& lining = input.linings.front();
+  for (const double thickness : input.diagram->thickness) {
+    if (!lining.concrete || thickness == 0) continue;
+    ConcreteSection section = *lining.concrete;
+    section.thickness = thickness;
+    try {
+      (void)SectionCapacity(std::move(section));
+    } catch (const InvalidInput& fault) {
+      checker.report("diagram.thickness",
+                     "has " + format_quantity(thickness, dimension::length) +
+                         ", which is no section of this concrete: " + fault.what(),
+                     "thicknesses in which the bars of support.lining.concrete lie");
+      return;
+    }
+  }
 }
 
 /// A utilisation is that of a strength.

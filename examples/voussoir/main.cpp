@@ -111,6 +111,48 @@ int patterns_verb(const Options& options, const PatternChoice& choice,
   return finished;
 }
 
+/// What `safety` is asked besides its input.
+struct SafetyOptions {
+  std::string limit = "collapse";
+  double width = 1, largest = 5;  ///< of the bracket [%]; of the factors
+  double loss = 0;                ///< tolerated [m^2]
+  bool from_start = false, with_supports = false;
+
+  [[nodiscard]] SafetySettings settings() const {
+    return {.limit = limit == "rockfall"   ? SafetyLimit::rockfall
+                     : limit == "supports" ? SafetyLimit::supports
+                                           : SafetyLimit::collapse,
+            .tolerated_loss = loss,
+            .search = {.most = largest, .width = 0.01 * width},
+            .from_start = from_start,
+            .with_supports = with_supports};
+  }
+};
+
+void add_safety_options(CLI::App& verb, SafetyOptions& chosen) {
+  verb.add_option("--falls-where", chosen.limit,
+                  "collapse: most of it comes down; rockfall: rock or lining comes off; supports: "
+                  "that, or one of them reaches its strength")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"collapse", "rockfall", "supports"}));
+  verb.add_option("--loss", chosen.loss,
+                  "of rock that may come off all the same, not for collapse [m2 per metre]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6));
+  verb.add_option("--width", chosen.width, "between the two factors in the end [%]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 50.0));
+  verb.add_option("--largest", chosen.largest, "factor that is tried")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1000.0));
+  CLI::Option* const from_start = verb.add_flag(
+      "--from-start", chosen.from_start,
+      "every factor from the in-situ state on; else strength is divided once the tunnel stands");
+  verb.add_flag("--with-supports", chosen.with_supports,
+                "divide what bolts, feet and the bond of a lining bear, too")
+      ->needs(from_start);
+}
+
 /// Where this program lies, for scripts that call it from elsewhere.
 std::string program_path(const char* called) {
   const std::filesystem::path path = voussoir::utf8_path(called == nullptr ? "voussoir" : called);
@@ -197,6 +239,12 @@ int run_program(int argc, char** argv) {
   grc->add_option("--steps", reaction_steps, "in which the wall is unloaded, in a section")
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
+  CLI::App* safety = app.add_subcommand(
+      "safety",
+      "factor of safety: by how much the strength of joints may be divided, and what falls");
+  add_input(safety);
+  SafetyOptions safety_options;
+  add_safety_options(*safety, safety_options);
   CLI::App* explain = app.add_subcommand(
       "explain", "what a key of the input, a verdict, an exit status or a result means");
   std::string explained;
@@ -210,7 +258,7 @@ int run_program(int argc, char** argv) {
   completion->add_option("SHELL", shell, "bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));
-  for (CLI::App* verb : {run, check, blocks, grc})
+  for (CLI::App* verb : {run, check, blocks, grc, safety})
     verb->add_flag("--json", options.json, "print JSON in place of words");
   CLI::App* diff = app.add_subcommand("diff", "what differs between two runs");
   std::vector<std::string> compared;
@@ -373,6 +421,7 @@ int run_program(int argc, char** argv) {
     }
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
+    if (*safety) return safety_verb(options, safety_options.settings());
     if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `voussoir run`, `check`, `blocks`, `grc`, `init`: one input file, one tunnel.
+// `voussoir run`, `check`, `blocks`, `grc`, `safety`, `init`: one input file, one tunnel.
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -18,6 +18,7 @@
 #include "outputs.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
+#include "safety.hpp"
 #include "survey.hpp"
 #include "templates.hpp"
 #include "verbs.hpp"
@@ -173,6 +174,43 @@ int check_verb(const Options& options, bool wants_picture) {
   if (input.survey) outputs.add("stereonet.svg", stereonet_svg(input), id);
   publish(outputs, options, input.survey ? "check.svg, stereonet.svg" : "check.svg");
   return finished;
+}
+
+int safety_verb(const Options& options, const SafetySettings& settings) {
+  work = {"reading " + options.file, "a smaller input file"};
+  const Input input = read_input(utf8_path(options.file), options.overrides);
+  RunFolder outputs(options.folder);
+  ProgressLine line(options.quiet);
+  work.remedy = smaller_model;
+  const Report report = [&](const std::string& what, double fraction) {
+    now_doing(what, "computing with " + what);
+    return line.show(what, fraction);
+  };
+  const std::string id = RunId("safety")
+                             .add(input)
+                             .add(settings.search.width)
+                             .add(settings.search.most)
+                             .add(settings.tolerated_loss)
+                             .add(static_cast<int>(settings.limit))
+                             .add(static_cast<int>(settings.from_start))
+                             .add(static_cast<int>(settings.with_supports))
+                             .text();
+  const SafetyAnswer answer = safety_of(input, settings, report);
+  line.clear();
+  if (stop_asked != 0) return say_interrupted();
+  work.doing = "writing the results";
+  outputs.replace("safety.svg");  // where nothing falls there is none
+  std::string names = "safety.json, safety.csv";
+  const std::string json = safety_json(input, settings, answer);
+  outputs.add("safety.json", json, id);
+  outputs.add("safety.csv", safety_csv(answer), id);
+  if (!answer.mechanism.empty()) {
+    outputs.add("safety.svg", answer.mechanism, id);
+    names += ", safety.svg";
+  }
+  say(options, safety_text(settings, answer), with_run_id("safety.json", json, id));
+  publish(outputs, options, names);
+  return answer.is_undecided() ? not_decided : finished;
 }
 
 int grc_verb(const Options& options, int steps) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include <voussoir/design/factor_of_safety.hpp>
 #include <voussoir/io/operating_system.hpp>
 
 #include "case_plan.hpp"
@@ -125,6 +126,8 @@ struct PlanOptions {
 /// Ground reaction, and what supports do; in 3-D the wall along the tunnel.
 /// @param steps  in which the wall is unloaded, 2-D
 [[nodiscard]] int grc_verb(const Options& options, int steps);
+/// The factor of safety by strength reduction, and what falls beyond it.
+[[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings);
 /// @param file  to be written, which must not be there; empty: standard output
 [[nodiscard]] int init_verb(const std::string& name, const std::string& file);
 

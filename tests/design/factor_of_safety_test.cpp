@@ -179,15 +179,18 @@ TEST_SUITE("design/factor_of_safety") {
   TEST_CASE("a tunnel with more friction has a factor as much larger, and a run agrees [long]") {
     const AnalysisInput input = bare_tunnel(0.9), rougher = bare_tunnel(0.9 * 1.3);
     const JointedRock<Planar> rock = rock_of(input);
-    const FactorSearch search{.width = 0.04};
-    const TunnelSafety one = factor_of_safety(input, rock, SafetyLimit::rockfall, search),
-                       other = factor_of_safety(rougher, rock, SafetyLimit::rockfall, search);
+    const SafetySettings settings{
+        .limit = SafetyLimit::rockfall, .search = {.width = 0.04}, .from_start = true};
+    const auto one = factor_of_safety(input, rock, settings),
+               other = factor_of_safety(rougher, rock, settings);
     REQUIRE(one.bracket.is_closed());
     REQUIRE(other.bracket.is_closed());
     // Two brackets of 4 % about factors of which one is 1.3 times the other.
     CHECK(other.bracket.stands / one.bracket.stands == near(1.3).epsilon(0.0401));
-    CHECK(one.standing.is_whole());
-    CHECK_FALSE(one.falling.is_whole());
+    REQUIRE(one.standing);
+    REQUIRE(one.falling);
+    CHECK(one.standing->result.is_whole());
+    CHECK_FALSE(one.falling->result.is_whole());
     // The ends of the bracket, each by a run from the beginning.
     for (const double factor : {one.bracket.stands, one.bracket.falls}) {
       AnalysisInput weaker = input;
@@ -198,7 +201,7 @@ TEST_SUITE("design/factor_of_safety") {
             (factor == one.bracket.stands));
     }
     // It stands longer than it keeps all of its rock.
-    const TunnelSafety whole = factor_of_safety(input, rock, SafetyLimit::collapse, search);
+    const auto whole = factor_of_safety(input, rock, {.search = settings.search, .from_start = true});
     CHECK(one.bracket.stands <= whole.bracket.stands * (1 + 1e-12));
     MESSAGE("rock falls from " << one.bracket.falls << ", collapse from " << whole.bracket.falls);
   }

@@ -289,6 +289,31 @@ TEST_SUITE("io/interaction_picture") {
     CHECK_FALSE(contains(draw_interaction_picture(small_diagram()), "other"));
   }
 
+  TEST_CASE("between no lining and the first that there is nothing is drawn") {
+    // No contour, no colour: what was not computed is not shown. With the thinnest lining at 2 cm,
+    // three quarters of what one grid would have between 0 and 10 cm.
+    const std::string text = draw_interaction_picture(small_diagram());
+    CHECK(contains(text, ">no lining<"));
+    CHECK(contains(text, "id=\"contours\""));
+    CHECK(contains(text, "id=\"contours-column-0\""));
+    CHECK(contains(text, "id=\"row-2\""));
+    CHECK(contains(text, "id=\"row-2-column-0\""));
+    // The lined part alone draws the same contours: it knows nothing of what has no lining.
+    const auto layer = [](const std::string& picture, const char* name) {
+      const std::size_t from = picture.find(std::string("id=\"") + name + "\"");
+      REQUIRE(from != std::string::npos);
+      return picture.substr(from, picture.find("</g>", from) - from);
+    };
+    InteractionPicture other = small_diagram();
+    other.values.row(0) << 0.0205, 0.0299, not_a_number;
+    const std::string changed = draw_interaction_picture(other);
+    CHECK(layer(changed, "contours") == layer(text, "contours"));
+    CHECK(layer(changed, "contours-column-0") != layer(text, "contours-column-0"));
+    InteractionPicture lined = small_diagram();
+    lined.thicknesses = {0.01, 0.02, 0.1};
+    CHECK_FALSE(contains(draw_interaction_picture(lined), "no lining"));
+  }
+
   TEST_CASE("grids from two by two, without values, or without contours are drawn") {
     InteractionPicture picture = small_diagram();
     picture.thicknesses = {0, 0.1};

@@ -255,6 +255,8 @@ TEST_SUITE("program/cases") {
     r.bolts_ruptured = 2;
     r.feet_yielded = 1;
     r.of_bolt_strength = 1.0 / 3;
+    r.of_lining_strength = std::numeric_limits<double>::infinity();
+    r.lining_governed_by = "crown, 92 deg: bending";
     r.boundary = "rollers";
     r.warnings = {"one", "two"};
     const TunnelResult back = result_from_json(result_json(r));
@@ -265,8 +267,11 @@ TEST_SUITE("program/cases") {
     CHECK(std::signbit(back.convergence.right_springing));
     CHECK(std::isnan(back.convergence.invert));
     CHECK(back.reason == r.reason);
+    CHECK(std::isinf(back.of_lining_strength));
+    CHECK(back.lining_governed_by == r.lining_governed_by);
     CHECK(back.word() ==
-          "stable after rockfall, bolts yielded, bolts ruptured, feet at their strength");
+          "stable after rockfall, bolts yielded, bolts ruptured, feet at their strength, "
+          "lining beyond its strength");
     CHECK_THROWS_AS((void)result_from_json("{}"), std::runtime_error);
     CHECK_THROWS_AS((void)result_from_json("{\"verdict\":"), std::runtime_error);
   }

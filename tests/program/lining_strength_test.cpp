@@ -37,15 +37,22 @@ const std::string mesh =
     "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"4 cm\"\n"
     "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"11 cm\"\n";
 
-/// The columns of a table by their place in its rows.
+/// The rows of a table, cells with commas in quotes.
 std::vector<std::vector<std::string>> cells_of(const std::string& table) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(table);
-  for (std::string line; std::getline(lines, line);) {
-    rows.emplace_back();
-    std::istringstream row(line);
-    for (std::string cell; std::getline(row, cell, ',');) rows.back().push_back(cell);
+  std::vector<std::vector<std::string>> rows(1, {""});
+  bool is_quoted = false;
+  for (const char c : table) {
+    if (c == '"')
+      is_quoted = !is_quoted;
+    else if (c == '\n' && !is_quoted)
+      rows.push_back({""});
+    else if (c == ',' && !is_quoted)
+      rows.back().emplace_back();
+    else if (c != '\r')
+      rows.back().back() += c;
   }
+  if (rows.back().size() == 1 && rows.back().front().empty())
+    rows.pop_back();  // the last line ends
   return rows;
 }
 
@@ -140,6 +147,49 @@ TEST_SUITE("program/lining_strength") {
     CHECK(angle < 360);
   }
 
+  TEST_CASE("one tunnel among many has of its strength what it has alone") {
+    for (const std::string& dimension : {std::string(), spatial}) {
+      const std::string text = tunnel(mesh, dimension);
+      const Results run = results_of(text);
+      const auto& lining = run.json.at("lining");
+      const double alone = lining.at("of_its_strength").get<double>();
+      const Folder folder;
+      const std::string file = write_file(folder / "case.toml", text);
+      const auto table = [&](std::vector<std::string> arguments, const std::string& name) {
+        arguments.insert(arguments.begin() + 1, {file, "--out", folder / "many"});
+        const Outcome outcome = run_program(arguments);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return std::pair(outcome.out, cells_of(read_file(folder / "many/" + name)));
+      };
+      // First what is in the file, then hardly any concrete.
+      const auto [said, rows] =
+          table({"sweep", "--vary", "support.lining.concrete.fck=25 MPa, 1 MPa"}, "sweep.csv");
+      const std::size_t use = column(rows, "lining_of_its_strength");
+      CHECK(std::abs(std::stod(rows[1][use]) / alone - 1) < 1e-5);  // six digits are written
+      CHECK(std::stod(rows[2][use]) > 1);
+      CHECK(rows[2][column(rows, "verdict")] == "stable, lining beyond its strength");
+      CHECK(said.find("1 of those that stand with supports at their strength") !=
+            std::string::npos);
+      const auto& at = lining.at("governing");
+      CHECK(read_file(folder / "many/sweep.csv").find(at.at("place").get<std::string>() + ", ") !=
+            std::string::npos);
+      if (!dimension.empty()) continue;
+      const auto [told, cells] = table(
+          {"diagram", "--set",
+           R"(support.bolts={length="2 m", spacing="30 deg", stiffness="0.2 GN/m", anchor_offset="3 cm"})",
+           "--set", R"(diagram={spacing=["30 deg", "none"], thickness=["0 cm", "15 cm"]})"},
+          "interaction.csv");
+      const std::size_t of = column(cells, "lining_of_its_strength");
+      CHECK(cells[1][of] == "-");
+      CHECK(std::abs(std::stod(cells[4][of]) / alone - 1) < 1e-5);
+      const auto [words, realised] = table({"realisations", "-n", "1"}, "realisations.csv");
+      CHECK(std::abs(std::stod(realised[1][column(realised, "lining_of_its_strength")]) / alone -
+                     1) < 1e-5);
+      CHECK(words.find("lining of its strength") != std::string::npos);
+    }
+  }
+
   TEST_CASE("bad input is named with its place") {
     const auto refused = [](const std::string& concrete, const std::vector<std::string>& parts) {
       const Folder folder;
@@ -154,6 +204,11 @@ TEST_SUITE("program/lining_strength") {
     refused("[support.lining.concrete]\nfck = \"250 MPa\"\n", {"fck", "90 MPa"});
     refused(replaced(mesh, "depth = \"11 cm\"", "depth = \"16 cm\""),
             {"bars[1].depth", "outside of the lining", "150 mm"});
+    refused(mesh +
+                "[support.bolts]\nlength = \"2 m\"\nspacing = \"30 deg\"\n"
+                "stiffness = \"0.2 GN/m\"\nanchor_offset = \"3 cm\"\n"
+                "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"0 cm\", \"10 cm\"]\n",
+            {"diagram.thickness", "100 mm", "depth of bars", "lie"});
     refused(replaced(mesh, "spacing = \"10 cm\"\ndepth = \"4 cm\"",
                      "spacing = \"5 mm\"\ndepth = \"4 cm\""),
             {"bars[0].spacing"});

@@ -162,7 +162,7 @@ TEST_SUITE("program/strength") {
         many({"sweep", "--vary", "support.bolts.yield_force=500 kN, " + with_unit(0.5e3 * force)},
              "sweep", {});
     CAPTURE(sweep);
-    CHECK(says(sweep, "2 stable; 1 of those that stand with bolts or feet at their strength"));
+    CHECK(says(sweep, "2 stable; 1 of those that stand with supports at their strength"));
     CHECK(says(sweep, "strength lining, feet of the lining: " + words));
     const std::string rows = read_file(folder / "sweep/sweep.csv");
     CHECK(cell(rows, 1, "verdict") == "stable");
@@ -176,7 +176,7 @@ TEST_SUITE("program/strength") {
 
     const std::string realised = many({"realisations", "-n", "1"}, "realisations", {weak_feet});
     CAPTURE(realised);
-    CHECK(says(realised, "1 stable; 1 of those that stand with bolts or feet at their strength"));
+    CHECK(says(realised, "1 stable; 1 of those that stand with supports at their strength"));
     CHECK(says(realised, "strength bolts, lining: " + words));
     const std::string row = read_file(folder / "realisations/realisations.csv");
     CHECK(cell(row, 1, "verdict") == "stable, feet at their strength");
@@ -189,12 +189,12 @@ TEST_SUITE("program/strength") {
         {"diagram", "--set", R"(diagram={spacing=["30 deg", "none"], thickness=["0 cm", "8 cm"]})"},
         "diagram", {weak_bolts});
     CAPTURE(diagram);
-    CHECK(says(diagram, "y: bolts or feet have reached their strength"));
+    CHECK(says(diagram, "y: supports have reached their strength"));
     const std::string cells = read_file(folder / "diagram/interaction.csv");
     CHECK(cell(cells, 2, "verdict") == "stable, bolts yielded");
     CHECK(cell(cells, 4, "bolt_joints_yielded") == "0");  // of no bolts
     CHECK(says(read_file(folder / "diagram/interaction.svg"),
-               "stable with bolts or feet at their strength"));
+               "stable with supports at their strength"));
   }
 }
 

@@ -55,6 +55,8 @@ class BurgersJoint {
                                            params.joint_shear_stiffness, params.friction_angle},
                                           any_units)) {}
 
+  [[nodiscard]] const Params& params() const { return p_; }
+
   template <int Dim>
   [[nodiscard]] PointForce<Dim> force(const PointLoad<Dim>& load, const State<Dim>& state) const {
     return joint_.force(load, state.joint);

@@ -30,6 +30,9 @@ class LawsBySet {
   /// The common law, then those of the sets.
   [[nodiscard]] const std::vector<Law>& all() const { return laws_; }
 
+  /// Whether the same sets have laws of their own, in the same order.
+  [[nodiscard]] bool has_sets_of(const LawsBySet& other) const { return sets_ == other.sets_; }
+
   /// The largest normal stiffness [Pa/m].
   [[nodiscard]] double stiffest() const {
     double most = 0;

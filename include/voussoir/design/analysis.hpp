@@ -19,6 +19,7 @@
 #include <voussoir/design/boundary.hpp>
 #include <voussoir/design/check_input.hpp>
 #include <voussoir/design/construction_plan.hpp>
+#include <voussoir/design/lining_utilisation.hpp>
 #include <voussoir/design/models.hpp>
 #include <voussoir/design/openings.hpp>
 #include <voussoir/design/rock.hpp>
@@ -131,6 +132,10 @@ struct TunnelResult {
   int bolts_yielded = 0, bolts_ruptured = 0, feet_yielded = 0;
   /// Largest bolt force over the strength of a bolt [-]; not a number: none was given.
   double of_bolt_strength = not_computed;
+  /// The largest utilisation of a lining [-], infinite where no thrust bears its moment; not a
+  /// number: no concrete was given. See `lining_utilisations`.
+  double of_lining_strength = not_computed;
+  std::string lining_governed_by = {};  ///< see `governed_by`
   std::vector<std::string> warnings = {};
 
   static constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
@@ -139,7 +144,7 @@ struct TunnelResult {
   [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::string word() const;
   /// Something of the supports has reached its strength.
   [[nodiscard]] bool has_yielded() const {
-    return bolts_yielded + bolts_ruptured + feet_yielded > 0;
+    return bolts_yielded + bolts_ruptured + feet_yielded > 0 || of_lining_strength > 1;
   }
   /// It has a verdict and, where no rock has fallen, a number for the crown.
   [[nodiscard]] bool is_decided() const {
@@ -323,8 +328,46 @@ VOUSSOIR_DESIGN_INLINE std::string TunnelResult::word() const {
   if (bolts_yielded > 0) text += ", bolts yielded";
   if (bolts_ruptured > 0) text += ", bolts ruptured";
   if (feet_yielded > 0) text += ", feet at their strength";
+  if (of_lining_strength > 1) text += ", lining beyond its strength";
   return text;
 }
+
+namespace detail {
+
+/// The numbers of a tunnel that has been built.
+template <class Solver>
+void describe(const AnalysisInput& input, const SupportChoice& supports, const Solver& tunnel,
+              const ConstructionResult<typename Solver::Geometry>& built, TunnelResult& result) {
+  result.verdict = built.verdict();
+  result.lost_lining = built.has_lost_lining();
+  result.fallen = built.fallen_measure();
+  if (const auto range = built.rockfall_range()) result.marginal = range->is_marginal();
+  result.reason = built.last().reason;
+  result.demand = support_demand(tunnel);
+  if constexpr (std::is_same_v<Solver, SpatialTunnel>) {
+    result.convergence = middle_convergence(input, tunnel);
+    result.demand = per_metre(input, result.demand);
+    result.fallen /= input.round_count() * input.stretch();
+    if (result.fallen > 0 && !built.rockfall_range())
+      result.warnings.emplace_back("rock came off; whether that is marginal was not looked for");
+  } else {
+    result.convergence = built.stages.back().convergence;
+  }
+  const SupportCondition condition = support_condition(tunnel);
+  result.bolts_yielded = condition.yielded;
+  result.bolts_ruptured = condition.ruptured;
+  result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
+  if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
+  const std::vector<NodeUtilisation> nodes = lining_utilisations(input, supports, tunnel);
+  if (const NodeUtilisation* const most = governing(nodes)) {
+    result.of_lining_strength = most->use.value;
+    result.lining_governed_by = governed_by(*most);
+  }
+  result.error_estimate = built.last().error_estimate;
+  result.out_of_balance = built.last().unbalance_over_weight;
+}
+
+}  // namespace detail
 
 VOUSSOIR_DESIGN_INLINE TunnelResult supported_tunnel(const AnalysisInput& input,
                                                      const ExcavatedRock& rock,
@@ -336,28 +379,7 @@ VOUSSOIR_DESIGN_INLINE TunnelResult supported_tunnel(const AnalysisInput& input,
   const auto compute = [&](auto tunnel, const auto& construction) {
     const auto built = construct(tunnel, construction, report);
     if (built.last().stopped) throw Stopped();
-    result.verdict = built.verdict();
-    result.lost_lining = built.has_lost_lining();
-    result.fallen = built.fallen_measure();
-    if (const auto range = built.rockfall_range()) result.marginal = range->is_marginal();
-    result.reason = built.last().reason;
-    result.demand = support_demand(tunnel);
-    if constexpr (std::is_same_v<decltype(tunnel), SpatialTunnel>) {
-      result.convergence = middle_convergence(input, tunnel);
-      result.demand = per_metre(input, result.demand);
-      result.fallen /= input.round_count() * input.stretch();
-      if (result.fallen > 0 && !built.rockfall_range())
-        result.warnings.emplace_back("rock came off; whether that is marginal was not looked for");
-    } else {
-      result.convergence = built.stages.back().convergence;
-    }
-    const SupportCondition condition = support_condition(tunnel);
-    result.bolts_yielded = condition.yielded;
-    result.bolts_ruptured = condition.ruptured;
-    result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
-    if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
-    result.error_estimate = built.last().error_estimate;
-    result.out_of_balance = built.last().unbalance_over_weight;
+    detail::describe(input, supports, tunnel, built, result);
   };
   const LinearSettings linear{.memory_limit = detail::memory_of_a_case};
   try {

@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
-#include <voussoir/contact/any_joint.hpp>
-#include <voussoir/contact/coulomb_joint.hpp>
-#include <voussoir/contact/mohr_coulomb_joint.hpp>
-#include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/message.hpp>
 #include <voussoir/core/progress.hpp>
 #include <voussoir/design/analysis.hpp>
 #include <voussoir/design/bodies.hpp>
+#include <voussoir/design/strength_reduction.hpp>
 
 /// By how much strength may be divided until a model falls: the factor of safety by strength
 /// reduction.
@@ -89,110 +88,226 @@ requires std::same_as<std::invoke_result_t<const Trial&, double>, TrialOutcome>
   return found;
 }
 
-/// A joint whose strength is divided: tan(phi), c and sigma_t, at the peak and what is left of
-/// them; stiffness stays, and dilation where it is not more than the friction that is left.
-/// @param factor  > 0
-/// @throws InvalidInput  of a law whose strength is no sum of friction and cohesion
-[[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyJoint weakened(const AnyJoint& joint, double factor);
-
 /// What comes off, until a tunnel is said to fall.
 enum class SafetyLimit {
   collapse,  ///< it does not come to rest, or loses more than `collapse_measure_of`
-  rockfall   ///< any rock or lining comes off
+  rockfall,  ///< more rock than is tolerated comes off, or a lining
+  supports   ///< that, or a bolt, foot or lining reaches its strength
+};
+[[nodiscard]] inline const char* to_string(SafetyLimit limit) {
+  return limit == SafetyLimit::collapse   ? "collapse"
+         : limit == SafetyLimit::rockfall ? "rockfall"
+                                          : "supports";
+}
+
+/// How the factor of safety of a tunnel is sought.
+struct SafetySettings {
+  SafetyLimit limit = SafetyLimit::collapse;
+  /// That may come off, per metre of tunnel, where the limit is not a collapse [m^2], >= 0.
+  double tolerated_loss = 0;
+  FactorSearch search = {};
+  /// Every trial is the whole analysis, from the in-situ state of the weaker rock on. Else strength
+  /// is divided once the tunnel stands: its last state under the largest factor so far goes on.
+  bool from_start = false;
+  bool with_supports = false;  ///< divides their strength too; `from_start` alone
 };
 
+/// The tunnel at one end of the bracket.
+template <class Geometry>
+struct TunnelAtFactor {
+  double factor = 0;
+  TunnelResult result;
+  TunnelIn<Geometry> tunnel;
+  ConstructionResult<Geometry> built;  ///< of the whole construction, or of the last stage alone
+};
+
+template <class Geometry>
 struct TunnelSafety {
   FactorBracket bracket;
-  TunnelResult standing, falling;  ///< of its ends, where there are such
+  std::vector<TunnelResult> results;  ///< of its trials, in their order
+  /// The largest factor under which it stands, and the smallest under which it does not: its
+  /// detached blocks are the mechanism. Empty where there is none.
+  std::optional<TunnelAtFactor<Geometry>> standing, falling;
 };
 
-/// The factor of safety of a tunnel: by how much the strength of its joints may be divided. Each
-/// trial is the whole analysis from the in-situ state on, decided by the verdict of a run; supports
-/// keep their strength. What is at rest lacks no more of its weight than a tenth of the width of
-/// the bracket, for a block that slides at 30 degrees and lacks 1 % of its weight has 2 % too much.
-/// @param rock     not excavated
-/// @param report   asked now and then whether to go on; the stage is the factor
-/// @throws InvalidInput  see `weakened`, `bracket_factor`, `check_input`; Stopped
-/// @cost  some 10 runs
-[[nodiscard]] VOUSSOIR_DESIGN_INLINE TunnelSafety
-factor_of_safety(const AnalysisInput& input, const JointedRock<Planar>& rock,
-                 SafetyLimit limit = SafetyLimit::collapse, const FactorSearch& search = {},
-                 const StageProgress& report = {});
+/// The factor of safety of a tunnel: by how much the strength of its joints may be divided. A trial
+/// is decided by the verdict of a run; with `from_start` it is that of the run whose joints are so
+/// much weaker. What is at rest lacks no more of its weight than a tenth of the width of the
+/// bracket, for a block that slides at 30 degrees and lacks 1 % of its weight has 2 % too much.
+/// @param rock    not excavated
+/// @param report  asked now and then whether to go on; the stage is the factor
+/// @throws InvalidInput  see `weakened`, `bracket_factor`, `check_input`; supports are to be
+///                       weakened in a tunnel that stands
+/// @throws Stopped
+/// @cost  a run, and some 10 more of which those that stand need no excavation
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE TunnelSafety<Planar> factor_of_safety(
+    const AnalysisInput& input, const JointedRock<Planar>& rock,
+    const SafetySettings& settings = {}, const StageProgress& report = {});
+/// In 3-D.
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE TunnelSafety<Spatial> factor_of_safety(
+    const AnalysisInput& input, const JointedRock<Spatial>& rock,
+    const SafetySettings& settings = {}, const StageProgress& report = {});
 
 #if VOUSSOIR_DESIGN_BODIES
 
 namespace detail {
 
-[[nodiscard]] inline double weaker_angle(double angle, double factor) {
-  return elementary::angle_of(elementary::tangent(angle), factor);
-}
+/// One factor of safety being sought.
+template <class Geometry>
+class SafetySearch {
+ public:
+  using Solver = TunnelIn<Geometry>;
 
-}  // namespace detail
+  /// @param in_situ  makes the rock of an input, ready to be built in
+  template <class InSitu>
+  SafetySearch(const AnalysisInput& input, const SafetySettings& settings,
+               const StageProgress& report, InSitu in_situ)
+      : input_(input), settings_(settings), report_(report), in_situ_(std::move(in_situ)) {
+    input_.run.out_of_balance = std::min(input.run.out_of_balance, 0.1 * settings.search.width);
+  }
 
-VOUSSOIR_DESIGN_INLINE AnyJoint weakened(const AnyJoint& joint, double factor) {
-  require(factor > 0 && std::isfinite(factor), "factor of strength", factor, "> 0");
-  return joint.visit([&](const auto& law) -> AnyJoint {
-    using Law = std::decay_t<decltype(law)>;
-    if constexpr (std::is_same_v<Law, CoulombJoint>) {
-      return CoulombJoint({law.joint_normal_stiffness(), law.joint_shear_stiffness(),
-                           elementary::angle_of(law.friction_coefficient(), factor)},
-                          any_units);
-    } else if constexpr (std::is_same_v<Law, MohrCoulombJoint>) {
-      MohrCoulombJoint::Params weaker = law.params();
-      weaker.friction_angle = detail::weaker_angle(weaker.friction_angle, factor);
-      weaker.residual_friction_angle = std::min(
-          detail::weaker_angle(weaker.residual_friction_angle, factor), weaker.friction_angle);
-      weaker.cohesion /= factor;
-      weaker.residual_cohesion = std::min(weaker.residual_cohesion / factor, weaker.cohesion);
-      weaker.tensile_strength /= factor;
-      if (weaker.friction_angle > 0)  // c / tan(phi) is what it was, but for a rounding
-        weaker.tensile_strength = std::min(
-            weaker.tensile_strength, weaker.cohesion / elementary::tangent(weaker.friction_angle));
-      weaker.dilation_angle = std::min(weaker.dilation_angle, weaker.residual_friction_angle);
-      return MohrCoulombJoint(weaker, any_units);
-    } else {
-      throw InvalidInput(message({"strength reduction: the strength of ", law.name,
-                                  " is no sum of friction and cohesion; must be CoulombJoint or "
-                                  "MohrCoulombJoint"}));
+  [[nodiscard]] TunnelSafety<Geometry> find() {
+    safety_.bracket =
+        bracket_factor([&](double factor) { return trial(factor); }, settings_.search);
+    // A trial may have ended at the first block too many: what comes after it belongs to the
+    // mechanism.
+    if (settings_.limit != SafetyLimit::collapse && safety_.falling) {
+      ends_early_ = false;
+      safety_.falling = computed(safety_.falling->factor);
     }
-  });
-}
+    return std::move(safety_);
+  }
 
-VOUSSOIR_DESIGN_INLINE TunnelSafety factor_of_safety(const AnalysisInput& input,
-                                                     const JointedRock<Planar>& rock,
-                                                     SafetyLimit limit, const FactorSearch& search,
-                                                     const StageProgress& report) {
-  check_input(input, 2);
-  check_bolts(input, supports_of(input));
-  (void)laws_of(input);  // refused before anything is computed
-  // What the sides meet does not hang on strength: it is chosen once.
-  const ExcavatedRock first = excavated_rock(input, rock, false, report);
-  TunnelSafety safety;
-  const auto trial = [&](double factor) {
-    AnalysisInput weaker = input;
-    weaker.run.out_of_balance = std::min(input.run.out_of_balance, 0.1 * search.width);
-    weaker.joint = weakened(*input.joint, factor);
-    for (JointSetInput& set : weaker.joint_sets)
-      if (set.law) set.law = weakened(*set.law, factor);
-    const ExcavatedRock ready =
-        factor == 1 ? first : excavated_rock(weaker, rock, first.boundary, report);
-    StageProgress told;
-    if (report)
-      told = [&](const std::string&, double fraction) {
-        return report(message({"factor ", factor}), fraction);
-      };
-    TunnelResult result = supported_tunnel(weaker, ready, supports_of(input), told);
-    const bool stands =
-        limit == SafetyLimit::rockfall ? result.is_whole() : result.verdict == Verdict::stable;
+ private:
+  TrialOutcome trial(double factor) {
+    TunnelAtFactor<Geometry> at = computed(factor);
+    const TunnelResult& result = at.result;
+    const bool keeps_rock = result.fallen <= settings_.tolerated_loss && !result.lost_lining;
+    const bool stands = result.verdict == Verdict::stable && !result.failed &&
+                        (settings_.limit == SafetyLimit::collapse || keeps_rock) &&
+                        (settings_.limit != SafetyLimit::supports || !result.has_yielded());
     const TrialOutcome outcome = stands ? TrialOutcome::stands
                                  : result.failed || result.verdict == Verdict::undecided
                                      ? TrialOutcome::undecided
                                      : TrialOutcome::falls;
-    (stands ? safety.standing : safety.falling) = std::move(result);
+    safety_.results.push_back(result);
+    (stands ? safety_.standing : safety_.falling) = std::move(at);
     return outcome;
-  };
-  safety.bracket = bracket_factor(trial, search);
-  return safety;
+  }
+
+  [[nodiscard]] TunnelAtFactor<Geometry> computed(double factor) const {
+    const bool goes_on = safety_.standing && !settings_.from_start;
+    return goes_on ? weakened_further(factor) : built(factor);
+  }
+
+  /// The whole analysis of a weaker input.
+  [[nodiscard]] TunnelAtFactor<Geometry> built(double factor) const {
+    AnalysisInput weaker = with_weaker_joints(input_, factor);
+    if (settings_.with_supports) weaker = with_weaker_supports(std::move(weaker), factor);
+    Solver tunnel = in_situ_(weaker);
+    auto construction = construction_in(weaker, tunnel);
+    return carried_out(weaker, factor, std::move(tunnel), construction);
+  }
+
+  /// The tunnel that stands under a smaller factor, after one more stage.
+  [[nodiscard]] TunnelAtFactor<Geometry> weakened_further(double factor) const {
+    Solver tunnel = safety_.standing->tunnel;
+    tunnel.change_joint_laws(laws_of(with_weaker_joints(input_, factor)));
+    auto construction = construction_in(input_, tunnel);
+    construction.stages.clear();
+    construction.add_stage(message({"strength over ", factor}),
+                           safety_.standing->built.stages.back().wall_traction);
+    return carried_out(input_, factor, std::move(tunnel), construction);
+  }
+
+  [[nodiscard]] Construction<Solver> construction_in(const AnalysisInput& input,
+                                                     const Solver& tunnel) const {
+    const LinearSettings linear = linear_of_this_computer();
+    Construction<Solver> made;
+    if constexpr (std::is_same_v<Geometry, Planar>)
+      made = construction_of(input, tunnel, !input.has_rounds, supports_of(input), linear,
+                             RangeSought::none);
+    else
+      made = construction_of(input, supports_of(input), linear, RangeSought::none);
+    if (settings_.limit != SafetyLimit::collapse && ends_early_)
+      made.acceptance.collapse_measure = settings_.tolerated_loss;
+    return made;
+  }
+
+  [[nodiscard]] TunnelAtFactor<Geometry> carried_out(
+      const AnalysisInput& input, double factor, Solver tunnel,
+      const Construction<Solver>& construction) const {
+    StageProgress told;
+    if (report_)
+      told = [&](const std::string&, double fraction) {
+        return report_(message({"strength over ", factor}), fraction);
+      };
+    TunnelAtFactor<Geometry> at{factor, {}, std::move(tunnel), {}};
+    at.result.blocks = at.tunnel.mass().bodies.size();
+    try {
+      at.built = construct(at.tunnel, construction, told);
+    } catch (const NumericalFault& fault) {
+      at.result.failed = true;
+      at.result.reason = fault.what();
+      return at;
+    }
+    if (at.built.last().stopped) throw Stopped();
+    describe(input, supports_of(input), at.tunnel, at.built, at.result);
+    return at;
+  }
+
+  AnalysisInput input_;
+  SafetySettings settings_;
+  StageProgress report_;
+  std::function<Solver(const AnalysisInput&)> in_situ_;
+  bool ends_early_ = true;  ///< a trial, as soon as more has come off than is tolerated
+  TunnelSafety<Geometry> safety_;
+};
+
+inline void check_safety(const AnalysisInput& input, int dimension,
+                         const SafetySettings& settings) {
+  check_input(input, dimension);
+  check_bolts(input, supports_of(input));
+  (void)laws_of(with_weaker_joints(input, 1));  // refused before anything is computed
+  require(settings.tolerated_loss >= 0 && std::isfinite(settings.tolerated_loss), "tolerated loss",
+          settings.tolerated_loss, ">= 0 m2 per metre");
+  if (settings.with_supports && !settings.from_start)
+    throw InvalidInput(
+        "strength reduction: supports that stand keep their strength; must be from the start where "
+        "theirs is divided too");
+}
+
+}  // namespace detail
+
+VOUSSOIR_DESIGN_INLINE TunnelSafety<Planar> factor_of_safety(const AnalysisInput& input,
+                                                             const JointedRock<Planar>& rock,
+                                                             const SafetySettings& settings,
+                                                             const StageProgress& report) {
+  detail::check_safety(input, 2, settings);
+  // What the sides meet does not hang on strength: it is chosen once.
+  std::optional<ChosenBoundary> boundary;
+  return detail::SafetySearch<Planar>(
+             input, settings, report,
+             [&](const AnalysisInput& weaker) {
+               ExcavatedRock made = boundary ? excavated_rock(weaker, rock, *boundary, report)
+                                             : excavated_rock(weaker, rock, false, report);
+               boundary = made.boundary;
+               return std::get<Tunnel>(std::move(made.tunnel));
+             })
+      .find();
+}
+
+VOUSSOIR_DESIGN_INLINE TunnelSafety<Spatial> factor_of_safety(const AnalysisInput& input,
+                                                              const JointedRock<Spatial>& rock,
+                                                              const SafetySettings& settings,
+                                                              const StageProgress& report) {
+  detail::check_safety(input, 3, settings);
+  return detail::SafetySearch<Spatial>(
+             input, settings, report,
+             [&](const AnalysisInput& weaker) {
+               return std::get<SpatialTunnel>(excavated_rock(weaker, rock, report).tunnel);
+             })
+      .find();
 }
 
 #endif

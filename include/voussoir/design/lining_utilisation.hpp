@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 #include <voussoir/core/elementary.hpp>
+#include <voussoir/core/message.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/design/analysis_input.hpp>
 #include <voussoir/design/bodies.hpp>
@@ -45,6 +46,9 @@ struct NodeUtilisation {
     const AnalysisInput& input, const SupportChoice& supports, const Tunnel& tunnel);
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
     const AnalysisInput& input, const SupportChoice& supports, const SpatialTunnel& tunnel);
+
+/// Where, and of what: "left springing, 182 deg: compression".
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE std::string governed_by(const NodeUtilisation& node);
 
 /// The one that governs; none where there are none.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE const NodeUtilisation* governing(
@@ -128,6 +132,11 @@ VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
                      capacity->utilisation(load)});
   }
   return found;
+}
+
+VOUSSOIR_DESIGN_INLINE std::string governed_by(const NodeUtilisation& node) {
+  const int degrees = static_cast<int>(std::lround(node.angle * 180 / std::numbers::pi));
+  return message({lining_place(node.angle), ", ", degrees, " deg: ", to_string(node.use.mode)});
 }
 
 VOUSSOIR_DESIGN_INLINE const NodeUtilisation* governing(const std::vector<NodeUtilisation>& nodes) {

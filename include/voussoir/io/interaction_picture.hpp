@@ -23,22 +23,27 @@ namespace detail {
 VOUSSOIR_INLINE void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar,
                                    const ContourBands& bands, const InteractionQuantity& shown);
 
-VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double top,
-                                         double bottom, double diameter);
+/// @param panel  of thicknesses > 0
+VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const InteractionPicture& picture,
+                                         const InteractionPanel& panel, double top, double bottom);
 
 /// Two slanting strokes: the axis is interrupted here.
-inline void draw_axis_break(SvgCanvas& canvas, double x, double y) {
+/// @param is_across  it is one from left to right
+inline void draw_axis_break(SvgCanvas& canvas, const Vec2& at, bool is_across) {
   for (const double shift : {-3.0, 3.0}) {
-    canvas.line({x - 6, y + shift + 3}, {x + 6, y + shift - 3}, {.stroke = "#111"});
+    const Vec2 middle = at + (is_across ? Vec2(shift, 0) : Vec2(0, shift)),
+               half = is_across ? Vec2(3, -6) : Vec2(6, -3);
+    canvas.line(middle - half, middle + half, {.stroke = "#111"});
   }
 }
 
 }  // namespace detail
 
 /// Bolt spacing against lining thickness with contours of the crown convergence in % of the radius
-/// a = D / 2 (Boon et al. 2015, Fig. 24), or of another quantity. The row without bolts lies above
-/// a break of the axis. Contours run through smoothed values (see `refined`); the numbers at the
-/// points are the computed ones. Levels are round numbers.
+/// a = D / 2 (Boon et al. 2015, Fig. 24), or of another quantity. The row without bolts and the
+/// column without lining lie beyond a break of their axis, and no contour leads there. Contours run
+/// through smoothed values (see `refined`); the numbers at the points are the computed ones. Levels
+/// are round numbers.
 ///
 /// @return  an SVG document, 190 mm wide
 /// @throws InvalidInput  fewer than 2 x 2 points, axes that do not ascend, tables of another size,
@@ -73,10 +78,23 @@ VOUSSOIR_INLINE void draw_band_bar(SvgCanvas& canvas, const ViewRect& bar,
   canvas.end_layer();
 }
 
-VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, double top,
-                                         double bottom, double diameter) {
+VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const InteractionPicture& picture,
+                                         const InteractionPanel& panel, double top, double bottom) {
+  const PageMap map = panel.map();
+  const double diameter = picture.diameter;
+  const TextStyle title{.size = 14.5, .anchor = TextAnchor::middle};
+  const double middle = panel.page.centre().x();
+  canvas.text({middle, bottom + 42}, "lining thickness t [cm]", title);
+  canvas.text({middle, top - 30}, "lining thickness over diameter t / D", title);
+  if (panel.is_column()) {  // one thickness has no scale
+    const double thickness = picture.thicknesses[panel.columns[0]];
+    canvas.text({middle, bottom + 20}, trimmed_text(100 * thickness, 3),
+                {.anchor = TextAnchor::middle});
+    canvas.text({middle, top - 10}, trimmed_text(thickness / diameter, 4),
+                {.anchor = TextAnchor::middle});
+    return;
+  }
   const double low = std::max(0.0, map.world().low.x()), high = map.world().high.x();
-  const double middle = map.page().centre().x();
   const RoundTicks cm = round_ticks(low * 100, high * 100, 10);
   const RoundTicks ratio = round_ticks(low / diameter, high / diameter, 8);
   for (const double value : cm.values) {
@@ -89,9 +107,6 @@ VOUSSOIR_INLINE void draw_thickness_axes(SvgCanvas& canvas, const PageMap& map, 
     canvas.line({x, top - 5}, {x, top}, {.stroke = "#111"});
     canvas.text({x, top - 10}, ratio.label(value), {.anchor = TextAnchor::middle});
   }
-  const TextStyle title{.size = 14.5, .anchor = TextAnchor::middle};
-  canvas.text({middle, bottom + 42}, "lining thickness t [cm]", title);
-  canvas.text({middle, top - 30}, "lining thickness over diameter t / D", title);
 }
 
 }  // namespace detail
@@ -120,7 +135,7 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   const ContourBands bands(contour_levels(lowest, highest, 12));
 
   // From the top: header, axis of t / D, the row without bolts, the rest, axis in cm, legend.
-  const double left = 112, right = 826, strip_height = 62, gap = 16;
+  const double left = 112, right = 826, strip_height = 62, strip_width = 74, gap = 16;
   std::vector<std::size_t> spaced;
   for (std::size_t j = 0; j < picture.spacings.size(); ++j) {
     if (picture.spacings[j].value) spaced.push_back(j);
@@ -130,12 +145,22 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   const double top = picture.header.height() + banner_room + 58;
   const double main_top = has_row_without ? top + strip_height + gap : top;
   const double bottom = main_top + (spaced.size() > 1 ? 440 : strip_height);
+  std::vector<std::size_t> lined;
+  for (std::size_t i = 0; i < picture.thicknesses.size(); ++i)
+    if (picture.thicknesses[i] > 0) lined.push_back(i);
+  const bool has_column_without = lined.size() < picture.thicknesses.size();
+  const double main_left = has_column_without ? left + strip_width + gap : left;
   std::vector<InteractionPanel> panels;
-  panels.push_back(interaction_panel(picture, spaced, {{left, main_top}, {right, bottom}}));
-  if (has_row_without) {
-    panels.push_back(interaction_panel(picture, {picture.spacings.size() - 1},
-                                       {{left, top}, {right, top + strip_height}}));
-  }
+  const auto add = [&](const std::vector<std::size_t>& columns, double from, double to) {
+    panels.push_back(interaction_panel(picture, columns, spaced, {{from, main_top}, {to, bottom}}));
+    panels.back().has_labels = from == left;
+    if (!has_row_without) return;
+    panels.push_back(interaction_panel(picture, columns, {picture.spacings.size() - 1},
+                                       {{from, top}, {to, top + strip_height}}));
+    panels.back().has_labels = from == left;
+  };
+  add(lined, main_left, right);
+  if (has_column_without) add({0}, left, left + strip_width);
   std::vector<LegendItem> items = {
       {"computed, " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
@@ -164,10 +189,13 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   }
   for (const InteractionPanel& panel : panels)
     draw_interaction_panel(canvas, picture, panel, bands);
-  draw_thickness_axes(canvas, panels[0].map(), top, bottom, picture.diameter);
-  if (has_row_without) {
-    draw_axis_break(canvas, left, main_top - gap / 2);
-    draw_axis_break(canvas, right, main_top - gap / 2);
+  draw_thickness_axes(canvas, picture, panels[0], top, bottom);
+  if (has_row_without)
+    for (const double x : {left, right}) draw_axis_break(canvas, {x, main_top - gap / 2}, false);
+  if (has_column_without) {
+    for (const double y : {top, bottom}) draw_axis_break(canvas, {main_left - gap / 2, y}, true);
+    canvas.text({left + 0.5 * strip_width, bottom + 18}, "no lining",
+                {.size = 12, .anchor = TextAnchor::middle});
   }
   canvas.text({30, (main_top + bottom) / 2}, picture.spacing_axis,
               {.size = 14.5, .anchor = TextAnchor::middle, .rotation = -90});

@@ -49,6 +49,16 @@ class ContactGroup {
     set_laws(std::move(laws));
     return static_cast<int>(laws_.size()) - 1;
   }
+  /// Gives the contacts other laws; what their points remember stays.
+  /// @throws InvalidInput  they are not as many, or of another type
+  void replace_laws(std::vector<Law> laws) {
+    require(laws.size() == laws_.size(), "contact laws in place of others",
+            static_cast<double>(laws.size()), "as many as there are");
+    std::vector<Law> both = laws_;
+    both.insert(both.end(), laws.begin(), laws.end());
+    (void)detail::states_of(both);
+    laws_ = std::move(laws);
+  }
   [[nodiscard]] const Law& law_of(const Contact& c) const {
     return laws_[static_cast<std::size_t>(c.law)];
   }

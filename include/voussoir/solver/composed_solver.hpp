@@ -193,6 +193,13 @@ class ComposedSolver {
   requires CreepingLaw<Law, dim>
   void creep_joints(double time) { system_.joints.creep(system_.displacement.data(), time); }
 
+  /// Gives joints other laws from now on: strength that is lost with time, or divided to learn how
+  /// much of it is needed. What they remember stays, and so does what bolts and linings carry; the
+  /// next stage finds where that leaves the rock.
+  /// @throws InvalidInput  the laws are of another type, for other sets or of other stiffness, by
+  ///                       which the rock was brought into its in-situ state: nothing has changed
+  void change_joint_laws(LawsBySet<JointLaw> joint_laws);
+
   [[nodiscard]] const RockMass<Geometry>& mass() const { return *mass_; }
   [[nodiscard]] const LawsBySet<JointLaw>& joint_laws() const { return joint_laws_; }
   [[nodiscard]] const InSitu& in_situ() const { return in_situ_; }
@@ -391,6 +398,24 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
   if (report.verdict == Verdict::stable && report.lacks_lining && report.lost_nodes.empty())
     report.reason += "; a lining had come off its wall before";
   return report;
+}
+
+template <class Models>
+void ComposedSolver<Models>::change_joint_laws(LawsBySet<JointLaw> joint_laws) {
+  if (!joint_laws.has_sets_of(joint_laws_))
+    throw InvalidInput("other joint laws: must be of the sets that have laws of their own");
+  for (std::size_t k = 0; k < joint_laws.all().size(); ++k) {
+    const JointLaw &now = joint_laws.all()[k], &before = joint_laws_.all()[k];
+    require(now.joint_normal_stiffness() == before.joint_normal_stiffness(),
+            "normal stiffness of another joint law", now.joint_normal_stiffness(),
+            "what it was [Pa/m]");
+    require(now.joint_shear_stiffness() == before.joint_shear_stiffness(),
+            "shear stiffness of another joint law", now.joint_shear_stiffness(),
+            "what it was [Pa/m]");
+  }
+  system_.joints.replace_laws(detail::any_laws<dim>(joint_laws.all()));
+  joint_laws_ = std::move(joint_laws);
+  started_ = true;
 }
 
 template <class Models>

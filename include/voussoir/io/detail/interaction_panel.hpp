@@ -15,18 +15,22 @@
 
 namespace voussoir::detail {
 
-/// A part of the diagram: the spacings with a value, or one row alone as a strip.
+/// A part of the diagram: linings and spacings with a value, or what has no lining or no bolts, as
+/// a strip of its own. Nothing is known between it and the first that has some.
 struct InteractionPanel {
-  std::vector<std::size_t> rows;  ///< indices of spacings
-  ContourGrid grid;               ///< thickness [m], spacing, the quantity, as on contours
+  std::vector<std::size_t> columns, rows;  ///< indices of thicknesses and spacings
+  ContourGrid grid;                        ///< thickness [m], spacing, the quantity, as on contours
   ViewRect page;
+  bool has_labels = true;  ///< of its spacings
 
-  [[nodiscard]] bool is_strip() const { return rows.size() == 1; }
-  [[nodiscard]] double row_y(std::size_t k) const { return is_strip() ? 0 : grid.y[k]; }
+  [[nodiscard]] bool is_row() const { return rows.size() == 1; }
+  [[nodiscard]] bool is_column() const { return columns.size() == 1; }
+  [[nodiscard]] double row_y(std::size_t k) const { return is_row() ? 0 : grid.y[k]; }
+  [[nodiscard]] double column_x(std::size_t i) const { return is_column() ? 0 : grid.x[i]; }
   /// White margins about the grid, so that marks on its edge lie inside the frame.
   [[nodiscard]] PageMap map() const {
     const Vec2 low(grid.x.front(), grid.y.front()), high(grid.x.back(), grid.y.back());
-    const Vec2 margin_px(34, is_strip() ? 8 : 26);
+    const Vec2 margin_px(is_column() ? 8 : 34, is_row() ? 8 : 26);
     const Vec2 inner = page.high - page.low - 2 * margin_px;
     const Vec2 margin = (high - low).cwiseQuotient(inner).cwiseProduct(margin_px);
     return {{low - margin, high + margin}, page};
@@ -34,6 +38,7 @@ struct InteractionPanel {
 };
 
 VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
+                                                   std::vector<std::size_t> columns,
                                                    std::vector<std::size_t> rows,
                                                    const ViewRect& page);
 
@@ -78,18 +83,26 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
+                                                   std::vector<std::size_t> columns,
                                                    std::vector<std::size_t> rows,
                                                    const ViewRect& page) {
-  InteractionPanel panel{std::move(rows), {picture.thicknesses, {}, {}}, page};
-  const std::size_t count = panel.is_strip() ? 2 : panel.rows.size();
+  InteractionPanel panel{std::move(columns), std::move(rows), {}, page};
+  // A strip has one value across it.
+  const std::size_t across = panel.is_column() ? 2 : panel.columns.size(),
+                    up = panel.is_row() ? 2 : panel.rows.size();
+  const auto column = [&](std::size_t i) { return panel.columns[panel.is_column() ? 0 : i]; };
+  const auto row = [&](std::size_t k) { return panel.rows[panel.is_row() ? 0 : k]; };
+  const auto edge = [](std::size_t k) { return k == 0 ? -1.0 : 1.0; };
+  for (std::size_t i = 0; i < across; ++i)
+    panel.grid.x.push_back(panel.is_column() ? edge(i) : picture.thicknesses[column(i)]);
+  for (std::size_t k = 0; k < up; ++k)
+    panel.grid.y.push_back(panel.is_row() ? edge(k) : *picture.spacings[row(k)].value);
   const double scale = picture.shown().contour_scale;
-  panel.grid.value.resize(picture.values.rows(), static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t j = panel.is_strip() ? panel.rows[0] : panel.rows[k];
-    panel.grid.y.push_back(panel.is_strip() ? (k == 0 ? -1.0 : 1.0) : *picture.spacings[j].value);
-    panel.grid.value.col(static_cast<Eigen::Index>(k)) =
-        picture.values.col(static_cast<Eigen::Index>(j)) * scale;
-  }
+  panel.grid.value.resize(static_cast<Eigen::Index>(across), static_cast<Eigen::Index>(up));
+  for (std::size_t i = 0; i < across; ++i)
+    for (std::size_t k = 0; k < up; ++k)
+      panel.grid.value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          picture.at(column(i), row(k)) * scale;
   return panel;
 }
 
@@ -105,21 +118,21 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
     std::string text;
   };
   std::vector<Label> labels;
-  const auto place = [&](std::size_t i, std::size_t k) {
-    return map({picture.thicknesses[i], panel.row_y(k)});
+  struct Point {
+    std::size_t i, j;  ///< thickness, spacing
+    Vec2 at;
   };
-  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
-    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
-      const Vec2 at = place(i, k);
-      taken.take({at - Vec2(9, 9), at + Vec2(9, 9)});
-    }
-  }
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < panel.rows.size(); ++k)
+    for (std::size_t i = 0; i < panel.columns.size(); ++i)
+      points.push_back({panel.columns[i], panel.rows[k], map({panel.column_x(i), panel.row_y(k)})});
+  for (const Point& point : points) taken.take({point.at - Vec2(9, 9), point.at + Vec2(9, 9)});
   const TextStyle beside{.size = 11.5, .bold = true, .fill = "#8a3f06", .halo = true};
   std::vector<std::pair<Vec2, std::string>> others;  // place of the mark, text beside it
   const auto within = [](double x, const std::vector<double>& axis) {
     return x >= axis.front() && x <= axis.back();
   };
-  if (!panel.is_strip())
+  if (!panel.is_row() && !panel.is_column())
     for (const InteractionPicture::Other& other : picture.others) {
       if (!within(other.thickness, panel.grid.x) || !within(other.spacing, panel.grid.y)) continue;
       const Vec2 at = map({other.thickness, other.spacing});
@@ -129,41 +142,40 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
       others.emplace_back(at, other.label + ": " + value);
       taken.take(text_room(at + Vec2(13, 4), others.back().second, beside).grown(2));
     }
-  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
-    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
-      const double value = picture.at(i, panel.rows[k]);
-      if (!std::isfinite(value)) continue;
-      const std::string text = printed_text(value * shown.point_scale);
-      const double up = picture.is_marginal(i, panel.rows[k]) ? 14
-                        : picture.is_failed(i, panel.rows[k]) ? 12
-                                                              : 11;
-      for (const double shift : {-up, up + 9}) {  // above the point, else below, else nowhere
-        const Vec2 at = place(i, k) + Vec2(0, shift);
-        if (const ViewRect room = text_room(at, text, small).grown(-1.5); taken.is_free(room)) {
-          taken.take(room);
-          labels.push_back({at, text});
-          break;
-        }
+  for (const Point& point : points) {
+    const double value = picture.at(point.i, point.j);
+    if (!std::isfinite(value)) continue;
+    const std::string text = printed_text(value * shown.point_scale);
+    const double up = picture.is_marginal(point.i, point.j) ? 14
+                      : picture.is_failed(point.i, point.j) ? 12
+                                                            : 11;
+    for (const double shift : {-up, up + 9}) {  // above the point, else below, else nowhere
+      const Vec2 at = point.at + Vec2(0, shift);
+      if (const ViewRect room = text_room(at, text, small).grown(-1.5); taken.is_free(room)) {
+        taken.take(room);
+        labels.push_back({at, text});
+        break;
       }
     }
   }
-  canvas.begin_layer(panel.is_strip() ? "row-" + std::to_string(panel.rows[0]) : "contours");
+  std::string layer = "contours";
+  if (panel.is_row()) layer = "row-" + std::to_string(panel.rows[0]);
+  if (panel.is_column()) layer += "-column-" + std::to_string(panel.columns[0]);
+  canvas.begin_layer(layer);
   draw_contours(canvas, panel.grid, map, bands, taken, shown.contour_mark);
-  for (std::size_t k = 0; k < panel.rows.size(); ++k) {
-    for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
-      if (picture.is_undecided(i, panel.rows[k])) {
-        draw_undecided_mark(canvas, place(i, k));
-      } else if (picture.is_shedding(i, panel.rows[k])) {
-        draw_shedding_mark(canvas, place(i, k));
-      } else if (picture.is_failed(i, panel.rows[k])) {
-        draw_failed_mark(canvas, place(i, k));
-      } else if (std::isfinite(picture.at(i, panel.rows[k]))) {
-        canvas.circle(place(i, k), 3, {.fill = "#111"});
-      } else {
-        draw_missing_mark(canvas, place(i, k));
-      }
-      if (picture.is_marginal(i, panel.rows[k])) draw_marginal_mark(canvas, place(i, k));
+  for (const Point& point : points) {
+    if (picture.is_undecided(point.i, point.j)) {
+      draw_undecided_mark(canvas, point.at);
+    } else if (picture.is_shedding(point.i, point.j)) {
+      draw_shedding_mark(canvas, point.at);
+    } else if (picture.is_failed(point.i, point.j)) {
+      draw_failed_mark(canvas, point.at);
+    } else if (std::isfinite(picture.at(point.i, point.j))) {
+      canvas.circle(point.at, 3, {.fill = "#111"});
+    } else {
+      draw_missing_mark(canvas, point.at);
     }
+    if (picture.is_marginal(point.i, point.j)) draw_marginal_mark(canvas, point.at);
   }
   for (const Label& label : labels) canvas.text(label.at, label.text, small);
   for (const auto& [at, text] : others) {
@@ -172,7 +184,7 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
   }
   canvas.rectangle(panel.page, {.stroke = "#111"});
   double last_y = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < panel.rows.size(); ++k) {  // upwards
+  for (std::size_t k = 0; panel.has_labels && k < panel.rows.size(); ++k) {  // upwards
     const double y = map({0, panel.row_y(k)}).y(), left = panel.page.low.x();
     canvas.line({left - 5, y}, {left, y}, {.stroke = "#111"});
     if (last_y - y < 14) continue;  // rows closer than the letters are high
