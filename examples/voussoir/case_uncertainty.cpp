@@ -27,6 +27,11 @@ bool has_bolt_strength(const Input& input) {
   });
 }
 
+bool has_lining_strength(const Input& input) {
+  return std::any_of(input.linings.begin(), input.linings.end(),
+                     [](const LiningInput& lining) { return lining.concrete.has_value(); });
+}
+
 /// Something about a tunnel that is decided, and the limit it should keep.
 struct Limit {
   std::string what;
@@ -48,6 +53,12 @@ std::vector<Limit> limits_of(const Input& input) {
     limits.push_back(
         {"bolt utilisation above " + trimmed_text(most, 3),
          [most](const TunnelResult& r) { return ranked(r, r.of_bolt_strength) > most; }});
+  }
+  if (has_lining_strength(input)) {
+    const double most = criteria.utilisation.value_or(1);
+    limits.push_back(
+        {"lining utilisation above " + trimmed_text(most, 3),
+         [most](const TunnelResult& r) { return ranked(r, r.of_lining_strength) > most; }});
   }
   return limits;
 }
@@ -139,6 +150,9 @@ Influences influences(const CasePlan& plan, std::span<const TunnelResult> result
     outcomes.push_back({"largest bolt force", [](const TunnelResult& r) {
                           return ranked(r, r.demand.largest_bolt_force);
                         }});
+  if (has_lining_strength(plan.input()))
+    outcomes.push_back({"lining utilisation",
+                        [](const TunnelResult& r) { return ranked(r, r.of_lining_strength); }});
   outcomes.push_back({"detached area", [](const TunnelResult& r) { return ranked(r, r.fallen); }});
 
   const std::size_t keys = plan.uncertain().size();
