@@ -106,7 +106,7 @@ Json uncertain_json(const CasePlan& plan, const std::vector<TunnelResult>& resul
   return {{"sampling", word_of(plan.parts().sampling)},
           {"keys", keys},
           {"decided_realisations", found.realisations},
-          {"rank_correlation_by_chance_95", found.limit},
+          {"rank_correlation_by_chance_95", found.keys.empty() ? Json(nullptr) : Json(found.limit)},
           {"rank_variance_explained_by_the_keys", explained}};
 }
 
@@ -193,7 +193,7 @@ std::string realisations_svg(const CasePlan& plan, const Realised& r,
   }
   if (plan.uncertain().empty()) return draw_distribution_picture(picture);
   const Influences found = influences(plan, results);
-  for (std::size_t k = 0; k < found.outcomes.size(); ++k) {
+  for (std::size_t k = 0; k < found.outcomes.size() && !found.keys.empty(); ++k) {
     InfluencePanel panel{found.outcomes[k], {}, {}, found.limit};
     for (const KeyInfluence& key : found.keys) {
       panel.keys.push_back(key.key);
@@ -223,7 +223,7 @@ CaseOutputs realisations_outputs(const CasePlan& plan, const std::vector<TunnelR
   out += probability_text(plan.input().criteria, events) + more_realisations_text(events);
   for (const Counted& c : counted_in(plan, all)) {
     std::string name = c.name;
-    name.resize(22, ' ');
+    name.resize(23, ' ');
     out += name + quantity_text(c) + "\n";
   }
   if (!plan.uncertain().empty()) out += influences(plan, results).text();

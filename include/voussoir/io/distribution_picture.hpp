@@ -91,10 +91,6 @@ inline void draw_distribution(SvgCanvas& canvas, const DistributionPanel& panel,
   }
   const PageMap map({{low - 0.06 * spread, 0}, {high + 0.06 * spread, 104}}, frame);
   const double left = map.world().low.x(), right = map.world().high.x();
-  if (panel.mean_between)
-    canvas.rectangle({{map({std::max(panel.mean_between->low, left), 0}).x(), frame.low.y()},
-                      {map({std::min(panel.mean_between->high, right), 0}).x(), frame.high.y()}},
-                     {.fill = mean_band_colour});
   // Corners of the steps, from the left.
   std::vector<Vec2> steps{{left, 0}}, upper{{left, 100 * std::min(1.0, band)}}, lower{{left, 0}};
   for (std::size_t k = 0; k <= sample.size(); ++k) {
@@ -120,6 +116,11 @@ inline void draw_distribution(SvgCanvas& canvas, const DistributionPanel& panel,
     canvas.line({frame.low.x(), y}, {frame.high.x(), y}, {.stroke = "#ccc", .stroke_width = 0.6});
     canvas.text({frame.low.x() - 6, y + 4.5}, std::to_string(percent), {.anchor = TextAnchor::end});
   }
+  // On the axis: over the full height it would hide the band.
+  if (panel.mean_between)
+    canvas.rectangle({{map({std::max(panel.mean_between->low, left), 0}).x(), frame.high.y() - 9},
+                      {map({std::min(panel.mean_between->high, right), 0}).x(), frame.high.y()}},
+                     {.fill = mean_band_colour, .stroke = mean_colour, .stroke_width = 0.6});
   const double mean = map({sample.mean(), 0}).x();
   canvas.line({mean, frame.low.y()}, {mean, frame.high.y()},
               {.stroke = mean_colour, .stroke_width = 2});
@@ -137,7 +138,7 @@ inline void draw_distribution(SvgCanvas& canvas, const DistributionPanel& panel,
       const bool is_right = x > frame.centre().x();
       canvas.line({x, frame.low.y()}, {x, frame.high.y()},
                   {.stroke = limit_colour, .stroke_width = 2, .dash = "7 4"});
-      canvas.text({x + (is_right ? -6.0 : 6.0), frame.high.y() - 8}, text,
+      canvas.text({x + (is_right ? -6.0 : 6.0), frame.high.y() - 16}, text,
                   {.anchor = is_right ? TextAnchor::end : TextAnchor::start,
                    .fill = limit_colour,
                    .halo = true});
