@@ -30,14 +30,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 std::string number(double value) { return significant_text(value, 3); }
 
-/// What the values of the file give rise to, in 2-D and 3-D.
-std::vector<std::string> warnings_about_values(const Input& input) {
-  std::vector<std::string> warnings = unusual_values(input);
-  if (!input.unused.empty()) warnings.push_back(input.unused_text());
-  if (!input.uncertain.empty()) warnings.push_back(input.uncertain_text());
-  return warnings;
-}
-
 void append(std::vector<std::string>& to, std::vector<std::string> more) {
   for (std::string& text : more) to.push_back(std::move(text));
 }

@@ -95,7 +95,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
     const auto made = static_cast<double>(run.steps.size()) - (stands(run.last()) ? 0 : 1);
     run.reached = made / laid.steps;
   }
-  for (std::string& value : unusual_values(input)) run.warnings.push_back(std::move(value));
+  for (std::string& value : warnings_about_values(input)) run.warnings.push_back(std::move(value));
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

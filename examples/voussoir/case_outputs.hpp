@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "case_plan.hpp"
+#include "case_statistics.hpp"
 
 /// What a finished plan writes and says: from its results alone, so that it is the same wherever
 /// and in whatever order they were computed.
@@ -22,6 +24,17 @@ struct CaseOutputs {
 /// interaction_quantile.svg and interaction_rockfall.svg.
 [[nodiscard]] CaseOutputs outputs_of(const CasePlan& plan,
                                      const std::vector<TunnelResult>& results);
+
+/// All realisations of one combination of varied keys.
+[[nodiscard]] Realised realised_in(const CasePlan& plan, const std::vector<TunnelResult>& results,
+                                   std::size_t combination);
+
+/// A row for every tunnel: what varies, what was drawn, what came of it.
+[[nodiscard]] std::string tunnels_csv(const CasePlan& plan,
+                                      const std::vector<TunnelResult>& results);
+
+/// "seeds 3 to 12"
+[[nodiscard]] std::string seeds_text(const CasePlan& plan);
 
 /// Which supports nothing says of whether they bear what they carry, a line for the screen; empty:
 /// none.

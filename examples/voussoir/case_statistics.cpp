@@ -71,8 +71,8 @@ Realised::Realised(std::span<const TunnelResult> results,
   // Where every tenth has as many points, and no value is missing.
   constexpr int even = 10;
   if (points.empty() || count % even != 0) return;
-  for (Quantity* const q :
-       {&crown, &largest_bolt_force, &mean_bolt_force, &largest_thrust, &largest_moment})
+  for (Quantity* const q : {&crown, &largest_bolt_force, &mean_bolt_force, &largest_thrust,
+                            &largest_moment, &of_lining_strength})
     if (static_cast<int>(q->values.size()) == count)
       q->by_points = latin_mean_interval(points, q->values);
 }

@@ -102,6 +102,9 @@ Influences influences(const CasePlan& plan, std::span<const TunnelResult> result
     outcomes.push_back({"largest bolt force", [](const TunnelResult& r) {
                           return ranked(r, r.demand.largest_bolt_force);
                         }});
+  if (has_lining_strength(plan.input()))
+    outcomes.push_back({"lining utilisation",
+                        [](const TunnelResult& r) { return ranked(r, r.of_lining_strength); }});
   outcomes.push_back({"detached area", [](const TunnelResult& r) { return ranked(r, r.fallen); }});
 
   const std::size_t keys = plan.uncertain().size();
@@ -116,7 +119,7 @@ Influences influences(const CasePlan& plan, std::span<const TunnelResult> result
     ++found.realisations;
   }
   for (const Outcome& outcome : outcomes) found.outcomes.emplace_back(outcome.name);
-  if (found.realisations < 3) return found;
+  if (found.realisations < Influences::least_realisations) return found;
   found.limit = rank_correlation_limit(found.realisations);
   for (std::size_t key = 0; key < keys; ++key) {
     KeyInfluence& influence = found.keys.emplace_back();
@@ -138,7 +141,9 @@ Influences influences(const CasePlan& plan, std::span<const TunnelResult> result
 }
 
 std::string Influences::text() const {
-  if (realisations < 3) return "measure next: not known of fewer than 3 decided realisations\n";
+  if (realisations < least_realisations)
+    return "measure next: not known of fewer than " + std::to_string(least_realisations) +
+           " realisations that are decided\n";
   std::string out = "measure next: rank correlations of " + std::to_string(realisations) +
                     " realisations; those beyond +-" + fixed_text(limit, 2) +
                     " (*) are not by chance (95 % confidence)\n";

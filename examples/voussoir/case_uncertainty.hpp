@@ -44,13 +44,16 @@ struct KeyInfluence {
   std::vector<double> correlations;
 };
 
-/// What to measure next.
+/// What to measure next. Of fewer than `least_realisations` that are decided no key is listed: the
+/// limit of chance is then not known well enough.
 struct Influences {
   std::vector<std::string> outcomes;  ///< "crown convergence", ...
   std::vector<KeyInfluence> keys;     ///< the one with the largest correlation first
   std::vector<double> explained;      ///< of every outcome, see `rank_variance_explained`
   std::size_t realisations = 0;       ///< that are decided
   double limit = 1;                   ///< see `rank_correlation_limit`
+
+  static constexpr std::size_t least_realisations = 10;
 
   /// Lines of a table for a terminal.
   [[nodiscard]] std::string text() const;

@@ -71,6 +71,7 @@ GroundReaction ground_reaction(const Input& input, int steps, const Report& repo
   const RunResult alone = run_of(bare(input, steps), report);
   reaction.ground = points_of(alone.built);
   reaction.warnings = alone.rock_warnings;
+  if (!input.uncertain.empty()) reaction.warnings.push_back(input.uncertain_text());
   if (input.has_rounds)
     reaction.warnings.emplace_back(
         "the rock without support is taken out at once, not in the rounds of the file");
@@ -100,12 +101,11 @@ std::string grc_text(const GroundReaction& reaction) {
   rows("ground   ", reaction.ground);
   rows("support  ", reaction.supported);
   if (reaction.equivalent)
-    out += text(
-               "equal    the bare crown moves as far under %.1f %% of its traction: supports do "
-               "what ",
-               percent(*reaction.equivalent)) +
-           format_quantity(*reaction.equivalent * reaction.stress, dimension::pressure) +
-           " on the crown would\n";
+    out +=
+        text("equal    the bare crown moves as far under %.1f %% ", percent(*reaction.equivalent)) +
+        "of its traction: supports do what " +
+        format_quantity(*reaction.equivalent * reaction.stress, dimension::pressure) +
+        " on the crown would\n";
   else if (!reaction.supported.empty())
     out +=
         "equal    no traction moves the bare crown as far as the supported one while all of "
@@ -194,6 +194,7 @@ LongitudinalProfile longitudinal_profile(const Input& input, const Report& repor
   profile.verdict = run.verdict();
   profile.fallen = run.fallen_measure();
   profile.warnings = run.rock_warnings;
+  if (!input.uncertain.empty()) profile.warnings.push_back(input.uncertain_text());
   const double driven = input.round_count() * input.stretch();
   const PrismaticOpening opening = driven_tunnel(input);
   // Twice a round, each over as much wall as lies between two.

@@ -354,6 +354,13 @@ std::vector<std::string> unusual_values(const Input& input) {
   return found;
 }
 
+std::vector<std::string> warnings_about_values(const Input& input) {
+  std::vector<std::string> warnings = unusual_values(input);
+  for (std::string text : {input.unused_text(), input.uncertain_text()})
+    if (!text.empty()) warnings.push_back(std::move(text));
+  return warnings;
+}
+
 std::string unusual_among(const Input& input, std::initializer_list<std::string_view> tables) {
   std::string all;
   for (const std::string& text : unusual_values(input))

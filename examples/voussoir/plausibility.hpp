@@ -20,6 +20,10 @@ namespace voussoir::program {
 /// model against its opening.
 [[nodiscard]] std::vector<std::string> unusual_values(const Input& input);
 
+/// Everything that the values of a file give rise to saying, whatever is computed of it: these,
+/// keys that are not used, and keys with a distribution that are at their medians.
+[[nodiscard]] std::vector<std::string> warnings_about_values(const Input& input);
+
 /// Those of some tables, "; " before each: what is likely to blame where they do not fit together.
 /// @param tables  "model.", "joint_set"
 [[nodiscard]] std::string unusual_among(const Input& input,

@@ -113,9 +113,7 @@ RockBlocks blocks_of(const Input& input, RockIn<Geometry> made,
                             figure(smallest) + " " + size_unit(input) +
                             " (blocks.min_wall_area) left out, " + figure(carving.dropped_measure) +
                             " " + size_unit(input) + " in all; the wall is the rock behind");
-  for (std::string& text : unusual_values(input)) rock.warnings.push_back(std::move(text));
-  if (!input.unused.empty()) rock.warnings.push_back(input.unused_text());
-  if (!input.uncertain.empty()) rock.warnings.push_back(input.uncertain_text());
+  for (std::string& text : warnings_about_values(input)) rock.warnings.push_back(std::move(text));
   if (input.survey && !input.survey->left_out.empty())
     rock.warnings.push_back(left_out_text(*input.survey));
   rock.excavated = std::move(excavated);

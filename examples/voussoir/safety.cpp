@@ -153,7 +153,7 @@ SafetyAnswer safety_of(const Input& input, const SafetySettings& settings, const
     warnings = rock.warnings;
     answer = answer_of(input, settings, factor_of_safety(input, rock, settings, report));
   }
-  for (std::string& value : unusual_values(input)) warnings.push_back(std::move(value));
+  for (std::string& value : warnings_about_values(input)) warnings.push_back(std::move(value));
   if (answer.is_undecided())
     warnings.push_back("no verdict was found over " + factor_text(answer.bracket.falls) +
                        ", which counts as a factor under which it falls");

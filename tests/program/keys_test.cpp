@@ -244,14 +244,17 @@ void try_distributions(const Base& base, const DeclaredKey& declared, const std:
                                             : beyond(declared, range.high, -1);
   const auto errors = errors_with(base, key, between(declared, low, high));
   INFO(key, " = ", between(declared, low, high));
-  for (const char* const complaint : {"reaches", "distribution", ", not a", "outside"})
+  for (const char* const complaint :
+       {"reaches", "distribution", ", not a", "outside the accepted range"})
     CHECK_FALSE(is_refused(errors, key, complaint));
+  const auto refused = [&](const std::string& value) {
+    INFO(key, " = ", value);
+    CHECK(is_refused(errors_with(base, key, value), key, "reaches"));
+  };
   if (starts)
-    CHECK(is_refused(errors_with(base, key, between(declared, beyond(declared, low, -1), high)),
-                     key, "reaches"));
+    refused(between(declared, range.low_included ? beyond(declared, low, -1) : range.low, high));
   if (ends)
-    CHECK(is_refused(errors_with(base, key, between(declared, low, beyond(declared, high, 1))), key,
-                     "reaches"));
+    refused(between(declared, low, range.high_included ? beyond(declared, high, 1) : range.high));
 }
 
 }  // namespace
