@@ -66,11 +66,11 @@ void judge(const Input& input, const std::vector<TunnelResult>& results, bool is
   at.holds = is_sure ? at.broken.interval().high <= allowed : at.broken.value() <= allowed;
 }
 
-/// "lining utilisation above 1: 1.23 of it", "rockfall in 20 %"
+/// "lining utilisation above 1 in 40 %, up to 123 % of the limit", "rockfall in 20 %"
 std::string broken_text(const CriterionAt& criterion) {
   std::string text = criterion.what + " in " + percent(criterion.broken.value());
   if (std::isfinite(criterion.worst) && criterion.worst > 1)
-    text += ", at most " + significant_text(criterion.worst, 3) + " times the limit";
+    text += ", up to " + percent(criterion.worst) + " of the limit";
   return text;
 }
 
@@ -170,7 +170,7 @@ std::string design_text(const CasePlan& plan, const SupportDesign& design) {
     const SupportAt& at = design.at(place);
     out +=
         "surer    " + supports_text(at.supports, " deg") + ": " + money(plan, at.cost) + " (+" +
-        significant_text(at.cost - best.cost, 3) + "); " +
+        significant_text(at.cost - best.cost, 4) + "); " +
         (at.holds ? margin_text(at) : "does not hold, though it is stronger: " + failing_text(at)) +
         "\n";
   }
