@@ -131,6 +131,7 @@ std::string blocks_run_json(const Input& input, const BlocksRun& run) {
       {"fallen_area_m2",
        run.weight.fallen_measure + (run.steps.empty() ? 0.0 : run.steps.back().fallen_measure)},
       {"error_estimate", run.last().error_estimate},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages},
       {"loads_on_fixed_blocks", reactions},
       {"blocks",
@@ -140,7 +141,7 @@ std::string blocks_run_json(const Input& input, const BlocksRun& run) {
       {"warnings", run.warnings},
       {"time_s", {{"equilibrium", run.seconds}}}};
   if (!run.steps.empty()) json["stands_up_to_part_of_loading"] = run.reached;
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string blocks_csv(const Input& input, const BlocksRun& run) {

@@ -217,6 +217,13 @@ int run_program(int argc, char** argv) {
   diff->add_option("FOLDERS", compared, "two folders of results, or their run.json")
       ->required()
       ->expected(2);
+  CLI::App* report = app.add_subcommand(
+      "report", "the results of a folder as one page, to be read, printed and forwarded");
+  std::string report_file;
+  report->add_option("FOLDER", options.folder, "that run, diagram, realisations or sweep wrote to")
+      ->required();
+  report->add_option("-o,--out", report_file, "file; left out: report.html in the folder");
+  add_quiet(report);
   CLI::App* diagram = app.add_subcommand(
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
   add_input(diagram);
@@ -362,6 +369,7 @@ int run_program(int argc, char** argv) {
       std::cout << run_diff(compared[0], compared[1]);
       return finished;
     }
+    if (*report) return report_verb(options, report_file);
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
     if (*check) return check_verb(options, check->count("--out") > 0);

@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/atomic_file.hpp>
 #include <voussoir/io/operating_system.hpp>
@@ -16,6 +17,7 @@
 #include "ground_reaction.hpp"
 #include "lining_strength.hpp"
 #include "outputs.hpp"
+#include "report_sections.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
 #include "survey.hpp"
@@ -57,6 +59,26 @@ ExitStatus status_of(voussoir::Verdict verdict, bool has_lost) {
   return not_decided;
 }
 
+/// What a run writes, and its report of it.
+class ReportedFiles {
+ public:
+  ReportedFiles(RunFolder& outputs, std::string id) : outputs_(&outputs), id_(std::move(id)) {}
+  void add(const std::string& name, const std::string& text) {
+    outputs_->add(name, text, id_);
+    files_.add(name, with_run_id(name, text, id_));
+  }
+  /// Adds the report of what was added. @return  run.json as it is written
+  std::string report() {
+    outputs_->add("report.html", report_page(files_), id_);
+    return files_.text("run.json");
+  }
+
+ private:
+  RunFolder* outputs_;
+  std::string id_;
+  ReportFiles files_;
+};
+
 /// Blocks that are laid.
 int run_blocks_verb(const Options& options, const Input& input) {
   RunFolder outputs(options.folder);
@@ -69,14 +91,14 @@ int run_blocks_verb(const Options& options, const Input& input) {
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
-  const std::string id = RunId("blocks").add(input).text();
-  outputs.add("run.json", blocks_run_json(input, run), id);
-  outputs.add("blocks.csv", blocks_csv(input, run), id);
-  outputs.add("contacts.csv", contacts_csv(input, run), id);
-  outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
-  say(options, blocks_summary(input, run),
-      with_run_id("run.json", blocks_run_json(input, run), id));
-  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
+  ReportedFiles files(outputs, RunId("blocks").add(input).text());
+  files.add("run.json", blocks_run_json(input, run));
+  files.add("blocks.csv", blocks_csv(input, run));
+  files.add("contacts.csv", contacts_csv(input, run));
+  files.add("blocks.svg", laid_blocks_svg(input, run));
+  const std::string json = files.report();
+  say(options, blocks_summary(input, run), json);
+  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg, report.html");
   return status_of(run.last().verdict, !run.last().fallen.empty());
 }
 
@@ -105,18 +127,19 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
                                  "tunnel.vtm", "lining_strength.svg", HistoryFiles::collection})
     outputs.replace(name);
   outputs.replace_all_in(HistoryFiles::folder);
-  std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
-  outputs.add("run.json", run_json(input, run), id);
-  outputs.add("bolts.csv", bolts_csv(input, run), id);
-  outputs.add("lining.csv", lining_csv(input, run), id);
-  outputs.add("blocks.svg", blocks_svg(input, run), id);
+  std::string names = "report.html, run.json, bolts.csv, lining.csv, blocks.svg";
+  ReportedFiles files(outputs, id);
+  files.add("run.json", run_json(input, run));
+  files.add("bolts.csv", bolts_csv(input, run));
+  files.add("lining.csv", lining_csv(input, run));
+  files.add("blocks.svg", blocks_svg(input, run));
   if (const auto nodes = lining_utilisations(input, supports_of(input), run.tunnel);
       !nodes.empty()) {
-    outputs.add("lining_strength.svg", lining_strength_svg(input, nodes), id);
+    files.add("lining_strength.svg", lining_strength_svg(input, nodes));
     names += ", lining_strength.svg";
   }
   if (input.survey) {
-    outputs.add("stereonet.svg", stereonet_svg(input), id);
+    files.add("stereonet.svg", stereonet_svg(input));
     names += ", stereonet.svg";
   }
   if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
@@ -126,7 +149,8 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
     }
     if (history.finish()) names += std::string(", ") + HistoryFiles::collection;
   }
-  say(options, run_summary(input, run), with_run_id("run.json", run_json(input, run), id));
+  const std::string json = files.report();
+  say(options, run_summary(input, run), json);
   publish(outputs, options, names);
   return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
 }
