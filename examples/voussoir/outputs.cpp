@@ -275,6 +275,9 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
         "On elastic ground: convergence is counted against the opening as a whole, which rises by " +
         millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
+  text.bolt_strengths = bolt_strengths(input, run.tunnel);
+  text.node_utilisations =
+      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel));
   return draw_tunnel(run.tunnel, run.built, text);
 }
 

@@ -13,6 +13,7 @@ namespace voussoir::program {
 namespace {
 
 using html::Column;
+using html::Kind;
 using html::Section;
 using html::Table;
 using html::Tone;
@@ -46,7 +47,7 @@ std::string joints_table(const Json& run) {
         }))
       there.push_back(quantity);
   std::vector<Column> columns{
-      {"joints", "", true}, {"law", "", true}, {"asked"}, {"used"}, {"no room"}};
+      {"joints", "", Kind::text}, {"law", "", Kind::text}, {"asked"}, {"used"}, {"no room"}};
   for (const Quantity& quantity : there) columns.push_back({quantity.name, quantity.unit});
   Table table("Joints, by where they come from", columns);
   for (const Json& source : sources) {
@@ -54,7 +55,8 @@ std::string joints_table(const Json& run) {
         words_at(source, "/source"), words_at(source, "/law"), shown(number_at(source, "/asked")),
         shown(number_at(source, "/used")), shown(number_at(source, "/refused"))};
     for (const Quantity& quantity : there)
-      cells.push_back(shown(quantity.scale * number_at(source, std::string("/") + quantity.key)));
+      cells.push_back(
+          shown_given(quantity.scale * number_at(source, std::string("/") + quantity.key)));
     table.add(cells);
   }
   return table.text();
@@ -97,12 +99,84 @@ std::string overridden_key(const std::string& text) {
   return key;
 }
 
-/// "joint_set[].dip" for "joint_set[0].dip", and without the places of a list of values.
+/// "joint_set[].dip" for "joint_set[0].dip".
 std::string key_of_page(std::string key) {
   for (std::size_t at = 0; (at = key.find('[', at)) != std::string::npos; ++at)
     key.erase(at + 1, key.find(']', at) - at - 1);
-  while (key.ends_with("[]")) key.resize(key.size() - 2);
   return key;
+}
+
+/// A key of the input with its value, of a list all of them.
+struct InputRow {
+  std::string table, name;  ///< "joint_set[0]", "dip"
+  std::vector<std::string> values;
+  bool is_set = false;  ///< on the command line
+
+  [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
+  [[nodiscard]] std::string text() const {
+    constexpr std::size_t most = 16;
+    std::string all;
+    for (std::size_t k = 0; k < std::min(values.size(), most); ++k)
+      all += (k > 0 ? ", " : "") + values[k];
+    if (values.size() > most) all += ", … (" + std::to_string(values.size()) + " values)";
+    return all + (is_set ? "  (set on the command line)" : "");
+  }
+};
+
+/// Tables as they follow one another in an input file.
+std::size_t rank_of_table(const std::string& table) {
+  constexpr std::string_view order[] = {
+      "model",    "tunnel",    "opening", "block", "blocks",  "rock",   "stress",  "gravity",
+      "boundary", "joint_set", "joints",  "joint", "support", "load",   "seismic", "displacement",
+      "loading",  "stage",     "round",   "run",   "picture", "diagram"};
+  const std::string_view first = std::string_view(table).substr(0, table.find_first_of(".["));
+  return static_cast<std::size_t>(std::find(std::begin(order), std::end(order), first) -
+                                  std::begin(order));
+}
+
+/// Whether a key comes from what was set: of a list any of its places.
+bool is_of(const std::string& key, const std::string& overridden) {
+  return key.starts_with(overridden) &&
+         (key.size() == overridden.size() || key[overridden.size()] == '[' ||
+          key[overridden.size()] == '.');
+}
+
+/// @param keys  of run.json: every key with its value, lists place by place
+std::vector<InputRow> input_rows(const Json& keys, const std::vector<std::string>& overridden) {
+  // Places of a list by their numbers, not by their digits: 10 stands behind 9.
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& [key, value] : keys.items())
+    if (value.is_string() && key != "schema" && key != "title")
+      all.emplace_back(key, value.get<std::string>());
+  const auto padded = [](const std::string& key) {
+    std::string text;
+    for (std::size_t k = 0; k < key.size(); ++k) {
+      text += key[k];
+      if (key[k] == '[') text.append(8 - std::min<std::size_t>(8, key.find(']', k) - k), '0');
+    }
+    return text;
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+    const std::size_t x = rank_of_table(a.first), y = rank_of_table(b.first);
+    return x != y ? x < y : padded(a.first) < padded(b.first);
+  });
+  std::vector<InputRow> rows;
+  for (const auto& [key, value] : all) {
+    std::string name = key;
+    while (name.ends_with("]")) name.resize(name.rfind('['));
+    const std::size_t dot = name.rfind('.');
+    InputRow row{dot == std::string::npos ? "" : name.substr(0, dot),
+                 dot == std::string::npos ? name : name.substr(dot + 1),
+                 {value}};
+    for (const std::string& set : overridden) row.is_set = row.is_set || is_of(key, set);
+    if (!rows.empty() && rows.back().key() == row.key()) {
+      rows.back().values.push_back(value);
+      rows.back().is_set = rows.back().is_set || row.is_set;
+    } else {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
 }
 
 /// One number against its limit.
@@ -243,15 +317,18 @@ Section inputs_section(const RunResults& r) {
   std::vector<std::string> overrides;
   for (const Json& text : list_at(r.run, "/input/overrides"))
     if (text.is_string()) overrides.push_back(overridden_key(text.get<std::string>()));
-  Table table("", {{"key", "", true}, {"value", "", true}, {"meaning", "", true}});
-  for (const auto& [key, value] : r.run["input"]["keys"].items()) {
-    if (!value.is_string() || key == "schema" || key == "title") continue;
-    const auto row = page_row_of(key_of_page(key));
-    const bool is_set = std::find(overrides.begin(), overrides.end(), key) != overrides.end();
-    table.add({key, value.get<std::string>() + (is_set ? "  (--set)" : ""),
-               row ? plain_cell(row->cell("meaning")) : ""});
+  Table table("",
+              {{"key", "", Kind::name}, {"value", "", Kind::text}, {"meaning", "", Kind::text}});
+  std::string heading;
+  for (const InputRow& input : input_rows(r.run["input"]["keys"], overrides)) {
+    if (input.table != heading) table.add_heading(input.table);
+    heading = input.table;
+    const auto row = page_row_of(key_of_page(input.key()));
+    const std::string meaning = row ? plain_cell(row->cell("meaning")) : "";
+    table.add({input.name, input.text(), meaning.substr(0, meaning.find(". "))});
   }
-  Table files("Files it names", {{"key", "", true}, {"file", "", true}, {"hash", "", true}});
+  Table files("Files it names",
+              {{"key", "", Kind::text}, {"file", "", Kind::text}, {"hash", "", Kind::text}});
   for (const Json& file : list_at(r.run, "/input/other_files"))
     files.add({words_at(file, "/key"), words_at(file, "/name"), words_at(file, "/hash")});
   section.body =
@@ -268,7 +345,7 @@ Section checks_section(const RunResults& r) {
   add_equilibrium(r, checks);
   add_supports(r, checks);
   add_rock(r, checks);
-  Table table("", {{"check", "", true}, {"value"}, {"limit"}, {"result", "", true}});
+  Table table("", {{"check", "", Kind::text}, {"value"}, {"limit"}, {"result", "", Kind::text}});
   for (const Check& check : checks)
     table.add({check.what, check.value, check.limit, word_of(check.tone)},
               check.tone == Tone::plain ? Tone::doubtful : check.tone);
@@ -322,7 +399,7 @@ Section reproduce_section(const RunResults& r) {
     command +=
         word.starts_with("!") ? " --unset '" + word.substr(1) + "'" : " --set '" + word + "'";
   }
-  Table table("", {{"what", "", true}, {"value", "", true}});
+  Table table("", {{"what", "", Kind::text}, {"value", "", Kind::text}});
   const auto add = [&](const std::string& what, const std::string& value) {
     if (!value.empty()) table.add({what, value});
   };

@@ -11,6 +11,7 @@ namespace voussoir::program {
 namespace {
 
 using html::Column;
+using html::Kind;
 using html::Section;
 using html::Table;
 
@@ -38,7 +39,7 @@ std::string tunnels_table(const ReportTable& tunnels, const std::string& file,
     for (char& c : title)
       if (c == '_') c = ' ';
     names.push_back(name);
-    columns.push_back({title, "", !is_number});
+    columns.push_back({title, "", is_number ? Kind::number : Kind::text});
   }
   Table table(caption, columns);
   for (std::size_t k = 0; k < std::min(tunnels.size(), listed); ++k) {
@@ -85,7 +86,7 @@ Section safety_section(const ReportFiles& files) {
   if (files.has("safety.svg"))
     section.body += html::figure(files.text("safety.svg"), "safety-figure",
                                  "The mechanism at the factor of safety.");
-  Table table("", {{"what", "", true}, {"value", "", true}});
+  Table table("", {{"what", "", Kind::text}, {"value", "", Kind::text}});
   add_values(table, safety);
   section.body += table.text();
   return section;
@@ -101,15 +102,15 @@ Section realisations_section(const ReportFiles& files) {
                   "realisation") +
       " of the rock, seeds from " + shown(number_at(json, "/first_seed")) + " on.");
   Table shares("Probabilities, with their 95 % confidence interval (Wilson)",
-               {{"event", "", true}, {"tunnels"}, {"share"}, {"between"}});
+               {{"event", "", Kind::text}, {"tunnels"}, {"share"}, {"between"}});
   add_share(shares, json, "rockfall_or_collapse", "rock falls");
   add_share(shares, json, "collapse", "the tunnel collapses");
-  Table verdicts("", {{"verdict", "", true}, {"tunnels"}});
+  Table verdicts("", {{"verdict", "", Kind::text}, {"tunnels"}});
   if (json.contains("verdicts") && json["verdicts"].is_object())
     for (const auto& [verdict, count] : json["verdicts"].items())
       if (count.is_number()) verdicts.add({verdict, shown(count.get<double>())});
-  Table quantities("Means of the realisations that have a value", {{"quantity", "", true},
-                                                                   {"unit", "", true},
+  Table quantities("Means of the realisations that have a value", {{"quantity", "", Kind::text},
+                                                                   {"unit", "", Kind::text},
                                                                    {"mean"},
                                                                    {"deviation"},
                                                                    {"mean between"},

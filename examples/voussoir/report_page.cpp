@@ -21,6 +21,18 @@ const char* class_of(Tone tone) {
   return "plain";
 }
 
+const char* class_of(Kind kind) {
+  switch (kind) {
+    case Kind::text:
+      return " class=\"text\"";
+    case Kind::name:
+      return " class=\"text name\"";
+    case Kind::number:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) { return xml_escaped(text); }
@@ -46,11 +58,16 @@ void Table::add(const std::vector<std::string>& cells, Tone tone) {
   if (tone != Tone::plain) rows_ += std::string(" class=\"") + class_of(tone) + "\"";
   rows_ += ">";
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    rows_ += columns_[k].is_text ? "<td class=\"text\">" : "<td>";
+    rows_ += std::string("<td") + class_of(columns_[k].kind) + ">";
     if (k < cells.size()) rows_ += escaped(cells[k]);
     rows_ += "</td>";
   }
   rows_ += "</tr>\n";
+}
+
+void Table::add_heading(std::string_view title) {
+  rows_ += "<tr class=\"group\"><th colspan=\"" + std::to_string(columns_.size()) +
+           "\" scope=\"rowgroup\">" + escaped(title) + "</th></tr>\n";
 }
 
 std::string Table::text() const {
@@ -59,7 +76,7 @@ std::string Table::text() const {
   if (!caption_.empty()) out += "<caption>" + escaped(caption_) + "</caption>\n";
   out += "<thead><tr>";
   for (const Column& column : columns_) {
-    out += column.is_text ? "<th scope=\"col\" class=\"text\">" : "<th scope=\"col\">";
+    out += std::string("<th scope=\"col\"") + class_of(column.kind) + ">";
     out += escaped(column.title);
     if (!column.unit.empty()) out += " <span class=\"unit\">" + escaped(column.unit) + "</span>";
     out += "</th>";

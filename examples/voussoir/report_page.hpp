@@ -19,9 +19,11 @@ namespace voussoir::program::html {
 /// <pre>text</pre>, escaped.
 [[nodiscard]] std::string preformatted(std::string_view text);
 
+/// What stands in a column: a number to the right, text to the left, a name that is not broken.
+enum class Kind { number, text, name };
 struct Column {
   std::string title, unit = {};  ///< unit in its own line; empty: none
-  bool is_text = false;          ///< set to the left
+  Kind kind = Kind::number;
 };
 
 /// How a row, a card or the verdict is meant, in colour beside its word.
@@ -32,6 +34,8 @@ class Table {
  public:
   Table(std::string caption, std::vector<Column> columns);
   void add(const std::vector<std::string>& cells, Tone tone = Tone::plain);
+  /// A line above the rows that follow.
+  void add_heading(std::string_view title);
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   [[nodiscard]] std::string text() const;  ///< empty without rows
 

@@ -34,9 +34,11 @@ std::string tag_in_page(std::string_view tag, std::string_view prefix) {
   if (const std::string_view layer = attribute(tag, "inkscape:label"); !layer.empty()) {
     std::string name(layer);
     std::replace(name.begin(), name.end(), '-', ' ');
-    replace_all(
-        text, " inkscape:label=\"" + std::string(layer) + "\"",
-        layer == "spots" ? std::string(" class=\"spots\"") : " data-layer=\"" + name + "\"");
+    const bool is_furniture = layer == "header" || layer == "legend" || layer == "key";
+    replace_all(text, " inkscape:label=\"" + std::string(layer) + "\"",
+                layer == "spots" ? " class=\"spots\""
+                : is_furniture   ? ""
+                                 : " data-layer=\"" + name + "\"");
   }
   return text;
 }

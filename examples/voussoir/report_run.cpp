@@ -15,6 +15,7 @@ namespace voussoir::program {
 namespace {
 
 using html::Column;
+using html::Kind;
 using html::Section;
 using html::Table;
 using html::Tone;
@@ -62,7 +63,7 @@ std::string bolts_table(const RunResults& r) {
   columns.insert(columns.end(), {{"largest force", "kN"},
                                  {"at, from its head", "m"},
                                  {"extension", "mm"},
-                                 {"state", "", true},
+                                 {"state", "", Kind::text},
                                  {"utilisation", "%"}});
   Table table("Bolts with the largest forces, where they cross joints", columns);
   for (std::size_t k = 0; k < std::min(rows.size(), listed); ++k) {
@@ -74,12 +75,12 @@ std::string bolts_table(const RunResults& r) {
     else
       cells.push_back(shown_fixed(bolts.number(row, "angle_deg"), 1));
     const double use = bolts.number(row, "of_its_strength");
-    cells.insert(
-        cells.end(),
-        {shown(bolts.number(row, "axial_force_kN")),
-         shown_fixed(bolts.number(row, "distance_from_head_m"), 2),
-         shown_fixed(bolts.number(row, "extension_mm"), 2), std::string(bolts.cell(row, "state")),
-         std::isfinite(use) ? shown(100 * use, 2) : use_text(bolts.cell(row, "of_its_strength"))});
+    cells.insert(cells.end(), {shown_fixed(bolts.number(row, "axial_force_kN"), 1),
+                               shown_fixed(bolts.number(row, "distance_from_head_m"), 2),
+                               shown_fixed(bolts.number(row, "extension_mm"), 2),
+                               std::string(bolts.cell(row, "state")),
+                               std::isfinite(use) ? shown_fixed(100 * use, 1)
+                                                  : use_text(bolts.cell(row, "of_its_strength"))});
     table.add(cells, bolts.cell(row, "state") == "elastic" ? Tone::plain : Tone::doubtful);
   }
   return table.text() + left_out(rows.size(), listed, "bolts.csv");
@@ -118,14 +119,15 @@ std::string nodes_table(const RunResults& r) {
   for (std::size_t k = 0; k < std::min(rows.size(), listed); ++k) {
     const std::size_t row = rows[k];
     const double use = lining.number(row, "of_its_strength");
-    table.add(
-        {std::string(lining.cell(row, "lining")), std::string(lining.cell(row, "node")),
-         shown_fixed(lining.number(row, "angle_deg"), 1),
-         shown(lining.number(row, "thrust_kN_per_m")), shown(lining.number(row, "shear_kN_per_m")),
-         shown(lining.number(row, "moment_kNm_per_m")),
-         shown_fixed(lining.number(row, "convergence_mm"), 2),
-         std::isfinite(use) ? shown(100 * use, 2) : use_text(lining.cell(row, "of_its_strength"))},
-        rank_of(lining, row, true) > 1 ? Tone::bad : Tone::plain);
+    table.add({std::string(lining.cell(row, "lining")), std::string(lining.cell(row, "node")),
+               shown_fixed(lining.number(row, "angle_deg"), 1),
+               shown_fixed(lining.number(row, "thrust_kN_per_m"), 0),
+               shown_fixed(lining.number(row, "shear_kN_per_m"), 1),
+               shown_fixed(lining.number(row, "moment_kNm_per_m"), 2),
+               shown_fixed(lining.number(row, "convergence_mm"), 2),
+               std::isfinite(use) ? shown_fixed(100 * use, 1)
+                                  : use_text(lining.cell(row, "of_its_strength"))},
+              rank_of(lining, row, true) > 1 ? Tone::bad : Tone::plain);
   }
   return table.text() + left_out(rows.size(), listed, "lining.csv");
 }
@@ -141,12 +143,12 @@ Judged judged(double use) {
 
 /// Bolts, linings and feet against their strength, a row each.
 Table utilisation_table(const RunResults& r) {
-  Table table("What supports carry of what they bear", {{"support", "", true},
-                                                        {"where", "", true},
-                                                        {"what acts", "", true},
-                                                        {"strength", "", true},
+  Table table("What supports carry of what they bear", {{"support", "", Kind::text},
+                                                        {"where", "", Kind::text},
+                                                        {"what acts", "", Kind::text},
+                                                        {"strength", "", Kind::text},
                                                         {"utilisation"},
-                                                        {"result", "", true}});
+                                                        {"result", "", Kind::text}});
   const Json& run = r.run;
   if (run.contains("bolts")) {
     const ReportTable bolts = r.files.table("bolts.csv");
@@ -313,7 +315,7 @@ Section detached_section(const RunResults& r) {
   });
   double total = 0;
   for (const Json& block : blocks) total += number_at(block, weight);
-  std::vector<Column> columns{{"block"}, {"from", "", true}, {"x", "m"}, {"y", "m"}};
+  std::vector<Column> columns{{"block"}, {"from", "", Kind::text}, {"x", "m"}, {"y", "m"}};
   if (r.is_spatial()) columns.push_back({"z", "m"});
   columns.insert(columns.end(),
                  {{r.is_spatial() ? "volume" : "area", r.measure()}, {"weight", of_weight}});
@@ -354,13 +356,13 @@ Section history_section(const RunResults& r) {
       shown_power(ratio) +
       " of its weight, without a block beyond its limit of "
       "displacement.");
-  std::vector<Column> columns{{"no."}, {"stage", "", true}};
+  std::vector<Column> columns{{"no."}, {"stage", "", Kind::text}};
   if (!r.is_laid()) columns.push_back({"traction left", "%"});
   columns.insert(columns.end(), {{"error estimate"}, {"out of balance"}, {"largest move", "mm"}});
   if (!r.is_laid())
     for (const char* const place : {"crown", "right", "left", "invert"})
       columns.push_back({place, "mm"});
-  columns.push_back({"verdict", "", true});
+  columns.push_back({"verdict", "", Kind::text});
   Table table("", columns);
   std::vector<std::string> reasons;
   for (std::size_t k = 0; k < stages.size(); ++k) {

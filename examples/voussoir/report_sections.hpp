@@ -21,7 +21,8 @@ using Json = nlohmann::json;
 [[nodiscard]] bool holds_at(const Json& json, const std::string& pointer);  ///< true, and there
 
 // Numbers as people read them; a dash where there is none.
-[[nodiscard]] std::string shown(double value, int digits = 3);
+[[nodiscard]] std::string shown(double value, int digits = 3);  ///< whole ones as they are
+[[nodiscard]] std::string shown_given(double value);            ///< as an input has it: "0.5", "5"
 [[nodiscard]] std::string shown_fixed(double value, int decimals);
 [[nodiscard]] std::string shown_percent(double share, int digits = 2);  ///< "19 %"
 [[nodiscard]] std::string shown_power(double value);                    ///< "3.8 × 10⁻⁵"

@@ -70,7 +70,9 @@ th:first-child, td:first-child { padding-left: .3rem; }
 th { vertical-align: bottom; font-weight: 600; border-bottom: 2px solid var(--soft); }
 th .unit { display: block; font-weight: 400; color: var(--soft); font-size: .85em; }
 .text { text-align: left; }
-td.text { overflow-wrap: anywhere; }
+td.text { overflow-wrap: break-word; }
+td.name { white-space: nowrap; }
+tr.group th { text-align: left; padding-top: .9rem; border-bottom: 1px solid var(--soft); }
 tr.good td:last-child { color: var(--good); }
 tr.doubtful td { background: var(--doubtful-ground); }
 tr.doubtful td:last-child { color: var(--doubtful); font-weight: 600; }
@@ -84,7 +86,8 @@ figcaption { margin-top: .45rem; font-size: .9rem; color: var(--soft); max-width
 .scripted .layers { display: flex; }
 .layers label { cursor: pointer; }
 .layers input { accent-color: var(--accent); vertical-align: -.1em; margin: 0 .3em 0 0; }
-.spots .at { stroke: #d40078; stroke-width: 2; fill: none; }
+.spots .at { stroke: #d40078; stroke-opacity: .65; }
+.spots path:not([stroke-width]) { stroke-width: 2.4; }
 #says {
   position: fixed; z-index: 9; display: none; max-width: 22rem; padding: .35rem .65rem; white-space: pre-line;
   font-size: .88rem; line-height: 1.4; color: #fff; background: #1a1f24; border: 1px solid #5b6670; border-radius: .3rem; pointer-events: none;
@@ -126,6 +129,7 @@ const std::string_view script = R"js(
   document.querySelectorAll("figure[data-layers]").forEach(function (figure) {
     var row = figure.querySelector(".layers");
     figure.querySelectorAll("g[data-layer]").forEach(function (layer) {
+      if (layer.querySelector("g[data-layer]")) return;  // its parts have boxes of their own
       var label = document.createElement("label"), box = document.createElement("input");
       box.type = "checkbox";
       box.checked = true;

@@ -52,7 +52,14 @@ bool holds_at(const Json& json, const std::string& pointer) {
 }
 
 std::string shown(double value, int digits) {
-  return std::isfinite(value) ? grouped(printed_text(value, digits)) : dash;
+  if (!std::isfinite(value)) return dash;
+  const bool is_whole = value == std::round(value) && std::abs(value) < 1e15;
+  if (is_whole) return shown_fixed(value, 0);
+  return grouped(printed_text(value, digits));
+}
+
+std::string shown_given(double value) {
+  return std::isfinite(value) ? significant_text(value, 6) : dash;
 }
 
 std::string shown_fixed(double value, int decimals) {

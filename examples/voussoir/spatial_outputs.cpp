@@ -172,6 +172,7 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   words.strip_width = strip_width_of(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
+  words.bolt_strengths = bolt_strengths(input, run.tunnel);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 
