@@ -14,6 +14,7 @@
 
 #include "case_statistics.hpp"
 #include "diagram_outputs.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -247,6 +248,7 @@ std::string realisations_json(const CasePlan& plan, const Realised& r) {
   const Json json = {{"schema", 1},
                      {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
                      {"title", plan.input().title},
+                     {"tunnel_id", RunId("tunnel").add(plan.input()).text()},
                      {"first_seed", plan.input().model.seed},
                      {"realisations", r.count},
                      {"verdicts",

@@ -79,19 +79,6 @@ std::string boundary_sentence(const Json& run) {
   return text + ".";
 }
 
-std::string marginal_sentence(const RunResults& r) {
-  if (!r.run.contains("rockfall")) return "";
-  const std::string measure = r.is_spatial() ? "volume_m3" : "area_m2";
-  if (!holds_at(r.run, "/rockfall/marginal"))
-    return "With half and three times the displacement limit, other damping and slower unloading "
-           "the same rock comes off.";
-  return "What comes off depends on how it is looked for: " +
-         shown(number_at(r.run, "/rockfall/least_detached_" + measure)) + " to " +
-         shown(number_at(r.run, "/rockfall/most_detached_" + measure)) + " " + r.measure() +
-         " with half and three times the displacement limit, other damping and slower unloading" +
-         (holds_at(r.run, "/rockfall/another_verdict") ? ", and another verdict." : ".");
-}
-
 /// The key of an override, "joint.friction=30 deg"; without the "!" that takes one away.
 std::string overridden_key(const std::string& text) {
   std::string key = text.substr(text.starts_with("!") ? 1 : 0, text.find('='));

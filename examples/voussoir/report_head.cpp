@@ -21,6 +21,12 @@ constexpr Wall walls[] = {{"crown_mm", "crown"},
                           {"left_springing_mm", "left springing"},
                           {"invert_mm", "invert"}};
 
+std::string capitalised(std::string sentence) {
+  if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
+    sentence[0] = static_cast<char>(sentence[0] - 'a' + 'A');
+  return sentence;
+}
+
 /// A verdict in words, and how it is meant.
 struct Word {
   Tone tone;
@@ -72,7 +78,7 @@ Card bolts_card(const Json& run, std::string& sentence) {
   const double force = number_at(run, "/bolts/largest_force_kN"),
                use = number_at(run, "/bolts/of_its_strength");
   if (!run.contains("bolts")) {
-    sentence = "there are no bolts";
+    sentence = run.contains("lining") ? "there are no bolts" : "it has no supports";
     return {"Largest bolt force", "–", "", "no bolts"};
   }
   Card card{"Largest bolt force", shown(force), "kN", ""};
@@ -93,7 +99,7 @@ Card lining_card(const Json& run, std::string& sentence) {
   const double use = number_at(run, "/lining/of_its_strength"),
                thrust = number_at(run, "/lining/largest_thrust_kN_per_m");
   if (!run.contains("lining")) {
-    sentence = "there is no lining";
+    if (run.contains("bolts")) sentence = "there is no lining";
     return {"Largest utilisation of the lining", "–", "", "no lining"};
   }
   const std::string place = words_at(run, "/lining/governing/place"),
@@ -123,25 +129,22 @@ void add_tunnel_head(const RunResults& r, html::Page& page) {
   const Json stages = list_at(r.run, "/stages");
   const std::string reason = stages.empty() ? "" : words_at(stages.back(), "/equilibrium/reason");
   if (r.verdict() == "collapse" || r.verdict() == "undecided")
-    before = reason + ". What follows is the state at which the run ended: ";
+    before = reason + ". Where the run ended: ";
   if (r.detached() > 0) {
     const std::string rock = shown(r.detached()) + "\u00a0" + r.measure() +
                              " of rock came off in " +
                              shown_count(list_at(r.run, "/detached_blocks").size(), "block");
     before += before.empty() ? rock + " before the rest came to rest; " : rock + "; ";
   }
-  page.sentence = before + convergence + "; " + bolts + "; " + lining + ".";
-  const std::size_t first =
-      page.sentence.starts_with("\u00a0") ? std::string::npos : std::size_t{0};
-  if (first == 0 && page.sentence[0] >= 'a' && page.sentence[0] <= 'z')
-    page.sentence[0] = static_cast<char>(page.sentence[0] - 'a' + 'A');
+  page.sentence = before + convergence + "; " + bolts + (lining.empty() ? "" : "; " + lining) + ".";
+  page.sentence = capitalised(page.sentence);
 }
 
 void add_laid_head(const RunResults& r, html::Page& page) {
   const double part = number_at(r.run, "/stands_up_to_part_of_loading"),
                blocks = number_at(r.run, "/blocks/count");
   const std::size_t fallen = list_at(r.run, "/fallen_blocks").size();
-  page.sentence = words_at(r.run, "/reason") + ".";
+  page.sentence = capitalised(words_at(r.run, "/reason")) + ".";
   page.cards.push_back(
       {"Blocks", shown(blocks), "", shown(number_at(r.run, "/blocks/fixed")) + " of them fixed"});
   page.cards.push_back({"Fallen", std::to_string(fallen), "",

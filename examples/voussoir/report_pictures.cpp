@@ -34,7 +34,8 @@ std::string tag_in_page(std::string_view tag, std::string_view prefix) {
   if (const std::string_view layer = attribute(tag, "inkscape:label"); !layer.empty()) {
     std::string name(layer);
     std::replace(name.begin(), name.end(), '-', ' ');
-    const bool is_furniture = layer == "header" || layer == "legend" || layer == "key";
+    const bool is_furniture =
+        layer == "header" || layer == "legend" || layer == "key" || layer == "banner";
     replace_all(text, " inkscape:label=\"" + std::string(layer) + "\"",
                 layer == "spots" ? " class=\"spots\""
                 : is_furniture   ? ""

@@ -255,19 +255,46 @@ std::string history_figure(const Json& stages) {
 
 }  // namespace
 
+std::string marginal_sentence(const RunResults& r) {
+  if (!r.run.contains("rockfall")) return "";
+  const std::string measure = r.is_spatial() ? "volume_m3" : "area_m2";
+  if (!holds_at(r.run, "/rockfall/marginal"))
+    return "With half and three times the displacement limit, other damping and slower unloading "
+           "the same rock comes off.";
+  return "What comes off depends on how it is looked for: " +
+         shown(number_at(r.run, "/rockfall/least_detached_" + measure)) + " to " +
+         shown(number_at(r.run, "/rockfall/most_detached_" + measure)) + " " + r.measure() +
+         " with half and three times the displacement limit, other damping and slower unloading" +
+         (holds_at(r.run, "/rockfall/another_verdict") ? ", and another verdict." : ".");
+}
+
+namespace {
+
+std::string caption_of_picture(const RunResults& r) {
+  const std::string point = " On screen, point at a part of it for its values.";
+  if (r.is_laid()) return "The blocks where they lie, the forces between them and where these act.";
+  const bool has_bolts = r.run.contains("bolts"), has_lining = r.run.contains("lining");
+  std::string text = r.is_spatial() ? "The tunnel cut open along its axis: blocks by their "
+                                      "displacement, joints that have slipped or opened"
+                                    : "The rock around the tunnel: blocks by their displacement, "
+                                      "joints that have slipped or opened";
+  if (has_bolts)
+    text += r.is_spatial() ? ", bolts by their forces"
+                           : ", bolts with their forces at every joint as bars";
+  if (has_lining && r.is_spatial())
+    text += ", lining; below it thrust and moment of every rib on the unrolled wall";
+  else if (has_lining)
+    text += ", lining; beside it its thrust and moment";
+  return text + "." + point;
+}
+
+}  // namespace
+
 Section picture_section(const RunResults& r) {
   Section section{"picture", "Picture", ""};
   if (!r.files.has("blocks.svg")) return section;
-  const std::string caption =
-      r.is_laid() ? "The blocks where they lie, the forces between them and where these act."
-      : r.is_spatial()
-          ? "The tunnel cut open along its axis: blocks by their displacement, joints that have "
-            "slipped or opened, bolts and lining by their forces; below it thrust and moment of "
-            "every rib on the unrolled wall."
-          : "The rock around the tunnel: blocks by their displacement, joints that have slipped or "
-            "opened, bolts with their forces at every joint as bars; beside it thrust and moment "
-            "around the lining. On screen, point at a block, a bolt or the lining for its values.";
-  section.body = html::figure(r.files.text("blocks.svg"), "blocks-figure", caption, true);
+  section.body =
+      html::figure(r.files.text("blocks.svg"), "blocks-figure", caption_of_picture(r), true);
   if (r.files.has("stereonet.svg"))
     section.body += html::figure(r.files.text("stereonet.svg"), "stereonet-figure",
                                  "Joints of the survey: poles, sets and the axis of the tunnel.");
@@ -334,7 +361,8 @@ Section detached_section(const RunResults& r) {
       html::paragraph(shown_count(blocks.size(), "block") + " came off: " + shown(r.detached()) +
                       " " + r.measure() + ", " + shown(total) + " " + of_weight +
                       (r.is_spatial() ? "." : " of tunnel.")) +
-      table.text() + left_out(blocks.size(), listed_blocks, "run.json");
+      table.text() + left_out(blocks.size(), listed_blocks, "run.json") +
+      html::paragraph(marginal_sentence(r));
   if (r.verdict() == "stable after rockfall")
     section.body += html::paragraph(
         "The rest stands without them. Where nothing may fall, they are to be scaled down or "
@@ -356,7 +384,7 @@ Section history_section(const RunResults& r) {
       shown_power(ratio) +
       " of its weight, without a block beyond its limit of "
       "displacement.");
-  std::vector<Column> columns{{"no."}, {"stage", "", Kind::text}};
+  std::vector<Column> columns{{"no."}, {"stage", "", Kind::name}};
   if (!r.is_laid()) columns.push_back({"traction left", "%"});
   columns.insert(columns.end(), {{"error estimate"}, {"out of balance"}, {"largest move", "mm"}});
   if (!r.is_laid())

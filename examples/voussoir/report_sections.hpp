@@ -53,6 +53,9 @@ struct LargestConvergence {
 };
 [[nodiscard]] LargestConvergence largest_convergence(const Json& run);
 
+/// How much would come off by other ways of looking for it; empty: that was not looked at.
+[[nodiscard]] std::string marginal_sentence(const RunResults& results);
+
 // Sections of a run; without a body where there is nothing to say.
 [[nodiscard]] html::Section picture_section(const RunResults& results);
 [[nodiscard]] html::Section strength_section(const RunResults& results);

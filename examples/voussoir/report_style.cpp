@@ -64,8 +64,8 @@ nav a { text-decoration: none; }
 nav a:hover { text-decoration: underline; }
 .wide { overflow-x: auto; margin: .9rem 0; }
 table { border-collapse: collapse; font-size: .92rem; line-height: 1.4; min-width: 50%; }
-caption { text-align: left; padding: 0 0 .35rem; font-weight: 650; }
-th, td { padding: .32rem .8rem; text-align: right; vertical-align: top; border-bottom: 1px solid var(--rule); }
+caption { text-align: left; padding: 0 0 .35rem; font-weight: 650; white-space: nowrap; }
+th, td { padding: .32rem .65rem; text-align: right; vertical-align: top; border-bottom: 1px solid var(--rule); }
 th:first-child, td:first-child { padding-left: .3rem; }
 th { vertical-align: bottom; font-weight: 600; border-bottom: 2px solid var(--soft); }
 th .unit { display: block; font-weight: 400; color: var(--soft); font-size: .85em; }

@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+// The report of a folder of results: a page that stands alone, says what the files say, and is of
+// one run.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness.hpp"
+#include "run_results.hpp"
+
+namespace program_report_test {
+
+using namespace voussoir_test;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A page taken apart as XML, in which nothing may be left open.
+struct Page {
+  std::string fault;  ///< empty: well-formed
+  std::vector<std::string> ids, links, references;
+  std::map<std::string, int> elements;
+  std::string text;  ///< without tags, style and script; entities as they are
+};
+
+bool is_entity(std::string_view text) {
+  for (const std::string_view entity : {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"})
+    if (text.starts_with(entity)) return true;
+  return false;
+}
+
+Page taken_apart(const std::string& html) {
+  Page page;
+  std::vector<std::string> open;
+  std::size_t at = 0;
+  const auto fail = [&](const std::string& what) {
+    page.fault = what + " at " + std::to_string(at) + ": " + html.substr(at, 60);
+    return page;
+  };
+  while (at < html.size()) {
+    if (html[at] != '<') {
+      if (html[at] == '&' && !is_entity(std::string_view(html).substr(at))) return fail("entity");
+      page.text += html[at++];
+      continue;
+    }
+    if (html.compare(at, 4, "<!--") == 0) {
+      at = html.find("-->", at);
+      if (at == std::string::npos) return fail("comment");
+      at += 3;
+      continue;
+    }
+    const std::size_t end = html.find('>', at);
+    if (end == std::string::npos) return fail("tag without an end");
+    const std::string tag = html.substr(at + 1, end - at - 1);
+    if (tag.starts_with("!DOCTYPE")) {
+      at = end + 1;
+      continue;
+    }
+    if (tag.starts_with("/")) {
+      if (open.empty() || open.back() != tag.substr(1)) return fail("closes what is not open");
+      open.pop_back();
+      at = end + 1;
+      continue;
+    }
+    const std::string name = tag.substr(0, tag.find_first_of(" /"));
+    ++page.elements[name];
+    // Attributes: name="value" each, and no name twice.
+    std::set<std::string> names;
+    for (std::size_t k = name.size(); k < tag.size();) {
+      if (tag[k] == ' ') {
+        ++k;
+        continue;
+      }
+      if (tag[k] == '/') break;
+      const std::size_t equals = tag.find("=\"", k);
+      const std::size_t close = equals == std::string::npos ? equals : tag.find('"', equals + 2);
+      if (close == std::string::npos) return fail("attribute without quotes");
+      const std::string attribute = tag.substr(k, equals - k),
+                        value = tag.substr(equals + 2, close - equals - 2);
+      if (!names.insert(attribute).second) return fail("attribute twice");
+      if (value.find('<') != std::string::npos) return fail("attribute with a tag");
+      if (attribute == "id") page.ids.push_back(value);
+      if (attribute == "href" || attribute == "src") page.links.push_back(value);
+      if (const std::size_t url = value.find("url(#"); url != std::string::npos)
+        page.references.push_back(value.substr(url + 5, value.find(')', url) - url - 5));
+      k = close + 1;
+    }
+    at = end + 1;
+    if (tag.ends_with("/")) continue;
+    if (name == "style" || name == "script") {
+      const std::size_t close = html.find("</" + name + ">", at);
+      if (close == std::string::npos) return fail("style or script without an end");
+      if (html.substr(at, close - at).find_first_of("<&") != std::string::npos)
+        return fail("style or script that is no XML");
+      at = close + name.size() + 3;
+      continue;
+    }
+    open.push_back(name);
+  }
+  if (!open.empty()) page.fault = "left open: " + open.back();
+  return page;
+}
+
+/// What every report must be, whatever it is of.
+Page sound_page(const std::string& html) {
+  Page page = taken_apart(html);
+  CHECK(page.fault == "");
+  CHECK(html.size() < 5'000'000);
+  const std::set<std::string> ids(page.ids.begin(), page.ids.end());
+  CHECK(ids.size() == page.ids.size());
+  for (const std::string& link : page.links) {
+    CAPTURE(link);
+    CHECK(link.starts_with("#"));  // to nothing but the page itself
+    CHECK(ids.contains(link.substr(1)));
+  }
+  for (const std::string& reference : page.references) {
+    CAPTURE(reference);
+    CHECK(ids.contains(reference));
+  }
+  // No address, but for the names of namespaces, which nobody fetches.
+  for (std::size_t at = 0; (at = html.find("://", at)) != std::string::npos; ++at)
+    CHECK(html.substr(at - 11, 30).find("xmlns=\"http://www.w3.org/") != std::string::npos);
+  CHECK(html.find("@import") == std::string::npos);
+  CHECK(html.starts_with("<!DOCTYPE html>\n<!-- voussoir "));
+  CHECK(page.elements["script"] == 1);
+  CHECK(page.elements["link"] + page.elements["img"] + page.elements["iframe"] == 0);
+  return page;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string number(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+/// The number at the head under a name.
+std::string card(const std::string& html, const std::string& name) {
+  const std::string before = "<span class=\"name\">" + name + "</span><span class=\"value\">";
+  const std::size_t at = html.find(before);
+  REQUIRE(at != std::string::npos);
+  const std::size_t from = at + before.size();
+  return html.substr(from, html.find_first_of(" <", from) - from);
+}
+
+/// A small tunnel whose supports all have a strength.
+InputText with_strength() {
+  InputText text;
+  text.lining += "[support.lining.concrete]\nfck = \"30 MPa\"\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_SUITE("program/report") {
+  TEST_CASE(
+      "a run writes its report, whose sections stand in order and whose numbers are its own") {
+    const Results run = results_of(with_strength().text());
+    REQUIRE(run.outcome.status == 0);
+    const std::string& html = run.files.at("report.html");
+    const Page page = sound_page(html);
+    std::size_t before = 0;
+    for (const char* const id : {"verdict", "picture", "strength", "detached", "history", "basis",
+                                 "inputs", "checks", "limits", "reproduce"}) {
+      CAPTURE(id);
+      const std::size_t at = html.find(std::string("<section id=\"") + id + "\"");
+      CHECK(at != std::string::npos);
+      CHECK(at > before);
+      before = at;
+    }
+    CHECK(has(html, ">The tunnel stands</h2>"));
+    const Json& json = run.json;
+    double most = -1e9;
+    for (const char* const place :
+         {"crown_mm", "left_springing_mm", "right_springing_mm", "invert_mm"})
+      most = std::max(most, json.at("convergence").at(place).get<double>());
+    CHECK(card(html, "Largest convergence") == number("%.2f", most));
+    CHECK(has(html, number("%.2g", most / 4000 * 100) + "\u00a0% of the width of 4\u00a0m"));
+    const double force = json.at("bolts").at("largest_force_kN");
+    CHECK(std::abs(std::stod(card(html, "Largest bolt force")) - force) <= 0.005 * force);
+    const double use = json.at("lining").at("of_its_strength");
+    CHECK(std::abs(std::stod(card(html, "Largest utilisation of the lining")) - 100 * use) <=
+          0.05 * 100 * use);
+    // The tables: the stage, the governing node, the bolt with the largest force.
+    const Json& stage = json.at("stages").at(0);
+    for (const char* const place : {"crown_mm", "left_springing_mm", "invert_mm"})
+      CHECK(has(page.text, number("%.2f", stage.at("convergence").at(place))));
+    CHECK(has(page.text, json.at("lining").at("governing").at("place").get<std::string>()));
+    CHECK(has(page.text, number("%.1f", force)));
+    CHECK(has(page.text, json.at("run_id").get<std::string>()));
+    CHECK(has(page.text, json.at("result_hash").get<std::string>()));
+    CHECK(has(page.text, json.at("build").at("compiler").get<std::string>()));
+    CHECK(has(page.text, "5 GPa/m"));  // joint.kn as the file has it
+    for (const Json& warning : json.at("warnings"))
+      CHECK(has(page.text, warning.get<std::string>()));
+    // Both pictures, and places in them that speak.
+    CHECK(page.elements.at("svg") == 2);
+    CHECK(has(html, "class=\"spots\""));
+    CHECK(has(html, "<title>bolt 1\n"));
+    CHECK(has(html, "% of its strength</title>"));
+  }
+
+  TEST_CASE("rock that comes off is listed with its weight and place") {
+    InputText text;
+    text.bolts.clear();
+    text.lining.clear();
+    const Results run = results_of(text.text());
+    const Page page = sound_page(run.files.at("report.html"));
+    const Json& blocks = run.json.at("detached_blocks");
+    REQUIRE(!blocks.empty());
+    for (const Json& block : blocks) {
+      // density times gravity times area: the default gravity is that of the Earth
+      const double weight = 2.7 * 9.81 * block.at("area_m2").get<double>();
+      CHECK(std::abs(block.at("weight_kN_per_m").get<double>() - weight) <= 1e-9 * weight);
+      CHECK(has(page.text, number("%.3f", block.at("area_m2"))));
+      CHECK(has(page.text, number("%.1f", weight)));
+      CHECK(has(page.text, block.at("from").get<std::string>()));
+    }
+    CHECK(has(page.text, run.json.at("verdict") == "collapse"
+                             ? "The tunnel collapses"
+                             : "The tunnel stands after rockfall"));
+    CHECK(has(page.text, "it has no supports"));
+  }
+
+  TEST_CASE("what an input says is text, whatever it looks like") {
+    const Folder folder;
+    const std::string title = "<script>alert(1)</script> & \\\"quoted\\\" 'x' ]]> -->";
+    InputText text;
+    text.joints = replaced(text.joints, "[[joint_set]]\n",
+                           "[[joint_set]]\nname = \"<img src=x onerror=alert(2)>\"\n");
+    const std::string file =
+        write_file(folder / "a&b <i>.toml", "title = \"" + title + "\"\n" + text.text());
+    const Outcome outcome = run_program({"run", file, "--out", folder / "out", "-q"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 0);
+    const std::string html = read_file(folder / "out/report.html");
+    const Page page = sound_page(html);
+    CHECK(has(page.text, "&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;quoted&quot;"));
+    CHECK(has(page.text, "a&amp;b &lt;i&gt;.toml"));
+    CHECK(has(page.text, "&lt;img src=x onerror=alert(2)&gt;"));
+    CHECK(page.elements.count("i") == 0);
+  }
+
+  TEST_CASE("the verb writes what the run wrote, where it is told to") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", InputText{}.text());
+    REQUIRE(run_program({"run", file, "--out", folder / "out", "-q"}).status == 0);
+    const std::string written = read_file(folder / "out/report.html");
+    std::filesystem::remove(folder / "out/report.html");
+    const Outcome first = run_program({"report", folder / "out"});
+    CAPTURE(first.err);
+    CHECK(first.status == 0);
+    CHECK(has(first.out, "report.html"));
+    CHECK(read_file(folder / "out/report.html") == written);
+    const Outcome second =
+        run_program({"report", folder / "out", "-o", folder / "page.html", "-q"});
+    CHECK(second.status == 0);
+    CHECK(second.out.empty());
+    CHECK(read_file(folder / "page.html") == written);
+  }
+
+  TEST_CASE("folders that are of no run, or of two, are refused by the name of the file") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", InputText{}.text());
+    const std::string out = folder / "out";
+    REQUIRE(run_program({"run", file, "--out", out, "-q"}).status == 0);
+    REQUIRE(run_program({"run", file, "--out", folder / "other", "-q", "--set", "model.seed=4"})
+                .status == 0);
+    std::filesystem::remove(out + "/report.html");
+    const auto refused = [&](const std::string& at, const std::vector<std::string>& words) {
+      const Outcome outcome = run_program({"report", at});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(has(outcome.err, "accepted: "));
+      for (const std::string& word : words) CHECK(has(outcome.err, word));
+      CHECK_FALSE(std::filesystem::exists(at + "/report.html"));
+    };
+    refused(folder / "none", {"none: there is no such folder"});
+    refused(file, {"case.toml is no folder"});
+    std::filesystem::create_directory(folder / "empty");
+    refused(folder / "empty", {"empty: holds no results"});
+    // A file of another run; of none; a run.json that is damaged.
+    for (const char* const name : {"bolts.csv", "lining.csv", "blocks.svg", "run.json"}) {
+      CAPTURE(name);
+      const std::string path = out + "/" + name, mine = read_file(path),
+                        others = read_file(folder / (std::string("other/") + name));
+      write_file(path, others);
+      refused(out, {std::string(name) == "run.json" ? "blocks.svg" : name, "another run"});
+      write_file(path, mine);
+    }
+    const std::string json = read_file(out + "/run.json");
+    for (const std::string& damaged :
+         {json.substr(0, json.size() / 2), std::string("[]"), std::string(),
+          replaced(json, "\n  \"verdict\"", "\n  \"verdikt\"")}) {
+      write_file(out + "/run.json", damaged);
+      refused(out, {"run.json"});
+    }
+    std::filesystem::remove(out + "/run.json");
+    refused(out, {"run.json is missing"});
+    write_file(out + "/run.json", json);
+    write_file(out + "/blocks.svg", "<svg></svg>");
+    refused(out, {"blocks.svg does not say of which run it is"});
+    std::filesystem::remove(out + "/blocks.svg");
+    std::filesystem::create_directory(out + "/blocks.svg");
+    refused(out, {"blocks.svg cannot be read: it is a folder"});
+  }
+
+  TEST_CASE("values of another kind than expected leave a gap, and no damage") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", InputText{}.text());
+    const std::string out = folder / "out";
+    REQUIRE(run_program({"run", file, "--out", out, "-q"}).status == 0);
+    using Ordered = nlohmann::ordered_json;  // the id stays in front
+    const Ordered json = Ordered::parse(read_file(out + "/run.json"));
+    for (const auto& [key, value] : json.items()) {
+      if (key == "run_id" || key == "verdict") continue;
+      for (const char* const other : {"null", "\"text\"", "7", "[1]", "{\"a\": 1}"}) {
+        Ordered changed = json;
+        changed[key] = Ordered::parse(other);
+        write_file(out + "/run.json", changed.dump(2));
+        const Outcome outcome = run_program({"report", out, "-q"});
+        CAPTURE(key);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(taken_apart(read_file(out + "/report.html")).fault == "");
+      }
+    }
+  }
+
+  TEST_CASE("run.json says what was read, from where and by which build, and has a hash") {
+    const Folder folder;
+    const std::string text = InputText{}.text();
+    const auto ran = [&](const std::string& name, const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"run", write_file(folder / (name + ".toml"), text),
+                                         "--out", folder / name, "-q"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      REQUIRE(run_program(arguments).status == 0);
+      return Json::parse(read_file(folder / (name + "/run.json")));
+    };
+    const Json a = ran("a", {}), b = ran("b", {}), c = ran("c", {"--set", "joint.friction=40 deg"});
+    CHECK(a.at("input").at("file") == "a.toml");
+    CHECK(a.at("input").at("hash") == b.at("input").at("hash"));
+    CHECK(a.at("result_hash") == b.at("result_hash"));
+    CHECK(a.at("result_hash") != c.at("result_hash"));
+    CHECK(a.at("run_id") == b.at("run_id"));
+    CHECK(a.at("input").at("keys").at("joint.friction") == "35 deg");
+    CHECK(c.at("input").at("keys").at("joint.friction") == "40 deg");
+    CHECK(a.at("input").at("overrides").empty());
+    CHECK(c.at("input").at("overrides").at(0) == "joint.friction=40 deg");
+    CHECK(a.at("acceptance").at("error_estimate") == 1e-3);
+    CHECK(a.at("tunnel").at("width_m") == 4.0);
+    CHECK(a.at("build").at("compiler").get<std::string>().find("++ ") != std::string::npos);
+    const std::string page = read_file(folder / "c/report.html");
+    CHECK(has(page, "40 deg  (set on the command line)"));
+    CHECK(has(page, "voussoir run c.toml --set &#39;joint.friction=40 deg&#39;"));
+  }
+
+  TEST_CASE("a tunnel in 3-D and blocks that are laid have reports of their own") {
+    std::string text = CircleInRock{}.text();
+    const Results spatial = results_of(
+        replaced(text, "[model]\n", "[model]\ndimension = 3\n") +
+        "[support.bolts]\nlength = \"2 m\"\nspacing = \"45 deg\"\nout_of_plane = \"1 m\"\n"
+        "stiffness = \"0.2 GN/m\"\nyield_force = \"200 kN\"\n");
+    const Page in_space = sound_page(spatial.files.at("report.html"));
+    CHECK(has(in_space.text, "Tunnel in 3-D, "));
+    CHECK(has(in_space.text, number("%.1f", spatial.json.at("bolts").at("largest_force_kN"))));
+    CHECK(has(spatial.files.at("report.html"), "<title>block "));
+    const Folder folder;
+    const Outcome laid =
+        run_program({"run", std::string(VOUSSOIR_TEST_EXAMPLES) + "/blocks/arch.toml", "--out",
+                     folder / "out", "-q"});
+    CAPTURE(laid.err);
+    const Page blocks = sound_page(read_file(folder / "out/report.html"));
+    const Json json = Json::parse(read_file(folder / "out/run.json"));
+    CHECK(has(blocks.text, "Laid blocks in 2-D, " + json.at("blocks").at("count").dump()));
+    CHECK(has(blocks.text, "Limits of the model"));
+    CHECK(json.at("input").at("keys").is_object());
+  }
+
+  TEST_CASE("many tunnels: alone, and beside the run of their tunnel") {
+    const Folder folder;
+    InputText small;
+    const std::string text =
+        small.text() +
+        "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"8 cm\", \"12 cm\"]\n";
+    const std::string file = write_file(folder / "case.toml", text);
+    const std::string many = folder / "many", both = folder / "both";
+    REQUIRE(run_program({"realisations", file, "-n", "3", "--out", many, "-q"}).status != 2);
+    REQUIRE(run_program({"report", many, "-q"}).status == 0);
+    const Page realisations = sound_page(read_file(many + "/report.html"));
+    CHECK(has(realisations.text, "Realisations and probabilities"));
+    const Json json = Json::parse(read_file(many + "/realisations.json"));
+    const Json& crown = json.at("quantities").begin().value();
+    CHECK(has(realisations.text, crown.at("unit").get<std::string>()));
+    // One design: its run, its diagram and its realisations share a folder.
+    REQUIRE(run_program({"run", file, "--out", both, "-q"}).status != 2);
+    REQUIRE(run_program({"diagram", file, "--out", both, "-q"}).status != 2);
+    REQUIRE(run_program({"report", both, "-q"}).status == 0);
+    const Page diagram = sound_page(read_file(both + "/report.html"));
+    CHECK(has(diagram.text, "Interaction diagram"));
+    for (const char* const name : {"realisations.json", "realisations.csv", "realisations.svg"})
+      std::filesystem::copy(many + "/" + name, both + "/" + name);
+    const Outcome all = run_program({"report", both, "-q"});
+    CAPTURE(all.err);
+    CHECK(all.status == 0);
+    CHECK(has(read_file(both + "/report.html"), "Realisations and probabilities"));
+    // Realisations of another design do not.
+    REQUIRE(run_program({"realisations", file, "-n", "2", "--out", folder / "others", "-q", "--set",
+                         "joint.friction=40 deg"})
+                .status != 2);
+    for (const char* const name : {"realisations.json", "realisations.csv", "realisations.svg"})
+      std::filesystem::copy(folder / (std::string("others/") + name), both + "/" + name,
+                            std::filesystem::copy_options::overwrite_existing);
+    const Outcome mixed = run_program({"report", both, "-q"});
+    CHECK(mixed.status == 2);
+    CHECK(has(mixed.err, "realisations.json is of another run"));
+  }
+}
+
+}  // namespace program_report_test
