@@ -76,7 +76,7 @@ void read_picture(Section& s, Input& input) {
       Need::optional);
   s.flag("history", input.picture.history);
   if (input.is_spatial()) return;
-  for (const char* const key : {"from", "history"}) note_unused(input, s, key);
+  note_unused(input, s, "from");
 }
 
 void read_all(Section& file, Input& input, const std::filesystem::path& directory) {

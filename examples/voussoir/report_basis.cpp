@@ -352,18 +352,15 @@ Section limits_section(const RunResults& r) {
   if (r.is_laid()) {
     limits.emplace_back("The section is in plane strain, per metre out of the plane.");
   } else if (r.is_spatial()) {
-    limits.emplace_back(
-        "The openings are straight. Whether rockfall is marginal is not looked for in 3-D.");
+    limits.emplace_back("The openings are straight, and the sides of the model are rollers.");
   } else {
     limits.emplace_back(
         "A section in plane strain, per metre of tunnel: joints strike along it. What the rock "
         "ahead of the face carries is in the model as wall traction that is left, which the input "
         "chooses.");
   }
-  limits.emplace_back(
-      "Dry rock: no water pressure, no earthquake"
-      " and no blasting, but what the input says.");
   if (!r.is_laid()) {
+    limits.emplace_back("Dry rock: neither water nor blasting nor earthquakes.");
     limits.emplace_back(
         "Supports are wished in place: they act in full from the stage in which they are "
         "installed. Concrete neither hardens, shrinks nor creeps.");

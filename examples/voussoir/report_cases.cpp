@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a report says of many tunnels: realisations of the rock, the interaction diagram, a sweep;
 // and of the factor of safety.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "report_pictures.hpp"
 #include "report_sections.hpp"
@@ -27,26 +30,63 @@ void add_share(Table& table, const Json& json, const char* key, const char* name
                  shown_percent(number_at(share, "/high_95"))});
 }
 
-/// A table of tunnels as it was written, but for the columns that say nothing to a reader.
+/// The name of a column of a table of results, and its unit: "largest_thrust_kN_per_m".
+Column column_of(const std::string& name, Kind kind) {
+  struct Unit {
+    const char *ending, *unit;
+  };
+  constexpr Unit units[] = {{"_percent_of_radius", "% of radius"},
+                            {"_kNm_per_m", "kN m/m"},
+                            {"_kN_per_m", "kN/m"},
+                            {"_kN", "kN"},
+                            {"_mm", "mm"},
+                            {"_cm", "cm"},
+                            {"_m2", "m²"},
+                            {"_m3", "m³"},
+                            {"_deg", "°"},
+                            {"_m", "m"}};
+  Column column{name, "", kind};
+  for (const Unit& unit : units)
+    if (name.ends_with(unit.ending)) {
+      column = {name.substr(0, name.size() - std::string_view(unit.ending).size()), unit.unit,
+                kind};
+      break;
+    }
+  std::replace(column.title.begin(), column.title.end(), '_', ' ');
+  return column;
+}
+
+/// A table of tunnels as it was written, but for columns that are for programs.
 std::string tunnels_table(const ReportTable& tunnels, const std::string& file,
                           const std::string& caption) {
+  constexpr std::string_view left_out[] = {"run_id",
+                                           "warnings",
+                                           "reason",
+                                           "failed",
+                                           "marginal",
+                                           "crown_convergence_percent_of_radius",
+                                           "mean_bolt_force_kN",
+                                           "bolt_joints_yielded",
+                                           "bolt_joints_ruptured",
+                                           "feet_yielded",
+                                           "error_estimate",
+                                           "out_of_balance_force_ratio"};
   std::vector<std::string> names;
   std::vector<Column> columns;
   for (const std::string& name : tunnels.columns()) {
-    if (name == "run_id" || name == "warnings" || name == "reason") continue;
+    if (std::find(std::begin(left_out), std::end(left_out), name) != std::end(left_out)) continue;
     const bool is_number = tunnels.size() > 0 && std::isfinite(tunnels.number(0, name));
-    std::string title = name;
-    for (char& c : title)
-      if (c == '_') c = ' ';
     names.push_back(name);
-    columns.push_back({title, "", is_number ? Kind::number : Kind::text});
+    columns.push_back(column_of(name, is_number ? Kind::number : Kind::text));
   }
   Table table(caption, columns);
   for (std::size_t k = 0; k < std::min(tunnels.size(), listed); ++k) {
     std::vector<std::string> cells;
     for (const std::string& name : names) {
+      const std::string cell(tunnels.cell(k, name));
       const double value = tunnels.number(k, name);
-      cells.push_back(std::isfinite(value) ? shown(value) : std::string(tunnels.cell(k, name)));
+      const bool is_short = cell.size() <= 5;  // as an input has it
+      cells.push_back(std::isfinite(value) && !is_short ? shown(value) : cell);
     }
     table.add(cells);
   }
@@ -139,7 +179,7 @@ Section diagram_section(const ReportFiles& files) {
   };
   constexpr Picture pictures[] = {
       {"interaction.svg", "interaction-figure",
-       "Convergence of the crown over lining thickness and bolt spacing."},
+       "Convergence of the crown over lining thickness and bolt spacing. On screen, point at a design for its values; a click shows its row in the table."},
       {"interaction_quantile.svg", "interaction-quantile-figure",
        "The convergence that most realisations stay below."},
       {"interaction_rockfall.svg", "interaction-rockfall-figure",

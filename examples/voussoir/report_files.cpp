@@ -39,7 +39,14 @@ const std::vector<FileGroup>& groups() {
   return all;
 }
 
+constexpr const char* stage_folder = "history";
+
+bool is_stage_picture(const std::string& name) {
+  return name.starts_with(std::string(stage_folder) + "/stage_") && name.ends_with(".svg");
+}
+
 bool is_shown(const std::string& name) {
+  if (is_stage_picture(name)) return true;
   for (const FileGroup& group : groups())
     if (std::find(group.names.begin(), group.names.end(), name) != group.names.end()) return true;
   return false;
@@ -72,6 +79,12 @@ std::vector<std::vector<std::string>> rows_of(std::string_view text) {
   }
   if (row.size() > 1 || !row.front().empty()) rows.push_back(std::move(row));
   return rows;
+}
+
+std::string words_of(const nlohmann::json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string()
+             ? json[key].get<std::string>()
+             : std::string();
 }
 
 }  // namespace
@@ -126,14 +139,21 @@ ReportFiles ReportFiles::read(const std::string& folder) {
     throw InvalidInput((folder.empty() ? "\"\"" : folder) +
                        (fs::exists(there, error) ? " is no folder" : ": there is no such folder") +
                        what_is_accepted);
+  const auto take = [&](const std::string& name) {
+    const fs::path path = there / utf8_path(name);
+    if (!fs::exists(path, error)) return;
+    std::ifstream file;
+    if (const std::string fault = open_regular(path, file); !fault.empty())
+      throw InvalidInput(utf8_text(path) + " " + fault + what_is_accepted);
+    files.add(name, std::string(std::istreambuf_iterator<char>(file), {}));
+  };
   for (const FileGroup& group : groups())
-    for (const char* const name : group.names) {
-      const fs::path path = there / name;
-      if (!fs::exists(path, error)) continue;
-      std::ifstream file;
-      if (const std::string fault = open_regular(path, file); !fault.empty())
-        throw InvalidInput(utf8_text(path) + " " + fault + what_is_accepted);
-      files.add(name, std::string(std::istreambuf_iterator<char>(file), {}));
+    for (const char* const name : group.names) take(name);
+  if (files.has("run.json"))
+    for (fs::directory_iterator entry(there / stage_folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const std::string name = stage_folder + ("/" + utf8_text(entry->path().filename()));
+      if (is_stage_picture(name)) take(name);
     }
   files.check();
   return files;
@@ -169,6 +189,16 @@ std::vector<std::string> ReportFiles::names() const {
   return all;
 }
 
+std::vector<std::string> ReportFiles::stage_pictures() const {
+  std::vector<std::string> all;
+  for (const auto& [name, text] : files_)
+    if (is_stage_picture(name)) all.push_back(name);
+  std::sort(all.begin(), all.end(), [](const std::string& a, const std::string& b) {
+    return a.size() != b.size() ? a.size() < b.size() : a < b;  // 1000 stands behind 999
+  });
+  return all;
+}
+
 std::string ReportFiles::run_id() const {
   for (const std::string& name : names())
     if (std::string id = run_id_of(name, text(name)); !id.empty()) return id;
@@ -194,7 +224,8 @@ void ReportFiles::check() const {
         id = found;
         // What belongs to the run of a tunnel says so, even where it has an id of its own.
         std::string of = id;
-        if (first.ends_with(".json")) of = json(first).value("tunnel_id", id);
+        if (first.ends_with(".json")) of = words_of(json(first), "tunnel_id");
+        if (of.empty()) of = id;
         if (leader.empty()) {
           leader = first;
           tunnel = of;
@@ -217,6 +248,12 @@ void ReportFiles::check() const {
     throw InvalidInput(path_of("run.json") +
                        " is damaged: it has no verdict\n   = accepted: the file as voussoir run "
                        "wrote it; compute it again");
+  for (const std::string& name : stage_pictures())
+    if (const std::string id = run_id_of(name, text(name)); id != words_of(run, "run_id"))
+      throw InvalidInput(path_of(name) + " is of another run (" + (id.empty() ? "none" : id) +
+                         ") than run.json (" + words_of(run, "run_id") +
+                         "): a report is of one\n   = accepted: the files of one run; compute it "
+                         "again, or in a folder of its own");
   // Whatever belongs to a run is nothing without it.
   for (const char* const name : groups().front().names)
     if (has(name) && !has("run.json"))

@@ -52,6 +52,8 @@ class ReportFiles {
   /// Without rows where there is no such file.
   [[nodiscard]] ReportTable table(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names() const;
+  /// Pictures of stages, "history/stage_001.svg", in their order.
+  [[nodiscard]] std::vector<std::string> stage_pictures() const;
   /// Of the file that leads: the run, else what many tunnels came to.
   [[nodiscard]] std::string run_id() const;
   [[nodiscard]] const std::string& folder() const { return folder_; }

@@ -256,7 +256,8 @@ std::string history_figure(const Json& stages) {
 }  // namespace
 
 std::string marginal_sentence(const RunResults& r) {
-  if (!r.run.contains("rockfall")) return "";
+  if (!r.run.contains("rockfall"))
+    return r.detached() > 0 ? "Whether that depends on how it is looked for was not tried." : "";
   const std::string measure = r.is_spatial() ? "volume_m3" : "area_m2";
   if (!holds_at(r.run, "/rockfall/marginal"))
     return "With half and three times the displacement limit, other damping and slower unloading "
@@ -269,6 +270,28 @@ std::string marginal_sentence(const RunResults& r) {
 }
 
 namespace {
+
+/// The stages before the last, as many as a page has room for.
+std::string stage_figures(const RunResults& r) {
+  constexpr std::size_t room = 3'000'000;  // bytes
+  const std::vector<std::string> names = r.files.stage_pictures();
+  std::size_t bytes = 0;
+  for (const std::string& name : names) bytes += r.files.text(name).size();
+  const std::size_t stride = bytes / room + 1;  // those that are left lie evenly
+  const Json stages = list_at(r.run, "/stages");
+  std::string out;
+  for (std::size_t k = 0; k < names.size(); k += stride) {
+    const std::size_t from = names[k].find('_') + 1;
+    const std::size_t number = std::stoul("0" + names[k].substr(from, names[k].find('.') - from));
+    std::string caption = "Stage " + std::to_string(number);
+    if (number >= 1 && number <= stages.size())
+      caption += ", " + words_at(stages[number - 1], "/name") + ": " +
+                 words_at(stages[number - 1], "/equilibrium/verdict");
+    out += html::figure(r.files.text(names[k]), "stage-" + std::to_string(number) + "-figure",
+                        caption + ".", true);
+  }
+  return out;
+}
 
 std::string caption_of_picture(const RunResults& r) {
   const std::string point = " On screen, point at a part of it for its values.";
@@ -293,8 +316,13 @@ std::string caption_of_picture(const RunResults& r) {
 Section picture_section(const RunResults& r) {
   Section section{"picture", "Picture", ""};
   if (!r.files.has("blocks.svg")) return section;
-  section.body =
+  const std::string last =
       html::figure(r.files.text("blocks.svg"), "blocks-figure", caption_of_picture(r), true);
+  const std::string before = stage_figures(r);
+  section.body = before.empty() ? last
+                                : "<div class=\"stages\">\n" + last +
+                                      "<details><summary>The stages before</summary>\n" + before +
+                                      "</details>\n</div>\n";
   if (r.files.has("stereonet.svg"))
     section.body += html::figure(r.files.text("stereonet.svg"), "stereonet-figure",
                                  "Joints of the survey: poles, sets and the axis of the tunnel.");
@@ -393,7 +421,14 @@ Section history_section(const RunResults& r) {
   columns.push_back({"verdict", "", Kind::text});
   Table table("", columns);
   std::vector<std::string> reasons;
+  constexpr std::size_t most = 60;  // laid blocks may be loaded in thousands of steps
+  const std::size_t left_out_of_them = stages.size() > most ? stages.size() - most : 0;
+  if (left_out_of_them > 0)
+    section.body +=
+        html::paragraph("The first stage and the last " + std::to_string(most - 1) + " of " +
+                        std::to_string(stages.size()) + "; all of them are in run.json.");
   for (std::size_t k = 0; k < stages.size(); ++k) {
+    if (k > 0 && k <= left_out_of_them) continue;
     const Json& stage = stages[k];
     const std::string verdict = words_at(stage, "/equilibrium/verdict");
     std::vector<std::string> cells{std::to_string(k + 1), words_at(stage, "/name")};

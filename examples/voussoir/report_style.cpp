@@ -73,6 +73,8 @@ th .unit { display: block; font-weight: 400; color: var(--soft); font-size: .85e
 td.text { overflow-wrap: break-word; }
 td.name { white-space: nowrap; }
 tr.group th { text-align: left; padding-top: .9rem; border-bottom: 1px solid var(--soft); }
+tr.chosen td { background: var(--doubtful-ground); font-weight: 600; }
+#diagram [data-says] { cursor: pointer; }
 tr.good td:last-child { color: var(--good); }
 tr.doubtful td { background: var(--doubtful-ground); }
 tr.doubtful td:last-child { color: var(--doubtful); font-weight: 600; }
@@ -81,6 +83,11 @@ tr.bad td:last-child { color: var(--bad); font-weight: 600; }
 figure { margin: 1rem 0; }
 figure .sheet { background: #ffffff; border: 1px solid var(--rule); border-radius: .3rem; padding: .4rem; }
 figure svg { display: block; width: 100%; height: auto; }
+.slider { display: flex; flex-wrap: wrap; align-items: center; gap: .3rem .8rem; margin: .2rem 0 .4rem; }
+.slider input { flex: 1 1 12rem; max-width: 26rem; accent-color: var(--accent); }
+.slider output { font-weight: 650; }
+.stages figure[hidden] { display: none; }
+summary { cursor: pointer; color: var(--accent); }
 figcaption { margin-top: .45rem; font-size: .9rem; color: var(--soft); max-width: 52rem; }
 .layers { display: none; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .3rem 0 .5rem; font-size: .88rem; }
 .scripted .layers { display: flex; }
@@ -105,7 +112,9 @@ footer { margin-top: 1.5rem; font-size: .85rem; color: var(--soft); overflow-wra
   html { font-size: 9.6pt; }
   body { max-width: none; padding: 0; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   header { padding: 0 0 .6rem; }
-  nav, .layers, .scripted .layers, #says { display: none; }
+  nav, .layers, .scripted .layers, .slider, #says, .stages details { display: none; }
+  .stages figure, .stages figure[hidden] { display: none; }
+  .stages figure:last-of-type { display: block; }
   section { margin: 0 0 1.2rem; padding: 0; border: 0; border-radius: 0; }
   section.verdict { padding-left: 1rem; border-left: .45rem solid var(--soft); }
   h2, h3, caption { break-after: avoid; }
@@ -139,6 +148,29 @@ const std::string_view script = R"js(
       row.appendChild(label);
     });
   });
+  // One picture of a stage at a time, the last at first.
+  document.querySelectorAll(".stages").forEach(function (stages) {
+    var details = stages.querySelector("details"), last = stages.querySelector("figure");
+    var figures = Array.prototype.slice.call(details.querySelectorAll("figure"));
+    var row = document.createElement("label"), slider = document.createElement("input");
+    var name = document.createElement("output");
+    row.className = "slider";
+    slider.type = "range";
+    slider.min = 0;
+    slider.max = slider.value = figures.length;
+    row.append("Stage", slider, name);
+    figures.forEach(function (figure) { stages.insertBefore(figure, last); });
+    stages.insertBefore(row, stages.firstChild);
+    details.remove();
+    figures.push(last);
+    function show() {
+      figures.forEach(function (figure, k) { figure.hidden = k !== Number(slider.value); });
+      var chosen = figures[Number(slider.value)];
+      name.textContent = chosen === last ? "the last" : chosen.querySelector("figcaption").textContent;
+    }
+    slider.addEventListener("input", show);
+    show();
+  });
   // What a place in a picture says, beside the pointer at once; without this the browser waits.
   var says = document.createElement("div"), at = null;
   says.id = "says";
@@ -166,6 +198,18 @@ const std::string_view script = R"js(
     says.style.left = Math.max(0, Math.min(event.clientX + 16, right)) + "px";
     says.style.top = Math.max(0, Math.min(event.clientY + 18, low)) + "px";
   }
+  // A design of a diagram leads to its row: both have spacing and thickness in front.
+  function numbers(text) { return (text.match(/[0-9.]+/g) || []).join(" "); }
+  document.addEventListener("click", function (event) {
+    var spot = event.target.closest ? event.target.closest("#diagram [data-says]") : null;
+    if (!spot) return;
+    var wanted = numbers(spot.getAttribute("data-says").split("\n")[0]);
+    document.querySelectorAll("#diagram tbody tr").forEach(function (row) {
+      var is_it = numbers(row.cells[0].textContent + " " + row.cells[1].textContent) === wanted;
+      row.classList.toggle("chosen", is_it);
+      if (is_it) row.scrollIntoView({ block: "center" });
+    });
+  });
   document.addEventListener("pointermove", point);
   document.addEventListener("pointerdown", point);
   document.addEventListener("pointerleave", leave);

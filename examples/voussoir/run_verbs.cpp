@@ -20,6 +20,7 @@
 #include "report_sections.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
+#include "stage_pictures.hpp"
 #include "survey.hpp"
 #include "templates.hpp"
 #include "verbs.hpp"
@@ -107,10 +108,11 @@ int run_blocks_verb(const Options& options, const Input& input) {
 template <class Compute>
 int run_tunnel_verb(const Options& options, const Input& input, Compute&& compute) {
   RunFolder outputs(options.folder);
-  if (input.is_spatial()) outputs.expect_folder(HistoryFiles::folder);
+  outputs.expect_folder(HistoryFiles::folder);
   const std::string id = RunId("tunnel").add(input).text();
   HistoryFiles history(input,
                        [&](const NamedDocument& file) { outputs.add(file.name, file.text, id); });
+  StagePictures pictures(input);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
   const auto run = compute(
@@ -118,7 +120,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
         now_doing(what, "computing the stage " + what);
         return line.show(what, fraction);
       },
-      history);
+      history, pictures);
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
@@ -127,12 +129,13 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
                                  "tunnel.vtm", "lining_strength.svg", HistoryFiles::collection})
     outputs.replace(name);
   outputs.replace_all_in(HistoryFiles::folder);
-  std::string names = "report.html, run.json, bolts.csv, lining.csv, blocks.svg";
+  std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
   ReportedFiles files(outputs, id);
   files.add("run.json", run_json(input, run));
   files.add("bolts.csv", bolts_csv(input, run));
   files.add("lining.csv", lining_csv(input, run));
   files.add("blocks.svg", blocks_svg(input, run));
+  for (const NamedDocument& picture : pictures.finish()) files.add(picture.name, picture.text);
   if (const auto nodes = lining_utilisations(input, supports_of(input), run.tunnel);
       !nodes.empty()) {
     files.add("lining_strength.svg", lining_strength_svg(input, nodes));
@@ -151,7 +154,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   }
   const std::string json = files.report();
   say(options, run_summary(input, run), json);
-  publish(outputs, options, names);
+  publish(outputs, options, names + ", report.html");
   return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
 }
 
@@ -162,13 +165,20 @@ int run_verb(const Options& options) {
   const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   if (input.laid) return run_blocks_verb(options, input);
   if (input.is_spatial())
-    return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles& history) {
-      return spatial_run_of(input, report, [&](const SpatialTunnel& tunnel, const StageResult&) {
-        history.add(tunnel);
-      });
-    });
+    return run_tunnel_verb(
+        options, input, [&](const Report& report, HistoryFiles& history, StagePictures& pictures) {
+          return spatial_run_of(input, report,
+                                [&](const SpatialTunnel& tunnel, const StageResult& stage) {
+                                  history.add(tunnel);
+                                  pictures.add(tunnel, stage);
+                                });
+        });
   return run_tunnel_verb(
-      options, input, [&](const Report& report, HistoryFiles&) { return run_of(input, report); });
+      options, input, [&](const Report& report, HistoryFiles&, StagePictures& pictures) {
+        return run_of(input, report, [&](const Tunnel& tunnel, const StageResult& stage) {
+          pictures.add(tunnel, stage);
+        });
+      });
 }
 
 int check_verb(const Options& options, bool wants_picture) {

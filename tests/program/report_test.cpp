@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "harness.hpp"
+#include "io/xml_check.hpp"
 #include "run_results.hpp"
 
 namespace program_report_test {
@@ -24,89 +25,50 @@ using Json = nlohmann::json;
 
 namespace {
 
+/// What stands in attributes of this name, everywhere.
+std::vector<std::string> values_of(const std::string& html, const std::string& before, char close) {
+  std::vector<std::string> values;
+  for (std::size_t at = 0; (at = html.find(before, at)) != std::string::npos;) {
+    at += before.size();
+    values.push_back(html.substr(at, html.find(close, at) - at));
+  }
+  return values;
+}
+
 /// A page taken apart as XML, in which nothing may be left open.
 struct Page {
-  std::string fault;  ///< empty: well-formed
-  std::vector<std::string> ids, links, references;
+  std::string fault;  ///< empty: well-formed, ids are unique
   std::map<std::string, int> elements;
   std::string text;  ///< without tags, style and script; entities as they are
 };
 
-bool is_entity(std::string_view text) {
-  for (const std::string_view entity : {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"})
-    if (text.starts_with(entity)) return true;
-  return false;
-}
-
-Page taken_apart(const std::string& html) {
+Page taken_apart(std::string html) {
   Page page;
-  std::vector<std::string> open;
-  std::size_t at = 0;
-  const auto fail = [&](const std::string& what) {
-    page.fault = what + " at " + std::to_string(at) + ": " + html.substr(at, 60);
-    return page;
+  html.erase(0, html.find('\n') + 1);  // <!DOCTYPE html>
+  const auto cut_out = [&](const std::string& from, const std::string& to, bool is_text) {
+    for (std::size_t at = 0; (at = html.find(from, at)) != std::string::npos;) {
+      at += from.size();
+      const std::size_t end = html.find(to, at);
+      if (end == std::string::npos) page.fault = from + " without an end";
+      const std::string inside = html.substr(at, end - at);
+      if (is_text && inside.find_first_of("<&") != std::string::npos)
+        page.fault = from + " is no XML";
+      html.erase(at, inside.size());
+    }
   };
-  while (at < html.size()) {
-    if (html[at] != '<') {
-      if (html[at] == '&' && !is_entity(std::string_view(html).substr(at))) return fail("entity");
-      page.text += html[at++];
-      continue;
-    }
-    if (html.compare(at, 4, "<!--") == 0) {
-      at = html.find("-->", at);
-      if (at == std::string::npos) return fail("comment");
-      at += 3;
-      continue;
-    }
-    const std::size_t end = html.find('>', at);
-    if (end == std::string::npos) return fail("tag without an end");
-    const std::string tag = html.substr(at + 1, end - at - 1);
-    if (tag.starts_with("!DOCTYPE")) {
-      at = end + 1;
-      continue;
-    }
-    if (tag.starts_with("/")) {
-      if (open.empty() || open.back() != tag.substr(1)) return fail("closes what is not open");
-      open.pop_back();
-      at = end + 1;
-      continue;
-    }
-    const std::string name = tag.substr(0, tag.find_first_of(" /"));
-    ++page.elements[name];
-    // Attributes: name="value" each, and no name twice.
-    std::set<std::string> names;
-    for (std::size_t k = name.size(); k < tag.size();) {
-      if (tag[k] == ' ') {
-        ++k;
-        continue;
-      }
-      if (tag[k] == '/') break;
-      const std::size_t equals = tag.find("=\"", k);
-      const std::size_t close = equals == std::string::npos ? equals : tag.find('"', equals + 2);
-      if (close == std::string::npos) return fail("attribute without quotes");
-      const std::string attribute = tag.substr(k, equals - k),
-                        value = tag.substr(equals + 2, close - equals - 2);
-      if (!names.insert(attribute).second) return fail("attribute twice");
-      if (value.find('<') != std::string::npos) return fail("attribute with a tag");
-      if (attribute == "id") page.ids.push_back(value);
-      if (attribute == "href" || attribute == "src") page.links.push_back(value);
-      if (const std::size_t url = value.find("url(#"); url != std::string::npos)
-        page.references.push_back(value.substr(url + 5, value.find(')', url) - url - 5));
-      k = close + 1;
-    }
-    at = end + 1;
-    if (tag.ends_with("/")) continue;
-    if (name == "style" || name == "script") {
-      const std::size_t close = html.find("</" + name + ">", at);
-      if (close == std::string::npos) return fail("style or script without an end");
-      if (html.substr(at, close - at).find_first_of("<&") != std::string::npos)
-        return fail("style or script that is no XML");
-      at = close + name.size() + 3;
-      continue;
-    }
-    open.push_back(name);
+  cut_out("<style>", "</style>", true);
+  cut_out("<script>", "</script>", true);
+  cut_out("<!--", "-->", false);
+  for (std::size_t at; (at = html.find("<!---->")) != std::string::npos;) html.erase(at, 7);
+  if (page.fault.empty()) page.fault = xml_fault(html);
+  for (std::size_t at = 0; at < html.size();) {
+    const std::size_t open = std::min(html.find('<', at), html.size());
+    page.text += html.substr(at, open - at);
+    if (open == html.size()) break;
+    const std::string name = html.substr(open + 1, html.find_first_of(" />", open + 1) - open - 1);
+    if (!name.empty()) ++page.elements[name];
+    at = html.find('>', open) + 1;
   }
-  if (!open.empty()) page.fault = "left open: " + open.back();
   return page;
 }
 
@@ -115,14 +77,15 @@ Page sound_page(const std::string& html) {
   Page page = taken_apart(html);
   CHECK(page.fault == "");
   CHECK(html.size() < 5'000'000);
-  const std::set<std::string> ids(page.ids.begin(), page.ids.end());
-  CHECK(ids.size() == page.ids.size());
-  for (const std::string& link : page.links) {
+  const std::vector<std::string> all = values_of(html, " id=\"", '"');
+  const std::set<std::string> ids(all.begin(), all.end());
+  CHECK(ids.size() == all.size());
+  for (const std::string& link : values_of(html, " href=\"", '"')) {
     CAPTURE(link);
     CHECK(link.starts_with("#"));  // to nothing but the page itself
     CHECK(ids.contains(link.substr(1)));
   }
-  for (const std::string& reference : page.references) {
+  for (const std::string& reference : values_of(html, "=\"url(#", ')')) {
     CAPTURE(reference);
     CHECK(ids.contains(reference));
   }
@@ -387,6 +350,42 @@ TEST_SUITE("program/report") {
     CHECK(has(blocks.text, "Laid blocks in 2-D, " + json.at("blocks").at("count").dump()));
     CHECK(has(blocks.text, "Limits of the model"));
     CHECK(json.at("input").at("keys").is_object());
+  }
+
+  TEST_CASE("stages before the last have pictures of their own, of this run") {
+    const Folder folder;
+    const std::string out = folder / "out",
+                      file = write_file(
+                          folder / "case.toml",
+                          InputText{}.text() +
+                              "[[stage]]\nname = \"heading\"\nwall_traction = \"60 %\"\n"
+                              "[[stage]]\nname = \"bolts <1>\"\nwall_traction = \"20 %\"\n"
+                              "install = [\"bolts\"]\n[[stage]]\nname = \"lining\"\n"
+                              "install = [\"lining\"]\n");
+    const Outcome run = run_program({"run", file, "--out", out});
+    CAPTURE(run.err);
+    REQUIRE(run.status == 0);
+    const std::string html = read_file(out + "/report.html");
+    const Page page = sound_page(html);
+    CHECK(page.elements.at("figure") == 4);  // three stages, and convergence over them
+    CHECK(has(page.text, "Stage 1, heading: stable."));
+    CHECK(has(page.text, "Stage 2, bolts &lt;1&gt;: stable."));
+    CHECK(std::filesystem::exists(out + "/history/stage_002.svg"));
+    CHECK_FALSE(std::filesystem::exists(out + "/history/stage_003.svg"));
+    REQUIRE(run_program({"report", out, "-q"}).status == 0);
+    CHECK(read_file(out + "/report.html") == html);
+    // One of another run is refused; a run without stages clears them away.
+    const std::string picture = read_file(out + "/history/stage_001.svg");
+    const std::string id = nlohmann::json::parse(read_file(out + "/run.json")).at("run_id");
+    write_file(out + "/history/stage_001.svg", replaced(picture, id, "0123456789abcdef"));
+    const Outcome mixed = run_program({"report", out, "-q"});
+    CHECK(mixed.status == 2);
+    CHECK(has(mixed.err, "stage_001.svg is of another run (0123456789abcdef)"));
+    REQUIRE(
+        run_program({"run", file, "--out", out, "-q", "--set", "picture.history=false"}).status ==
+        0);
+    CHECK_FALSE(std::filesystem::exists(out + "/history"));
+    CHECK(taken_apart(read_file(out + "/report.html")).elements.at("figure") == 2);
   }
 
   TEST_CASE("many tunnels: alone, and beside the run of their tunnel") {

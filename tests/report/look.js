@@ -33,7 +33,7 @@
     Object.keys(kinds).forEach(function (kind) {
       var told = 0, tried = kinds[kind].slice(0, 60);
       tried.forEach(function (spot) {
-        if (spot.closest("[hidden]")) return;
+        if (spot.closest("[hidden]")) return;  // a stage that is not shown
         spot.scrollIntoView({ block: "center" });
         var at = spot.getPointAtLength(0.5 * spot.getTotalLength()), matrix = spot.getScreenCTM();
         var seen = new DOMPoint(at.x, at.y).matrixTransform(matrix);
@@ -50,6 +50,26 @@
       point(2, 2);
       claim(says.style.display === "none", "off the picture nothing is told");
     }
+    // The slider shows one stage at a time.
+    all(".stages").forEach(function (stages) {
+      var slider = stages.querySelector(".slider input"), figures = stages.querySelectorAll("figure");
+      claim(slider !== null && Number(slider.max) === figures.length - 1, "a slider over " + figures.length + " stages");
+      for (var k = figures.length; k-- > 0;) {
+        slider.value = k;
+        slider.dispatchEvent(new Event("input"));
+        var seen = Array.prototype.filter.call(figures, function (figure) { return figure.getBoundingClientRect().height > 0; });
+        claim(seen.length === 1 && seen[0] === figures[k], "stage " + k + " alone is seen");
+      }
+      slider.value = slider.max;
+      slider.dispatchEvent(new Event("input"));
+    });
+    // A design of a diagram leads to its row.
+    var designs = all("#diagram [data-says]");
+    designs.slice(0, 40).forEach(function (design) {
+      design.dispatchEvent(new MouseEvent("click", { bubbles: true }));
+      var rows = all("#diagram tr.chosen"), value = design.getAttribute("data-says").match(/convergence ([0-9.]+) mm/);
+      claim(rows.length === 1 && (!value || rows[0].textContent.indexOf(value[1]) >= 0), "a click on " + design.getAttribute("data-says").split("\n")[0] + " shows its row");
+    });
     // Layers are switched off and on.
     all(".layers input").forEach(function (box) {
       var figure = box.closest("figure"), name = box.parentNode.textContent;

@@ -90,6 +90,7 @@ struct BlocksPicture {
   double reference_thrust = 0;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
   std::optional<ViewRect> view;
+  bool shows_whole_model = true;             ///< small, beside what is seen
   std::optional<PictureBanner> banner = {};  ///< over the rock; none: a tunnel that stands
 };
 

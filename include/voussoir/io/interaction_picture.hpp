@@ -165,6 +165,14 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   for (const InteractionPanel& panel : panels)
     draw_interaction_panel(canvas, picture, panel, bands);
   draw_thickness_axes(canvas, panels[0].map(), top, bottom, picture.diameter);
+  canvas.begin_spots();
+  for (const InteractionPanel& panel : panels)
+    for (std::size_t k = 0; k < panel.rows.size(); ++k)
+      for (std::size_t i = 0; i < picture.thicknesses.size(); ++i) {
+        const Vec2 at = panel.map()({picture.thicknesses[i], panel.row_y(k)});
+        canvas.spot(at - Vec2(9, 0), at + Vec2(9, 0), 18, words_of(picture, i, panel.rows[k]));
+      }
+  canvas.end_layer();
   if (has_row_without) {
     draw_axis_break(canvas, left, main_top - gap / 2);
     draw_axis_break(canvas, right, main_top - gap / 2);

@@ -44,6 +44,7 @@ struct TunnelPictureText {
   std::string crown_name = "crown convergence";
   double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
   ViewFrom from = ViewFrom::axis;  ///< in 3-D
+  bool shows_whole_model = true;   ///< in 2-D, small, beside the rock around the opening
   /// In tension, of every bolt [N]; infinite: it has none. Empty: nothing is said of it.
   std::vector<double> bolt_strengths = {};
   /// In 2-D: what every node of the linings has of its strength [-]; not a number: not checked.
@@ -216,6 +217,7 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   BlocksPicture picture =
       picture_of(state_of(solver), solver.mass(), bars_of(solver), text.lining_thickness);
   picture.header.title = text.title;
+  picture.shows_whole_model = text.shows_whole_model;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result, text);

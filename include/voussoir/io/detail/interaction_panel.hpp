@@ -75,7 +75,31 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
                                             const InteractionPanel& panel,
                                             const ContourBands& bands);
 
+/// What a design says to who points at it.
+[[nodiscard]] VOUSSOIR_INLINE std::string words_of(const InteractionPicture& picture,
+                                                   std::size_t thickness, std::size_t spacing);
+
 #if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::string words_of(const InteractionPicture& picture, std::size_t thickness,
+                                     std::size_t spacing) {
+  const InteractionPicture::Spacing& bolts = picture.spacings[spacing];
+  const InteractionQuantity shown = picture.shown();
+  const double value = picture.at(thickness, spacing);
+  std::string words = (bolts.value ? "bolts " : "") + bolts.label + ", lining " +
+                      trimmed_text(100 * picture.thicknesses[thickness], 2) + " cm";
+  if (std::isfinite(value))
+    words +=
+        "\n" + shown.name + " " + printed_text(value * shown.point_scale) + " " + shown.point_unit;
+  if (picture.is_undecided(thickness, spacing))
+    words += "\nundecided: no result";
+  else if (picture.is_shedding(thickness, spacing))
+    words += "\nrock falls, the rest stands";
+  else if (picture.is_failed(thickness, spacing))
+    words += "\nit does not stand";
+  if (picture.is_marginal(thickness, spacing)) words += "\nmarginal: limits and rates decide";
+  return words;
+}
 
 VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
                                                    std::vector<std::size_t> rows,
