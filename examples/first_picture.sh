@@ -25,4 +25,5 @@ say "its interaction diagram, 36 tunnels (half a minute): $program diagram $inpu
 "$program" diagram "$input" --out results || stop "the diagram did not end well (exit status $?)"
 
 say "the pictures, to be opened in a browser:"
-for picture in results/*.svg; do printf '  %s\n' "$PWD/$picture"; done
+"$program" report results -q || stop "the report did not end well (exit status $?)"
+for picture in results/report.html results/*.svg; do printf '  %s\n' "$PWD/$picture"; done
