@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "input_page.hpp"
+#include "output_parts.hpp"
 #include "report_sections.hpp"
 
 namespace voussoir::program {
@@ -272,7 +273,8 @@ Section basis_section(const RunResults& r) {
     sentences.push_back("Verdict “" + verdict + "”: " + meaning + ".");
   const Json stages = list_at(run, "/stages");
   if (!stages.empty())
-    sentences.push_back("Reason: " + words_at(stages.back(), "/equilibrium/reason") + ".");
+    sentences.push_back(
+        "Reason: " + with_superscripts(words_at(stages.back(), "/equilibrium/reason")) + ".");
   if (const std::string marginal = marginal_sentence(r); !marginal.empty())
     sentences.push_back(marginal);
   if (!r.is_laid()) {
@@ -338,7 +340,7 @@ Section checks_section(const RunResults& r) {
               check.tone == Tone::plain ? Tone::doubtful : check.tone);
   std::vector<std::string> warnings;
   for (const Json& warning : list_at(r.run, "/warnings"))
-    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+    if (warning.is_string()) warnings.push_back(with_superscripts(warning.get<std::string>()));
   section.body = table.text();
   section.body += "<h3>Warnings of the run</h3>\n" +
                   (warnings.empty() ? html::paragraph("None.") : html::list(warnings));

@@ -4,6 +4,7 @@
 #include <limits>
 #include <voussoir/drawing/number_text.hpp>
 
+#include "output_parts.hpp"
 #include "report_sections.hpp"
 
 namespace voussoir::program {
@@ -127,7 +128,8 @@ void add_tunnel_head(const RunResults& r, html::Page& page) {
                 lining_card(r.run, lining)};
   std::string before;
   const Json stages = list_at(r.run, "/stages");
-  const std::string reason = stages.empty() ? "" : words_at(stages.back(), "/equilibrium/reason");
+  const std::string reason =
+      stages.empty() ? "" : with_superscripts(words_at(stages.back(), "/equilibrium/reason"));
   if (r.verdict() == "collapse" || r.verdict() == "undecided")
     before = reason + ". Where the run ended: ";
   if (r.detached() > 0) {
@@ -144,7 +146,7 @@ void add_laid_head(const RunResults& r, html::Page& page) {
   const double part = number_at(r.run, "/stands_up_to_part_of_loading"),
                blocks = number_at(r.run, "/blocks/count");
   const std::size_t fallen = list_at(r.run, "/fallen_blocks").size();
-  page.sentence = capitalised(words_at(r.run, "/reason")) + ".";
+  page.sentence = capitalised(with_superscripts(words_at(r.run, "/reason"))) + ".";
   page.cards.push_back(
       {"Blocks", shown(blocks), "", shown(number_at(r.run, "/blocks/fixed")) + " of them fixed"});
   page.cards.push_back({"Fallen", std::to_string(fallen), "",

@@ -7,6 +7,7 @@
 #include <vector>
 #include <voussoir/io/curve_picture.hpp>
 
+#include "output_parts.hpp"
 #include "report_pictures.hpp"
 #include "report_sections.hpp"
 
@@ -271,6 +272,15 @@ std::string marginal_sentence(const RunResults& r) {
 
 namespace {
 
+/// "Stage 2, bolts: stable."
+std::string stage_words(const Json& stages, std::size_t number) {
+  std::string words = "Stage " + std::to_string(number);
+  if (number >= 1 && number <= stages.size())
+    words += ", " + words_at(stages[number - 1], "/name") + ": " +
+             words_at(stages[number - 1], "/equilibrium/verdict");
+  return words + ".";
+}
+
 /// The stages before the last, as many as a page has room for.
 std::string stage_figures(const RunResults& r) {
   constexpr std::size_t room = 3'000'000;  // bytes
@@ -282,20 +292,21 @@ std::string stage_figures(const RunResults& r) {
   std::string out;
   for (std::size_t k = 0; k < names.size(); k += stride) {
     const std::size_t from = names[k].find('_') + 1;
-    const std::size_t number = std::stoul("0" + names[k].substr(from, names[k].find('.') - from));
-    std::string caption = "Stage " + std::to_string(number);
-    if (number >= 1 && number <= stages.size())
-      caption += ", " + words_at(stages[number - 1], "/name") + ": " +
-                 words_at(stages[number - 1], "/equilibrium/verdict");
+    const std::string digits = names[k].substr(from, names[k].find('.') - from);
+    if (digits.empty() || digits.size() > 9 ||
+        digits.find_first_not_of("0123456789") != std::string::npos)
+      continue;  // is called otherwise than we do
+    const std::size_t number = std::stoul(digits);
     out += html::figure(r.files.text(names[k]), "stage-" + std::to_string(number) + "-figure",
-                        caption + ".", true);
+                        stage_words(stages, number), true);
   }
   return out;
 }
 
 std::string caption_of_picture(const RunResults& r) {
   const std::string point = " On screen, point at a part of it for its values.";
-  if (r.is_laid()) return "The blocks where they lie, the forces between them and where these act.";
+  if (r.is_laid())
+    return "The blocks where they lie, the forces between them and where these act." + point;
   const bool has_bolts = r.run.contains("bolts"), has_lining = r.run.contains("lining");
   std::string text = r.is_spatial() ? "The tunnel cut open along its axis: blocks by their "
                                       "displacement, joints that have slipped or opened"
@@ -319,10 +330,12 @@ Section picture_section(const RunResults& r) {
   const std::string last =
       html::figure(r.files.text("blocks.svg"), "blocks-figure", caption_of_picture(r), true);
   const std::string before = stage_figures(r);
+  const Json stages = list_at(r.run, "/stages");
   section.body = before.empty() ? last
-                                : "<div class=\"stages\">\n" + last +
-                                      "<details><summary>The stages before</summary>\n" + before +
-                                      "</details>\n</div>\n";
+                                : "<div class=\"stages\" data-last=\"" +
+                                      html::escaped(stage_words(stages, stages.size())) + "\">\n" +
+                                      last + "<details><summary>The stages before</summary>\n" +
+                                      before + "</details>\n</div>\n";
   if (r.files.has("stereonet.svg"))
     section.body += html::figure(r.files.text("stereonet.svg"), "stereonet-figure",
                                  "Joints of the survey: poles, sets and the axis of the tunnel.");
@@ -350,10 +363,17 @@ Section strength_section(const RunResults& r) {
 Section detached_section(const RunResults& r) {
   Section section{"detached", r.is_laid() ? "Fallen blocks" : "Detached blocks", ""};
   if (r.is_laid()) {
-    std::vector<std::string> names;
-    for (const Json& name : list_at(r.run, "/fallen_blocks"))
-      if (name.is_string()) names.push_back(name.get<std::string>());
-    section.body = names.empty() ? html::paragraph("No block has fallen.") : html::list(names);
+    const ReportTable blocks = r.files.table("blocks.csv");
+    Table table("Blocks that fell; where their centroids lay",
+                {{"block", "", Kind::name}, {"x", "m"}, {"y", "m"}, {"area", "m²"}});
+    std::size_t fallen = 0;
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      if (blocks.cell(k, "state") == "fallen" && ++fallen <= listed_blocks)
+        table.add({std::string(blocks.cell(k, "block")), shown_fixed(blocks.number(k, "x_m"), 2),
+                   shown_fixed(blocks.number(k, "y_m"), 2),
+                   shown_fixed(blocks.number(k, "area_m2"), 3)});
+    section.body = table.empty() ? html::paragraph("No block has fallen.")
+                                 : table.text() + left_out(fallen, listed_blocks, "blocks.csv");
     return section;
   }
   const Json all = list_at(r.run, "/detached_blocks");
@@ -447,7 +467,7 @@ Section history_section(const RunResults& r) {
                                                      : Tone::bad);
     if (verdict != "stable")
       reasons.push_back("Stage " + std::to_string(k + 1) + ", " + words_at(stage, "/name") + ": " +
-                        words_at(stage, "/equilibrium/reason") + ".");
+                        with_superscripts(words_at(stage, "/equilibrium/reason")) + ".");
   }
   section.body += table.text() + html::list(reasons);
   if (!r.is_laid() && stages.size() > 2) section.body += history_figure(stages);

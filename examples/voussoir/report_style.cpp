@@ -158,7 +158,7 @@ const std::string_view script = R"js(
     slider.type = "range";
     slider.min = 0;
     slider.max = slider.value = figures.length;
-    row.append("Stage", slider, name);
+    row.append("Stages", slider, name);
     figures.forEach(function (figure) { stages.insertBefore(figure, last); });
     stages.insertBefore(row, stages.firstChild);
     details.remove();
@@ -166,7 +166,7 @@ const std::string_view script = R"js(
     function show() {
       figures.forEach(function (figure, k) { figure.hidden = k !== Number(slider.value); });
       var chosen = figures[Number(slider.value)];
-      name.textContent = chosen === last ? "the last" : chosen.querySelector("figcaption").textContent;
+      name.textContent = chosen === last ? stages.getAttribute("data-last") : chosen.querySelector("figcaption").textContent;
     }
     slider.addEventListener("input", show);
     show();

@@ -16,6 +16,7 @@
 
 #include "harness.hpp"
 #include "io/xml_check.hpp"
+#include "output_parts.hpp"
 #include "run_results.hpp"
 
 namespace program_report_test {
@@ -167,7 +168,7 @@ TEST_SUITE("program/report") {
     CHECK(has(page.text, json.at("build").at("compiler").get<std::string>()));
     CHECK(has(page.text, "5 GPa/m"));  // joint.kn as the file has it
     for (const Json& warning : json.at("warnings"))
-      CHECK(has(page.text, warning.get<std::string>()));
+      CHECK(has(page.text, voussoir::program::with_superscripts(warning.get<std::string>())));
     // Both pictures, and places in them that speak.
     CHECK(page.elements.at("svg") == 2);
     CHECK(has(html, "class=\"spots\""));
@@ -349,6 +350,8 @@ TEST_SUITE("program/report") {
     const Json json = Json::parse(read_file(folder / "out/run.json"));
     CHECK(has(blocks.text, "Laid blocks in 2-D, " + json.at("blocks").at("count").dump()));
     CHECK(has(blocks.text, "Limits of the model"));
+    CHECK(has(blocks.text, json.at("fallen_blocks").at(0).get<std::string>()));
+    CHECK(has(read_file(folder / "out/report.html"), "<title>voussoir 1\nmoved "));
     CHECK(json.at("input").at("keys").is_object());
   }
 
