@@ -30,6 +30,8 @@ void add_share(Table& table, const Json& json, const char* key, const char* name
                  shown_percent(number_at(share, "/high_95"))});
 }
 
+bool is_of_strength(std::string_view column) { return column.ends_with("of_its_strength"); }
+
 /// The name of a column of a table of results, and its unit: "largest_thrust_kN_per_m".
 Column column_of(const std::string& name, Kind kind) {
   struct Unit {
@@ -46,6 +48,7 @@ Column column_of(const std::string& name, Kind kind) {
                             {"_deg", "°"},
                             {"_m", "m"}};
   Column column{name, "", kind};
+  if (is_of_strength(name)) column = {name, "%", kind};
   for (const Unit& unit : units)
     if (name.ends_with(unit.ending)) {
       column = {name.substr(0, name.size() - std::string_view(unit.ending).size()), unit.unit,
@@ -77,7 +80,9 @@ std::string tunnels_table(const ReportTable& tunnels, const std::string& file,
     if (std::find(std::begin(left_out), std::end(left_out), name) != std::end(left_out)) continue;
     const bool is_number = tunnels.size() > 0 && std::isfinite(tunnels.number(0, name));
     names.push_back(name);
-    columns.push_back(column_of(name, is_number ? Kind::number : Kind::text));
+    columns.push_back(column_of(name, is_number           ? Kind::number
+                                      : name == "verdict" ? Kind::name
+                                                          : Kind::text));
   }
   Table table(caption, columns);
   for (std::size_t k = 0; k < std::min(tunnels.size(), listed); ++k) {
@@ -86,9 +91,15 @@ std::string tunnels_table(const ReportTable& tunnels, const std::string& file,
       const std::string cell(tunnels.cell(k, name));
       const double value = tunnels.number(k, name);
       const bool is_short = cell.size() <= 5;  // as an input has it
-      cells.push_back(std::isfinite(value) && !is_short ? shown(value) : cell);
+      if (is_of_strength(name) && std::isfinite(value))
+        cells.push_back(shown_fixed(100 * value, 1));
+      else
+        cells.push_back(std::isfinite(value) && !is_short ? shown(value) : cell);
     }
-    table.add(cells);
+    const std::string_view verdict = tunnels.cell(k, "verdict");
+    table.add(cells, verdict.empty() || verdict == "stable" ? html::Tone::plain
+                     : verdict.starts_with("stable")        ? html::Tone::doubtful
+                                                            : html::Tone::bad);
   }
   std::string out = table.text();
   if (tunnels.size() > listed)
@@ -120,15 +131,31 @@ Section safety_section(const ReportFiles& files) {
   Section section{"safety", "Factor of safety", ""};
   Json safety = files.json("safety.json");
   if (safety.is_null()) return section;
-  for (const char* const key : {"schema", "program", "title", "run_id", "tunnel_id", "input",
-                                "build", "result_hash", "time_s", "models"})
-    safety.erase(key);
+  section.body = html::paragraph(words_at(safety, "/text"));
   if (files.has("safety.svg"))
     section.body += html::figure(files.text("safety.svg"), "safety-figure",
-                                 "The mechanism at the factor of safety.");
+                                 "What falls, over the larger of the two factors.", true);
+  Table trials("Trials by which it was found", {{"factor"},
+                                                {"outcome", "", Kind::text},
+                                                {"verdict", "", Kind::text},
+                                                {"detached", "m² per m"},
+                                                {"crown", "mm"},
+                                                {"reason", "", Kind::text}});
+  for (const Json& trial : list_at(safety, "/trials"))
+    trials.add({shown(number_at(trial, "/factor"), 4), words_at(trial, "/outcome"),
+                words_at(trial, "/verdict"), shown(number_at(trial, "/detached_m2_per_m")),
+                shown_fixed(number_at(trial, "/crown_mm"), 2), words_at(trial, "/reason")});
+  std::vector<std::string> warnings;
+  for (const Json& warning : list_at(safety, "/warnings"))
+    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  // Whatever else it says; what of it is for programs, or is another at every run, is left out.
+  for (const char* const key :
+       {"schema", "program", "title", "text", "run_id", "tunnel_id", "input", "build",
+        "result_hash", "time_s", "seconds", "models", "trials", "warnings"})
+    safety.erase(key);
   Table table("", {{"what", "", Kind::text}, {"value", "", Kind::text}});
   add_values(table, safety);
-  section.body += table.text();
+  section.body += table.text() + trials.text() + html::list(warnings);
   return section;
 }
 

@@ -30,7 +30,7 @@ const std::vector<FileGroup>& groups() {
       {"run",
        {"run.json", "blocks.svg", "bolts.csv", "lining.csv", "lining_strength.svg", "stereonet.svg",
         "blocks.csv", "contacts.csv"}},
-      {"safety", {"safety.json", "safety.svg"}},
+      {"safety", {"safety.json", "safety.csv", "safety.svg"}},
       {"realisations", {"realisations.json", "realisations.csv", "realisations.svg"}},
       {"diagram",
        {"interaction.csv", "interaction.svg", "interaction_quantile.svg",

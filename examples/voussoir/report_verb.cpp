@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `voussoir report`: the results of a folder as one page.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -123,6 +124,11 @@ std::string report_page(const ReportFiles& files) {
     page = cases_head(files);
     page.sections = {safety_section(files)};
   }
+  const Json safety = files.json("safety.json");
+  if (const double factor = number_at(safety, "/factor_of_safety"); std::isfinite(factor))
+    page.cards.push_back({"Factor of safety", shown(factor), "",
+                          "stands over " + shown(number_at(safety, "/stands_over")) +
+                              ", falls over " + shown(number_at(safety, "/falls_over"))});
   for (auto section : {realisations_section, diagram_section, sweep_section})
     page.sections.push_back(section(files));
   page.sections.insert(page.sections.end(), last.begin(), last.end());

@@ -418,6 +418,24 @@ TEST_SUITE("program/report") {
     CAPTURE(all.err);
     CHECK(all.status == 0);
     CHECK(has(read_file(both + "/report.html"), "Realisations and probabilities"));
+    // So does its factor of safety, if it says so; one that does not is of another run.
+    const std::string safety =
+        "\"factor_of_safety\": 1.37,\n  \"text\": \"1.37 <of> it\",\n  \"stands_over\": 1.37,\n"
+        "  \"falls_over\": 1.38,\n  \"falls_where\": \"a block falls\",\n  \"trials\": "
+        "[{\"factor\": 1.372, \"outcome\": \"stands\", \"verdict\": \"stable\"}]\n}\n";
+    const std::string start = "{\n  \"run_id\": \"00000000000000aa\",\n  ";
+    const std::string id = Json::parse(read_file(both + "/run.json")).at("run_id");
+    write_file(both + "/safety.json", start + safety);
+    const Outcome other = run_program({"report", both, "-q"});
+    CHECK(other.status == 2);
+    CHECK(has(other.err, "safety.json is of another run (00000000000000aa) than run.json"));
+    write_file(both + "/safety.json", start + "\"tunnel_id\": \"" + id + "\",\n  " + safety);
+    REQUIRE(run_program({"report", both, "-q"}).status == 0);
+    const std::string with_safety = read_file(both + "/report.html");
+    const Page safe = sound_page(with_safety);
+    CHECK(card(with_safety, "Factor of safety") == "1.37");
+    for (const char* const words : {"1.37 &lt;of&gt; it", "1.372", "falls where", "a block falls"})
+      CHECK(has(safe.text, words));
     // Realisations of another design do not.
     REQUIRE(run_program({"realisations", file, "-n", "2", "--out", folder / "others", "-q", "--set",
                          "joint.friction=40 deg"})
