@@ -234,9 +234,9 @@ RunResultIn<Geometry> timed_run(const Input& input, const Report& report,
 
 }  // namespace
 
-RunResult run_of(const Input& input, const Report& report) {
+RunResult run_of(const Input& input, const Report& report, const StageObserver<Tunnel>& observer) {
   auto run = timed_run<Planar>(input, report, [&](ExcavatedRock&& rock) {
-    return run_tunnel(input, std::move(rock), report);
+    return run_tunnel(input, std::move(rock), report, observer);
   });
   for (const LiningInput& lining : input.linings)
     if (!lining.nodes && lining.bends_on_bond())

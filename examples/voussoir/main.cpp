@@ -266,6 +266,15 @@ int run_program(int argc, char** argv) {
   diff->add_option("FOLDERS", compared, "two folders of results, or their run.json")
       ->required()
       ->expected(2);
+  CLI::App* report = app.add_subcommand(
+      "report", "the results of a folder as one page, to be read, printed and forwarded");
+  std::string report_file;
+  report->add_option("FOLDER", options.folder, "that run, diagram, realisations or sweep wrote to")
+      ->required();
+  report->add_option("-o,--out", report_file, "file; left out: report.html in the folder");
+  bool wants_pdf = false;
+  report->add_flag("--pdf", wants_pdf, "print it by Chromium, too: report.pdf beside it");
+  add_quiet(report);
   CLI::App* diagram = app.add_subcommand(
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
   add_input(diagram);
@@ -429,6 +438,7 @@ int run_program(int argc, char** argv) {
       std::cout << run_diff(compared[0], compared[1]);
       return finished;
     }
+    if (*report) return report_verb(options, report_file, wants_pdf);
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
     if (*safety) return safety_verb(options, safety_options.settings());

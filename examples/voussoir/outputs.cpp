@@ -89,19 +89,6 @@ double opening_diameter(const RunResult& run) {
 
 namespace {
 
-/// Where at an opening a block was.
-std::string place_at(const SimplePolygon& opening, const Vec2& centre) {
-  const auto [low, high] = *bounding_rect(opening.vertices());
-  const double half_width = 0.5 * (high.x() - low.x()),
-               aside = std::abs(centre.x() - 0.5 * (low.x() + high.x()));
-  if (centre.y() < low.y() && aside < half_width) return "invert";
-  // Above a line at 45 degrees through the corners of the crown's box.
-  if (centre.y() > 0.5 * (low.y() + high.y()) &&
-      aside - half_width < centre.y() - high.y() + 0.5 * half_width)
-    return "crown";
-  return centre.x() < 0.5 * (low.x() + high.x()) ? "left wall" : "right wall";
-}
-
 /// At the opening that is nearest by its centre.
 std::string place_of(const Input& input, const Vec2& centre) {
   std::size_t nearest = 0;
@@ -117,11 +104,13 @@ nlohmann::json detached_json(const Input& input, const RunResult& run) {
   nlohmann::json blocks = nlohmann::json::array();
   for (const int b : run.tunnel.fallen()) {
     const Vec2 centre = run.tunnel.system().body(b).centre;
+    const double area = run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
     blocks.push_back(
         {{"block", b},
          {"x_m", centre.x()},
          {"y_m", centre.y()},
-         {"area_m2", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure},
+         {"area_m2", area},
+         {"weight_kN_per_m", 1e-3 * run.tunnel.in_situ().density * input.model.gravity * area},
          {"from", place_of(input, centre)}});
   }
   return blocks;
@@ -195,7 +184,11 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"detached_blocks", detached_json(input, run)},
       {"convergence", convergence_json(run.convergence())},
       {"boundary", boundary_json(run.boundary)},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages_json(run.built.stages, "area_m2")},
+      {"tunnel",
+       {{"width_m", 2 * input.tunnel.half_width()},
+        {"height_m", input.tunnel.crown() - input.tunnel.invert()}}},
       {"rock",
        {{"joints", mass.slicing.joints},
         {"joints_by_source", joints_json(run.joints)},
@@ -257,7 +250,7 @@ std::string run_json(const Input& input, const RunResult& run) {
       json["lining"]["feet"].back()["beam_moment_kNm"] =
           1e-3 * beam_moment(*input.linings.front().feet, foot.bearing);
   }
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string bolts_csv(const Input& input, const RunResult& run) {
@@ -282,6 +275,9 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
         "On elastic ground: convergence is counted against the opening as a whole, which rises by " +
         millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
+  text.bolt_strengths = bolt_strengths(input, run.tunnel);
+  text.node_utilisations =
+      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel));
   return draw_tunnel(run.tunnel, run.built, text);
 }
 

@@ -33,16 +33,27 @@ double strip_width_of(const Input& input) {
 
 double driven_length(const Input& input) { return input.round_count() * input.stretch(); }
 
-nlohmann::json detached_json(const SpatialRunResult& run) {
+/// The axis of the tunnel.
+const TunnelAxis& axis_of(const SpatialRunResult& run) {
+  return run.built.measured ? run.built.measured->axis()
+                            : run.tunnel.mass().openings.front().axis();
+}
+
+nlohmann::json detached_json(const Input& input, const SpatialRunResult& run) {
   nlohmann::json blocks = nlohmann::json::array();
   for (const int b : run.tunnel.fallen()) {
     const Vec3 centre = run.tunnel.system().body(b).centre;
+    const Vec3 seen = axis_of(run).local(centre);
+    const double volume = run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
     blocks.push_back(
         {{"block", b},
          {"x_m", centre.x()},
          {"y_m", centre.y()},
          {"z_m", centre.z()},
-         {"volume_m3", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure}});
+         {"volume_m3", volume},
+         {"weight_kN", 1e-3 * run.tunnel.in_situ().density * input.model.gravity * volume},
+         {"along_m", seen.z()},
+         {"from", place_at(opening_of(input), Vec2(seen.x(), seen.y()))}});
   }
   return blocks;
 }
@@ -83,13 +94,16 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
       {"lost_lining", run.built.has_lost_lining()},
       {"error_estimate", run.last().error_estimate},
       {"detached_volume_m3", run.fallen_measure()},
-      {"detached_blocks", detached_json(run)},
+      {"detached_blocks", detached_json(input, run)},
       {"convergence", convergence_json(shown_convergence(input, run))},
       {"convergence_of_the_whole_length", convergence_json(run.convergence())},
       {"boundary", spatial_boundary_text},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages_json(run.built.stages, "volume_m3")},
       {"tunnel",
-       {{"driven_m", driven_length(input)},
+       {{"width_m", 2 * input.tunnel.half_width()},
+        {"height_m", input.tunnel.crown() - input.tunnel.invert()},
+        {"driven_m", driven_length(input)},
         {"rounds", input.round_count()},
         {"round_length_m", input.stretch()}}},
       {"rock",
@@ -136,7 +150,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                                       {"shear_kN", 1e-3 * foot.shear},
                                       {"of_its_strength", foot.utilisation},
                                       {"settlement_mm", 1e3 * foot.settlement}});
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
@@ -158,6 +172,7 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   words.strip_width = strip_width_of(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
+  words.bolt_strengths = bolt_strengths(input, run.tunnel);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 

@@ -144,6 +144,11 @@ struct PlanOptions {
 /// Joins what several folders hold of one plan; options.folder empty: into the first.
 [[nodiscard]] int merge_verb(const Options& options, const std::vector<std::string>& folders);
 
+/// The results in options.folder as one page.
+/// @param file       to be written; empty: report.html in that folder
+/// @param wants_pdf  printed by Chromium, too, beside it
+[[nodiscard]] int report_verb(const Options& options, const std::string& file, bool wants_pdf);
+
 /// Whether `paper` and `verify` are in this build (CMake option VOUSSOIR_BUILD_PAPER). Where they
 /// are not, `--help` does not list them, and both say how to get them.
 extern const bool has_paper;
