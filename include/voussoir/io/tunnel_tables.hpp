@@ -128,9 +128,10 @@ class BoltStrengths {
 ///                     not checked; infinite: it bears no part of it
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining,
                                               const std::vector<double>& of_strength = {}) {
-  CsvTable table({"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
-                  "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
+       "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength", "largest_shear_kN_per_m"},
+      8);
   int node = 0, of = -1;
   for (std::size_t k = 0; k < lining.size(); ++k) {
     const LiningForce& at = lining[k];
@@ -143,7 +144,8 @@ class BoltStrengths {
                   1e3 * at.convergence, at.is_lost,
                   std::isnan(use)   ? std::string("-")
                   : std::isinf(use) ? std::string("beyond")
-                                    : significant_text(use, 4));
+                                    : significant_text(use, 4),
+                  1e-3 * at.largest_shear);
   }
   return table.text();
 }
