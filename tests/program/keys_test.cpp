@@ -78,6 +78,8 @@ spacing = "20 deg"
 stiffness = "0.2 GN/m"
 law = "axial-shear"
 shear_stiffness = "0.2 GN/m"
+bond_strength = "300 kN/m"
+plate_strength = "100 kN"
 [support.lining]
 thickness = "20 cm"
 E = "25 GPa"

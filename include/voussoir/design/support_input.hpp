@@ -52,6 +52,10 @@ struct BoltsInput {
   double pretension = 0;       ///< [N], 0 to 1e9
   std::optional<double> yield_force = {};    ///< of one bolt [N], > 0, <= 1e9
   std::optional<double> rupture_force = {};  ///< of one bolt [N], > 0, <= 1e9
+  /// Of the grout along one bolt [N/m], > 0, <= 1e9; none: its bond is not checked. The model holds
+  /// the bolt at its anchors, whatever they carry.
+  std::optional<double> bond_strength = {};
+  double plate_strength = 0;  ///< of plate and nut at the head [N], 0 to 1e9; with a bond alone
   AnchorKind anchors = AnchorKind::lorig;
   double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0
   BoltKind law = BoltKind::axial;

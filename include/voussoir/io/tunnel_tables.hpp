@@ -28,9 +28,9 @@ namespace voussoir {
 
 namespace detail {
 
-/// What is carried as part of a strength; "-" where none was given: not checked.
-[[nodiscard]] inline std::string of_strength(double force, double strength) {
-  return std::isfinite(strength) ? significant_text(force / strength, 8) : std::string("-");
+/// "-" where no strength was given: not checked.
+[[nodiscard]] inline std::string strength_text(double value, double strength) {
+  return std::isfinite(strength) ? significant_text(value, 8) : std::string("-");
 }
 
 /// Anticlockwise from the right-hand springing [degrees], 0 to 360.
@@ -60,63 +60,76 @@ template <class Bar>
 
 }  // namespace detail
 
-/// Strength of bolts in tension: one for all, or that of each.
+/// Of a bolt at a joint.
+struct CrossingStrength {
+  double strength = std::numeric_limits<double>::infinity();  ///< [N]; infinite: none was given
+  std::string mode = "-";                                     ///< what it would fail of
+};
+
+/// Strength of bolts in tension: one for all, or that at each joint.
 class BoltStrengths {
  public:
   BoltStrengths() = default;
   /// @param of_all  [N]
   BoltStrengths(double of_all) : of_all_(of_all) {}  // NOLINT(google-explicit-constructor)
-  /// @param of_each  in the order of their installation [N]
-  BoltStrengths(std::vector<double> of_each)  // NOLINT(google-explicit-constructor)
-      : of_each_(std::move(of_each)) {}
+  /// @param at_joints  in the order of `bolt_forces`
+  BoltStrengths(std::vector<CrossingStrength> at_joints)  // NOLINT(google-explicit-constructor)
+      : at_joints_(std::move(at_joints)) {}
 
-  /// [N]; infinite: none was given
-  [[nodiscard]] double of(int bolt) const {
-    const auto k = static_cast<std::size_t>(bolt);
-    return k < of_each_.size() ? of_each_[k] : of_all_;
+  /// @param crossing  index
+  [[nodiscard]] CrossingStrength at(std::size_t crossing) const {
+    return crossing < at_joints_.size() ? at_joints_[crossing] : CrossingStrength{of_all_};
   }
 
  private:
   double of_all_ = std::numeric_limits<double>::infinity();
-  std::vector<double> of_each_;
+  std::vector<CrossingStrength> at_joints_;
 };
 
 /// One row for every bolt and joint crossed.
 /// @param bars      in the order in which they were installed
 /// @param strength  in tension, of one bolt [N]; infinite: none was given, nothing is checked; or
-///                  those of all bolts, in their order
+///                  those at all crossings
 /// @throws InvalidInput  a bar is missing
 [[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
                                             const std::vector<Segment>& bars,
                                             const BoltStrengths& strength = {}) {
-  CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
-                  "axial_force_kN", "extension_mm", "state", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m", "axial_force_kN",
+       "extension_mm", "state", "of_its_strength", "strength_kN", "mode"},
+      8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
     const CrossingForce& c = crossings[k];
+    const CrossingStrength borne = strength.at(k);
     const Segment& bar = *places[k].bar;
     const Vec2 p = bar.at(c.position / bar.length());
     table.add_row(c.bolt + 1, detail::angle_in_degrees(bar.end - bar.start), places[k].joint,
                   c.position, p.x(), p.y(), 1e-3 * c.report.axial, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
+                  to_string(c.report),
+                  detail::strength_text(c.report.axial / borne.strength, borne.strength),
+                  detail::strength_text(1e-3 * borne.strength, borne.strength), borne.mode);
   }
   return table.text();
 }
 [[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
                                             const std::vector<SpatialLine>& bars,
                                             const BoltStrengths& strength = {}) {
-  CsvTable table({"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
-                  "shear_force_kN", "extension_mm", "state", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
+       "shear_force_kN", "extension_mm", "state", "of_its_strength", "strength_kN", "mode"},
+      8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
     const CrossingForce& c = crossings[k];
+    const CrossingStrength borne = strength.at(k);
     const SpatialLine& bar = *places[k].bar;
     const Vec3 p = bar.start + c.position / bar.length() * (bar.end - bar.start);
     table.add_row(c.bolt + 1, places[k].joint, c.position, p.x(), p.y(), p.z(),
                   1e-3 * c.report.axial, 1e-3 * c.report.shear, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
+                  to_string(c.report),
+                  detail::strength_text(c.report.axial / borne.strength, borne.strength),
+                  detail::strength_text(1e-3 * borne.strength, borne.strength), borne.mode);
   }
   return table.text();
 }
