@@ -42,7 +42,8 @@ double utilisation_of(const NodeUtilisation& node) { return node.use.value; }
 
 }  // namespace
 
-void read_concrete(Section& s, ConcreteSection& concrete, double thickness) {
+void read_concrete(Section& s, LiningInput& lining) {
+  ConcreteSection& concrete = lining.concrete.emplace();
   s.quantity("fck", concrete.strength, dimension::pressure, between(1e6, 90e6), Need::required);
   s.number("alpha_cc", concrete.long_term_factor, between(0.5, 1), Need::optional);
   s.number("gamma", concrete.partial_factor, factor_range, Need::optional);
@@ -52,7 +53,12 @@ void read_concrete(Section& s, ConcreteSection& concrete, double thickness) {
              Need::optional);
   s.number("gamma_fibre", concrete.fibre_partial_factor, factor_range, Need::optional);
   s.tables("bars", [&](Section& bars, std::size_t) {
-    read_bars(bars, concrete.bars.emplace_back(), thickness);
+    read_bars(bars, concrete.bars.emplace_back(), lining.thickness);
+  });
+  s.quantity("adhesion", lining.adhesion, dimension::pressure, between(1e3, 1e7));
+  s.only_with(lining.adhesion.has_value() || s.faulty("adhesion"), "adhesion", [&] {
+    s.quantity("adhesion_width", lining.adhesion_width, dimension::length, between(1e-3, 1),
+               Need::optional);
   });
   const bool method_known = s.choice<SectionMethod>(
       "check", concrete.method,

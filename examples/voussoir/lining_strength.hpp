@@ -13,8 +13,8 @@
 namespace voussoir::program {
 
 /// [support.lining.concrete]
-/// @param thickness  of the lining, within which bars lie [m]
-void read_concrete(Section& s, ConcreteSection& concrete, double thickness);
+/// @param lining  of which its thickness has been read, within which bars lie
+void read_concrete(Section& s, LiningInput& lining);
 
 /// Of a lining that stands, beside its forces: "strength", "of_its_strength", "governing".
 /// @param nodes  of all linings whose concrete is given

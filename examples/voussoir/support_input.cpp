@@ -216,9 +216,7 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   s.quantity("rib_spacing", lining.rib_spacing, dimension::length, rib_spacing_range);
   if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
-  s.optional_table("concrete", [&](Section& table) {
-    read_concrete(table, lining.concrete.emplace(), lining.thickness);
-  });
+  s.optional_table("concrete", [&](Section& table) { read_concrete(table, lining); });
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     std::optional<double> width, friction;

@@ -105,6 +105,10 @@ struct LiningInput {
   /// By which it is checked; thickness and width are those of the lining, areas of bars per metre
   /// of it [m^2/m]. None: it is not checked.
   std::optional<ConcreteSection> concrete = {};
+  /// Of shotcrete to the rock, characteristic [Pa], 1e3 to 1e7, on a strip along the edge of a
+  /// block [m], 1e-3 to 1: single blocks are checked by it. Not the bond that the model knows.
+  std::optional<double> adhesion = {};
+  double adhesion_width = 0.03;
 
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {
