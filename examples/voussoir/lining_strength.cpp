@@ -2,9 +2,11 @@
 #include "lining_strength.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <voussoir/core/units.hpp>
@@ -175,6 +177,31 @@ std::string lining_strength_warning(const std::vector<NodeUtilisation>& nodes) {
          std::to_string(nodes.size()) + " nodes, most at the " + lining_place(most.angle) + " (" +
          to_string(most.use.mode) +
          "): it stays elastic in the model, where it would crack or yield";
+}
+
+std::vector<double> strength_by_member(const std::vector<MemberForces<3>>& members,
+                                       const std::vector<RibForce>& ribs,
+                                       const std::vector<NodeUtilisation>& nodes) {
+  // Members hold the very places of their nodes.
+  const auto place = [](const Vec3& p) { return std::array{p.x(), p.y(), p.z()}; };
+  std::map<std::array<double, 3>, std::vector<const NodeUtilisation*>> at;
+  for (const NodeUtilisation& node : nodes) at[place(ribs[node.node].position)].push_back(&node);
+  std::vector<double> values;
+  for (const MemberForces<3>& member : members) {
+    double most = std::numeric_limits<double>::quiet_NaN();
+    const auto from = at.find(place(member.from)), to = at.find(place(member.to));
+    if (from != at.end() && to != at.end())
+      for (const NodeUtilisation* a : from->second)
+        for (const NodeUtilisation* b : to->second) {
+          const double length = length_of(member.to - member.from);
+          if (std::abs(a->along - b->along) > 1e-6 * length) continue;
+          for (const NodeUtilisation* node : {a, b})
+            if (node->lining == member.lining && !(utilisation_of(*node) <= most))
+              most = utilisation_of(*node);
+        }
+    values.push_back(most);
+  }
+  return values;
 }
 
 std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes) {

@@ -147,8 +147,11 @@ std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
                     crossing_strengths(bolt_utilisations(input, run.tunnel)));
 }
 
-std::string lining_csv(const Input&, const SpatialRunResult& run) {
-  return lining_table(lining_members(run.tunnel));
+std::string lining_csv(const Input& input, const SpatialRunResult& run) {
+  const auto members = lining_members(run.tunnel);
+  return lining_table(
+      members, strength_by_member(members, rib_forces(run.tunnel),
+                                  lining_utilisations(input, supports_of(input), run.tunnel)));
 }
 
 std::string blocks_svg(const Input& input, const SpatialRunResult& run) {

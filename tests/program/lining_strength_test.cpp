@@ -130,6 +130,19 @@ TEST_SUITE("program/lining_strength") {
     // Strips are beams, a ring in plane strain is none: thrusts agree to 3 %, moments less so.
     CHECK(std::abs(other / one - 1) < 0.1);
     CHECK(deep.json.at("lining").at("governing").contains("along_m"));
+    // In its table the member that governs, and others along the tunnel, which are not checked.
+    const auto rows = cells_of(deep.files.at("lining.csv"));
+    const std::size_t use = column(rows, "of_its_strength");
+    double most = 0;
+    std::size_t unchecked = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k)
+      if (rows[k][use] == "-")
+        ++unchecked;
+      else
+        most = std::max(most, std::stod(rows[k][use]));
+    CHECK(std::abs(most / other - 1) < 1e-3);  // four digits
+    CHECK(unchecked > 0);
+    CHECK(unchecked < rows.size() / 2 + 1);
     CHECK(deep.outcome.out.find("m along: ") != std::string::npos);
   }
 

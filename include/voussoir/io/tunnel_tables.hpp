@@ -33,6 +33,11 @@ namespace detail {
   return std::isfinite(strength) ? significant_text(value, 8) : std::string("-");
 }
 
+/// "-": not checked; "beyond": no part of it is borne.
+[[nodiscard]] inline std::string use_text(double use) {
+  return std::isnan(use) ? "-" : std::isinf(use) ? "beyond" : significant_text(use, 4);
+}
+
 /// Anticlockwise from the right-hand springing [degrees], 0 to 360.
 [[nodiscard]] inline double angle_in_degrees(const Vec2& p) {
   const double angle = std::atan2(p.y(), p.x()) * 180 / std::numbers::pi;
@@ -154,25 +159,26 @@ class BoltStrengths {
         k < of_strength.size() ? of_strength[k] : std::numeric_limits<double>::quiet_NaN();
     table.add_row(of + 1, node, detail::angle_in_degrees(at.position - at.centre), at.position.x(),
                   at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
-                  1e3 * at.convergence, at.is_lost,
-                  std::isnan(use)   ? std::string("-")
-                  : std::isinf(use) ? std::string("beyond")
-                                    : significant_text(use, 4),
-                  1e-3 * at.largest_shear);
+                  1e3 * at.convergence, at.is_lost, detail::use_text(use), 1e-3 * at.largest_shear);
   }
   return table.text();
 }
-/// One row for every member of all linings in 3-D, without strength, too; what joins two linings is
-/// of the later one.
-[[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members) {
+/// One row for every member of all linings in 3-D; what joins two linings is of the later one.
+/// @param of_strength  what each member carries of what it can, as of nodes above
+[[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members,
+                                              const std::vector<double>& of_strength = {}) {
   CsvTable table({"lining", "member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm",
                   "of_its_strength"},
                  8);
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
-                  1e-3 * m.moment, "-");
+    const auto k = static_cast<std::size_t>(number);
+    table.add_row(
+        m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
+        1e-3 * m.moment,
+        detail::use_text(k < of_strength.size() ? of_strength[k]
+                                                : std::numeric_limits<double>::quiet_NaN()));
   }
   return table.text();
 }
