@@ -58,6 +58,9 @@ TEST_SUITE("design/bolt_strength") {
     CHECK(bolt_limit(bolts, 4, 0.8).mode == BoltMode::bond_at_head);  // 80 of 140 kN
     CHECK(bolt_limit(bolts, 4, 3.6).strength == near(40e3));
     CHECK(bolt_limit(bolts, 4, 3.6).mode == BoltMode::bond_at_tip);
+    bolts.plate_strength = 200e3;  // 240 kN with the grout before it: more than the bar
+    CHECK(bolt_limit(bolts, 4, 0.4).strength == 150e3);
+    CHECK(bolt_limit(bolts, 4, 0.4).mode == BoltMode::yield);
   }
 
   TEST_CASE("without a bond the bar alone, without that nothing") {

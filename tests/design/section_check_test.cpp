@@ -128,9 +128,9 @@ TEST_SUITE("design/section_check") {
     // d = 21 cm, rho = 0.286 %, k = 1.97590: the least, 0.035 k^1.5 sqrt(30) = 0.532447 MPa.
     CHECK(shear_resistance(s, {0, -50e3}) == near(0.532447e6 * 0.21).epsilon(1e-5));
     // Thrust: 0.15 x 2 MPa; a pull of 0.4 MPa takes 0.06; at most 0.15 x 0.2 x 17.
-    CHECK(detail::barred_shear_resistance(s, {500e3, 50e3}) == near(174.293e3).epsilon(1e-5));
-    CHECK(detail::barred_shear_resistance(s, {-100e3, 50e3}) == near(102.293e3).epsilon(1e-5));
-    CHECK(detail::barred_shear_resistance(s, {3e6, 50e3}) == near(216.293e3).epsilon(1e-5));
+    CHECK(barred_shear_resistance(s, {500e3, 50e3}) == near(174.293e3).epsilon(1e-5));
+    CHECK(barred_shear_resistance(s, {-100e3, 50e3}) == near(102.293e3).epsilon(1e-5));
+    CHECK(barred_shear_resistance(s, {3e6, 50e3}) == near(216.293e3).epsilon(1e-5));
     Random random(11, 1);
     ConcreteSection bare = s;
     bare.bars.clear();

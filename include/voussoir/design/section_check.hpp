@@ -24,8 +24,6 @@ namespace voussoir::design {
   return {std::max(pressed, 0.0), SectionMode::pressed_edge};
 }
 
-namespace detail {
-
 /// Of plain concrete, EN 1992-1-1 12.6.3: 1.5 V / A_cc against f_cvd, the shear stress at which the
 /// principal tension comes to f_ctd, less where the compression is high. Of a section that cracks,
 /// A_cc is what a constant stress presses, h - 2 M / N deep; fibres, which pull f over the rest,
@@ -72,15 +70,12 @@ namespace detail {
   return std::max(0.0, 1e6 * (borne + 0.15 * stress)) * s.width * depth;
 }
 
-}  // namespace detail
-
 /// Shear force that a section without links bears under a thrust and a moment [N]: as plain
 /// concrete or, where that gives more, by the bars on its side in tension. What plain concrete
 /// alone bears in equilibrium, bars do not take away.
 [[nodiscard]] inline double shear_resistance(const ConcreteSection& section,
                                              const SectionForces& load) {
-  return std::max(detail::plain_shear_resistance(section, load),
-                  detail::barred_shear_resistance(section, load));
+  return std::max(plain_shear_resistance(section, load), barred_shear_resistance(section, load));
 }
 
 /// Of a shear force that grows together with its thrust and moment, as all utilisations; it is 1
