@@ -35,6 +35,7 @@ std::string number(double value) { return significant_text(value, 3); }
 std::vector<std::string> warnings_about_values(const Input& input) {
   std::vector<std::string> warnings = unusual_values(input);
   if (!input.unused.empty()) warnings.push_back(input.unused_text());
+  if (!input.uncertain.empty()) warnings.push_back(input.uncertain_text());
   return warnings;
 }
 

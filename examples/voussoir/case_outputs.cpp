@@ -13,6 +13,7 @@
 #include <voussoir/io/histogram_picture.hpp>
 
 #include "case_statistics.hpp"
+#include "case_uncertainty.hpp"
 #include "diagram_outputs.hpp"
 
 namespace voussoir::program {
@@ -26,6 +27,20 @@ struct KeyColumn {
   std::string name;
   std::vector<std::string> cells;
 };
+
+/// "_GPa_per_m" of "GPa/m".
+std::string unit_suffix(const std::string& unit) {
+  std::string words;
+  for (const char c : unit) {
+    if (c == '/')
+      words += words.empty() ? "per_" : "_per_";
+    else if (c == '%')
+      words += "percent";
+    else if (c != '^' && c != ' ')
+      words += c;
+  }
+  return words.empty() ? "" : "_" + words;
+}
 
 KeyColumn column_of(const VariedKey& varied) {
   KeyColumn column{varied.key, varied.values};
@@ -46,14 +61,7 @@ KeyColumn column_of(const VariedKey& varied) {
     numbers.push_back(digits);
   }
   column.cells = numbers;
-  std::string words;
-  for (const char c : unit) {
-    if (c == '/')
-      words += words.empty() ? "per_" : "_per_";
-    else if (c != '^' && c != ' ')
-      words += c;
-  }
-  if (!words.empty()) column.name += "_" + words;
+  column.name += unit_suffix(unit);
   return column;
 }
 
@@ -69,10 +77,25 @@ std::vector<std::string> key_cells(const std::vector<KeyColumn>& columns, std::s
 
 std::string number(double value) { return significant_text(value, 6); }
 
+/// All realisations of one combination of varied keys.
+Realised realised_in(const CasePlan& plan, const std::vector<TunnelResult>& results,
+                     std::size_t combination) {
+  const auto seeds = static_cast<std::size_t>(plan.parts().realisations),
+             first = combination * seeds;
+  std::vector<std::vector<double>> points;
+  if (plan.parts().sampling == Sampling::latin)
+    points.resize(plan.uncertain().size(), std::vector<double>(seeds));
+  for (std::size_t key = 0; key < points.size(); ++key)
+    for (std::size_t k = 0; k < seeds; ++k) points[key][k] = plan.at(first + k).drawn[key];
+  return {std::span<const TunnelResult>(results).subspan(first, seeds), points};
+}
+
 std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& columns,
                         const std::vector<TunnelResult>& results) {
   std::vector<std::string> header;
   for (const KeyColumn& column : columns) header.push_back(column.name);
+  for (const UncertainKey& key : plan.uncertain())
+    header.push_back(key.key + unit_suffix(key.unit));
   for (const char* const name : {"seed",
                                  "verdict",
                                  "marginal",
@@ -104,7 +127,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<KeyColumn>& colu
   for (std::size_t k = 0; k < results.size(); ++k) {
     const TunnelResult& r = results[k];
     std::vector<std::string> cells = key_cells(columns, k / seeds);
-    for (const std::string& cell : {std::to_string(plan.at(k).seed),
+    const Case the_case = plan.at(k);
+    for (const double value : the_case.drawn) cells.push_back(shortest_text(value));
+    for (const std::string& cell : {std::to_string(the_case.seed),
                                     r.word(),
                                     std::string(r.marginal ? "1" : "0"),
                                     number(r.fallen),
@@ -155,7 +180,7 @@ std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& column
   CsvTable table(header);
   const auto seeds = static_cast<std::size_t>(plan.parts().realisations);
   for (std::size_t k = 0; k * seeds < results.size(); ++k) {
-    const Realised r(std::span<const TunnelResult>(results).subspan(k * seeds, seeds));
+    const Realised r = realised_in(plan, results, k);
     std::vector<std::string> cells = key_cells(columns, k);
     for (const int count : {r.count, r.whole, r.shedding, r.without_lining, r.collapsed,
                             r.undecided, r.failed, r.marginal, r.yielded})
@@ -231,17 +256,57 @@ std::string quantity_text(const Counted& c) {
   return text;
 }
 
-std::string realisations_json(const CasePlan& plan, const Realised& r) {
-  using Json = nlohmann::ordered_json;
-  const auto share_json = [](const Share& share) {
-    if (share.trials == 0) return Json(nullptr);
-    const Interval between = share.interval();
-    return Json{{"events", share.events},
-                {"of", share.trials},
-                {"share", share.value()},
-                {"low_95", between.low},
-                {"high_95", between.high}};
-  };
+/// A line for every key with a distribution.
+std::string uncertain_keys_text(const CasePlan& plan) {
+  std::string text;
+  for (const UncertainKey& key : plan.uncertain())
+    text += (text.empty() ? "drawn    " : "         ") + key.key + ": " + key.written + "\n";
+  return text;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json share_json(const Share& share) {
+  if (share.trials == 0) return nullptr;
+  const Interval between = share.interval();
+  return {{"events", share.events},
+          {"of", share.trials},
+          {"share", share.value()},
+          {"low_95", between.low},
+          {"high_95", between.high}};
+}
+
+/// Of the keys with a distribution.
+Json uncertain_json(const CasePlan& plan, const std::vector<TunnelResult>& results) {
+  const Influences found = influences(plan, results);
+  Json keys = Json::array();
+  for (const UncertainKey& key : plan.uncertain()) {
+    Json correlations = Json::object();
+    for (const KeyInfluence& influence : found.keys)
+      if (influence.key == key.key)
+        for (std::size_t k = 0; k < found.outcomes.size(); ++k)
+          correlations[found.outcomes[k]] = influence.correlations[k];
+    keys.push_back({{"key", key.key},
+                    {"unit", key.unit},
+                    {"distribution", key.written},
+                    {"median", key.value_at(0.5)},
+                    {"least", key.distribution.low()},
+                    {"largest", key.distribution.high()},
+                    {"rank_correlations", correlations}});
+  }
+  Json explained = Json::object();
+  for (std::size_t k = 0; k < found.explained.size(); ++k)
+    explained[found.outcomes[k]] = found.explained[k];
+  return {{"sampling", word_of(plan.parts().sampling)},
+          {"keys", keys},
+          {"decided_realisations", found.realisations},
+          {"rank_correlation_by_chance_95", found.limit},
+          {"rank_variance_explained_by_the_keys", explained}};
+}
+
+std::string realisations_json(const CasePlan& plan, const Realised& r,
+                              const std::vector<TunnelResult>& results,
+                              const std::vector<UnwantedEvent>& events) {
   Json quantities = Json::object();
   for (const Counted& c : counted_in(plan, r)) {
     const Quantity& q = *c.quantity;
@@ -255,24 +320,39 @@ std::string realisations_json(const CasePlan& plan, const Realised& r) {
                           {"quantile", reported_quantile},
                           {"value_of_quantile", c.scale * q.quantile()}};
   }
-  const Json json = {{"schema", 1},
-                     {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
-                     {"title", plan.input().title},
-                     {"first_seed", plan.input().model.seed},
-                     {"realisations", r.count},
-                     {"verdicts",
-                      {{"stable", r.whole},
-                       {"stable after rockfall", r.shedding},
-                       {"stable without its lining", r.without_lining},
-                       {"collapse", r.collapsed},
-                       {"undecided", r.undecided},
-                       {"failed", r.failed}}},
-                     {"marginal", r.marginal},
-                     {"supports_yielded", r.yielded},
-                     {"not_checked", unchecked_supports(plan.input())},
-                     {"rockfall_or_collapse", share_json(r.rockfall())},
-                     {"collapse", share_json(r.collapse())},
-                     {"quantities", quantities}};
+  Json probabilities = Json::array();
+  for (const UnwantedEvent& event : events)
+    probabilities.push_back({{"event", event.what}, {"probability", share_json(event.share)}});
+  const CriteriaInput& c = plan.input().criteria;
+  const auto limit = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  const Json json = {
+      {"schema", 1},
+      {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
+      {"title", plan.input().title},
+      {"first_seed", plan.input().model.seed},
+      {"realisations", r.count},
+      {"verdicts",
+       {{"stable", r.whole},
+        {"stable after rockfall", r.shedding},
+        {"stable without its lining", r.without_lining},
+        {"collapse", r.collapsed},
+        {"undecided", r.undecided},
+        {"failed", r.failed}}},
+      {"marginal", r.marginal},
+      {"supports_yielded", r.yielded},
+      {"not_checked", unchecked_supports(plan.input())},
+      {"rockfall_or_collapse", share_json(r.rockfall())},
+      {"collapse", share_json(r.collapse())},
+      {"criteria",
+       {{"convergence_m", limit(c.convergence)},
+        {"utilisation", limit(c.utilisation)},
+        {"bolt_utilisation", limit(c.bolt_utilisation)},
+        {"probability", limit(c.probability)}}},
+      {"probabilities", probabilities},
+      {"uncertain_keys", plan.uncertain().empty() ? Json(nullptr) : uncertain_json(plan, results)},
+      {"quantities", quantities}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -317,20 +397,24 @@ CaseOutputs sweep_outputs(const CasePlan& plan, const std::vector<TunnelResult>&
 }
 
 CaseOutputs realisations_outputs(const CasePlan& plan, const std::vector<TunnelResult>& results) {
-  const Realised all(results);
+  const Realised all = realised_in(plan, results, 0);
+  const std::vector<UnwantedEvent> events = unwanted_events(plan.input(), results);
   CaseOutputs outputs;
   outputs.files["realisations.csv"] = tunnels_csv(plan, {}, results);
-  outputs.files["realisations.json"] = realisations_json(plan, all);
+  outputs.files["realisations.json"] = realisations_json(plan, all, results, events);
   outputs.files["realisations.svg"] = realisations_svg(plan, all);
   std::string& out = outputs.summary;
-  out = "rock     " + std::to_string(all.count) + " realisations, " + seeds_text(plan) +
-        "\nverdicts " + all.verdicts() + "\nrockfall in " + all.rockfall().text() + "\n";
-  if (all.collapsed > 0) out += "collapse in " + all.collapse().text() + "\n";
+  out = "rock     " + std::to_string(all.count) + " realisations, " + seeds_text(plan) + "\n";
+  if (!plan.uncertain().empty()) out += uncertain_keys_text(plan);
+  out += "verdicts " + all.verdicts() + "\n";
+  for (const UnwantedEvent& event : events) out += event.what + " in " + event.share.text() + "\n";
+  out += probability_text(plan.input().criteria, events) + more_realisations_text(events);
   for (const Counted& c : counted_in(plan, all)) {
     std::string name = c.name;
     name.resize(22, ' ');
     out += name + quantity_text(c) + "\n";
   }
+  if (!plan.uncertain().empty()) out += influences(plan, results).text();
   out +=
       "boundary " + results.front().boundary + "\n" + strength_text(plan) + warnings_text(results);
   return outputs;

@@ -12,6 +12,7 @@
 #include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/journal.hpp>
+#include <voussoir/statistics/latin_hypercube.hpp>
 
 #include "input_document.hpp"
 #include "run_folder.hpp"
@@ -154,7 +155,7 @@ std::string value_of(const std::string& line) {
 }  // namespace
 
 bool is_of_support(std::string_view key) {
-  for (const char* const head : {"support", "stage", "run.", "diagram", "title"})
+  for (const char* const head : {"support", "stage", "run.", "diagram", "title", "criteria"})
     if (key.starts_with(head)) return true;
   return false;
 }
@@ -170,6 +171,8 @@ const char* to_string(PlanVerb verb) {
   }
   return "sweep";
 }
+
+const char* word_of(Sampling sampling) { return sampling == Sampling::latin ? "latin" : "random"; }
 
 VariedKey varied_key(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -207,6 +210,12 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
         "\n  accepted: spacing = [\"11.25 deg\", \"15 deg\", \"none\"] and thickness = [\"0 cm\", \"10 cm\"]");
   if (p.verb == PlanVerb::sweep && p.varied.empty())
     throw InvalidInput(std::string("a sweep varies nothing") + forms);
+  if (p.verb == PlanVerb::realisations || p.realisations > 1)
+    for (const UncertainKey& key : input_.uncertain)
+      if (std::none_of(p.varied.begin(), p.varied.end(), [&](const VariedKey& varied) {
+            return holds(key_of(varied.key), key.key) || holds(key.key, key_of(varied.key));
+          }))
+        uncertain_.push_back(key);
   double count = p.realisations;
   for (const VariedKey& varied : p.varied) count *= static_cast<double>(varied.values.size());
   if (p.verb == PlanVerb::diagram) count *= static_cast<double>(combinations());
@@ -233,7 +242,8 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     RunId id("case");
     id.add(sources_hash).add(joints);
     for (const std::string& line : input->content)
-      if (!names_a_file(line) && !line.starts_with("diagram.") && !line.starts_with("title = "))
+      if (!names_a_file(line) && !line.starts_with("diagram.") && !line.starts_with("title = ") &&
+          !line.starts_with(criteria_head))
         id.add(line);
     id.add(std::to_string(the_case.seed));
     if (the_case.place) {
@@ -255,6 +265,8 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   std::vector<std::string> hashes;
   for (const PlannedFile& file : files_) hashes.push_back(file.hash);
   if (!hashes.empty()) content_.push_back("joints.file (its content) = " + joined(hashes));
+  if (!uncertain_.empty() && p.sampling == Sampling::random)
+    content_.emplace_back("--sampling = random");
   for (const VariedKey& varied : p.varied)
     content_.push_back("--vary " + varied.key + " = " + joined(varied.values));
   for (const std::string& line : input_.content)
@@ -263,7 +275,8 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   std::string of_run, of_work;
   for (const std::string& line : content_) {
     if (!line.starts_with("program = ")) of_run += line + "\n";
-    if (!line.starts_with(realisations_line)) of_work += line + "\n";
+    if (!line.starts_with(realisations_line) && !line.starts_with(criteria_head))
+      of_work += line + "\n";
   }
   run_id_ = text_hash(of_run);
   work_id_ = text_hash(of_work);
@@ -312,6 +325,14 @@ Case CasePlan::at(std::size_t index) const {
   Case the_case;
   the_case.index = index;
   the_case.seed = input_.model.seed + index % seeds;
+  const GrowingLatinHypercube points(input_.model.seed);
+  for (const UncertainKey& key : uncertain_) {
+    // By its name: what is drawn for one key does not hang on which others are uncertain.
+    const std::uint64_t variable = std::stoull(text_hash(key.key), nullptr, 16);
+    the_case.drawn.push_back(key.value_at(parts_.sampling == Sampling::latin
+                                              ? points.at(index % seeds, variable)
+                                              : points.independent(index % seeds, variable)));
+  }
   std::size_t rest = index / seeds;
   if (parts_.verb == PlanVerb::diagram) {
     const std::size_t thicknesses = input_.diagram->thickness.size();
@@ -327,7 +348,7 @@ Case CasePlan::at(std::size_t index) const {
 }
 
 Input CasePlan::input_of(const Case& the_case) const {
-  if (the_case.overrides.empty()) {  // the file differs in its seed alone
+  if (the_case.overrides.empty() && the_case.drawn.empty()) {  // the file differs in its seed alone
     Input input = input_;
     const std::string line = "model.seed = ";
     for (std::string& text : input.content)
@@ -337,6 +358,8 @@ Input CasePlan::input_of(const Case& the_case) const {
   }
   std::vector<std::string> overrides = parts_.overrides;
   overrides.insert(overrides.end(), the_case.overrides.begin(), the_case.overrides.end());
+  for (std::size_t k = 0; k < the_case.drawn.size(); ++k)
+    overrides.push_back(uncertain_[k].key + "=" + uncertain_[k].text_of(the_case.drawn[k]));
   overrides.push_back("model.seed=" + std::to_string(the_case.seed));
   return read(overrides);
 }
@@ -358,6 +381,9 @@ std::string CasePlan::label(const Case& the_case) const {
                                        spacing->is_angle ? dimension::angle : dimension::length)) +
            ", thickness " + format_quantity(supports.thickness, dimension::length);
   }
+  for (std::size_t k = 0; k < the_case.drawn.size(); ++k)
+    text += (text.empty() ? "" : ", ") + uncertain_[k].key + "=" +
+            uncertain_[k].text_of(the_case.drawn[k]);
   return text + (text.empty() ? "" : ", ") + "seed " + std::to_string(the_case.seed);
 }
 
@@ -411,6 +437,7 @@ std::string CasePlan::json() const {
                                        {"run_id", run_id_},
                                        {"cases", size()},
                                        {"realisations", parts_.realisations},
+                                       {"sampling", word_of(parts_.sampling)},
                                        {"varied", varied},
                                        {"overrides", parts_.overrides},
                                        {"copies", copies},
@@ -442,6 +469,8 @@ CasePlan CasePlan::from_json(const std::string& text, const std::filesystem::pat
     json.at("input").get_to(parts.text);
     json.at("overrides").get_to(parts.overrides);
     json.at("realisations").get_to(parts.realisations);
+    parts.sampling =
+        json.at("sampling") == word_of(Sampling::random) ? Sampling::random : Sampling::latin;
     for (const auto& varied : json.at("varied"))
       parts.varied.push_back({varied.at("key"), varied.at("values")});
     json.at("content").get_to(content);

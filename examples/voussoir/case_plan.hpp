@@ -29,6 +29,10 @@ struct VariedKey {
 /// @throws InvalidInput  neither of these, or a value twice
 [[nodiscard]] VariedKey varied_key(const std::string& text);
 
+/// How the values of keys with a distribution are drawn, see `GrowingLatinHypercube`.
+enum class Sampling { latin, random };
+[[nodiscard]] const char* word_of(Sampling sampling);
+
 enum class PlanVerb { diagram, realisations, sweep };
 [[nodiscard]] const char* to_string(PlanVerb verb);
 
@@ -41,6 +45,7 @@ struct PlanParts {
   std::vector<std::string> overrides;  ///< as behind --set
   std::vector<VariedKey> varied = {};  ///< of a sweep alone
   int realisations = 1;                ///< the seeds count on from model.seed
+  Sampling sampling = Sampling::latin;
   /// Of a plan that has travelled: where its copies of mapped joints lie, by the line of content
   /// that names the file, `joints.file = "north.csv"`.
   std::map<std::string, std::filesystem::path> copies = {};
@@ -58,12 +63,16 @@ struct PlannedFile {
 struct Case {
   std::size_t index = 0;               ///< in the plan
   std::vector<std::string> overrides;  ///< on top of those of the plan
+  std::vector<double> drawn;           ///< of `CasePlan::uncertain()`, in the units of the keys
   std::uint64_t seed = 1;
   /// Of a diagram: its place on the axes, spacing and thickness.
   std::optional<std::array<std::size_t, 2>> place;
 };
 
 /// All tunnels of a sweep, of realisations or of a diagram.
+///
+/// A realisation is a seed of the rock, and with it a point of the Latin hypercube over the keys
+/// with a distribution. Neither depends on how many realisations there are.
 ///
 /// Cases are counted with the keys in the order they were given, the first running slowest, then
 /// the seed; in a diagram spacing, thickness, seed.
@@ -81,6 +90,9 @@ class CasePlan {
 
   [[nodiscard]] const PlanParts& parts() const { return parts_; }
   [[nodiscard]] const Input& input() const { return input_; }  ///< without what varies
+  /// Keys whose values are drawn for every realisation: those with a distribution, but for those
+  /// that are varied. One realisation of a sweep or a diagram has the medians: none.
+  [[nodiscard]] const std::vector<UncertainKey>& uncertain() const { return uncertain_; }
   [[nodiscard]] std::size_t size() const { return names_.size(); }
   [[nodiscard]] Case at(std::size_t index) const;
   /// Hash of version, program, input, the mapped joints of this case, seed and supports: 16 digits.
@@ -120,6 +132,7 @@ class CasePlan {
 
   PlanParts parts_;
   Input input_;
+  std::vector<UncertainKey> uncertain_;
   std::vector<PlannedFile> files_;
   std::vector<std::string> names_, content_;
   std::string run_id_, work_id_;
@@ -127,6 +140,9 @@ class CasePlan {
 
 /// Of the content of a plan: how many realisations it has, which may grow in the same folder.
 inline constexpr std::string_view realisations_line = "realisations = ";
+
+/// Of the content: what the results are held against, which changes none of them.
+inline constexpr std::string_view criteria_head = "criteria.";
 
 /// Whether the rock, its stress and its boundary do not depend on a key.
 /// @param key  or a line of an input's content that begins with one

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/statistics/latin_mean.hpp>
 #include <voussoir/statistics/sample.hpp>
 
 namespace voussoir::program {
@@ -29,6 +30,7 @@ std::string Share::text() const {
 double Quantity::mean() const { return values.empty() ? none : Sample(values).mean(); }
 double Quantity::deviation() const { return values.size() < 2 ? none : Sample(values).deviation(); }
 std::optional<Interval> Quantity::mean_between() const {
+  if (by_points) return by_points;
   if (values.size() < 2) return std::nullopt;
   return mean_interval(Sample(values));
 }
@@ -61,6 +63,18 @@ Realised::Realised(std::span<const TunnelResult> results) {
     add(largest_moment, stands, r.demand.largest_moment);
     add(of_lining_strength, stands, r.of_lining_strength);
   }
+}
+
+Realised::Realised(std::span<const TunnelResult> results,
+                   std::span<const std::vector<double>> points)
+    : Realised(results) {
+  // Where every tenth has as many points, and no value is missing.
+  constexpr int even = 10;
+  if (points.empty() || count % even != 0) return;
+  for (Quantity* const q :
+       {&crown, &largest_bolt_force, &mean_bolt_force, &largest_thrust, &largest_moment})
+    if (static_cast<int>(q->values.size()) == count)
+      q->by_points = latin_mean_interval(points, q->values);
 }
 
 std::string Realised::verdicts() const {

@@ -30,10 +30,13 @@ struct Share {
 struct Quantity {
   std::vector<double> values = {};  ///< in the order of the seeds, finite
   int realisations = 0;             ///< all, those without a value too
+  /// Of the mean, 95 %, where the points of a Latin hypercube make it surer than n independent
+  /// values would: see `latin_mean_interval`.
+  std::optional<Interval> by_points = {};
 
   [[nodiscard]] double mean() const;       ///< not a number if none has a value
   [[nodiscard]] double deviation() const;  ///< from n - 1; not a number of fewer than two
-  /// Of the mean, 95 %; nothing of fewer than two values.
+  /// Of the mean, 95 %: `by_points`, or Student's; nothing of fewer than two values.
   [[nodiscard]] std::optional<Interval> mean_between() const;
   /// Of all realisations, where one without a value counts as worse than any: not a number where
   /// it lies among those. Linear between the sorted values.
@@ -51,6 +54,8 @@ struct Realised {
       of_lining_strength;  ///< SI
 
   explicit Realised(std::span<const TunnelResult> results);
+  /// @param points  of a Latin hypercube at which they were computed: a list of values for each key
+  Realised(std::span<const TunnelResult> results, std::span<const std::vector<double>> points);
   /// Stable after rockfall, and collapses: of those decided.
   [[nodiscard]] Share rockfall() const { return {shedding + collapsed, decided()}; }
   [[nodiscard]] Share collapse() const { return {collapsed, decided()}; }

@@ -10,8 +10,10 @@
 #include <iterator>
 #include <stdexcept>
 #include <voussoir/drawing/number_text.hpp>
+#include <voussoir/io/atomic_file.hpp>
 
 #include "case_outputs.hpp"
+#include "case_uncertainty.hpp"
 #include "case_work.hpp"
 #include "engine_scripts.hpp"
 #include "input_document.hpp"
@@ -190,14 +192,82 @@ CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& setti
                   .text = read_text(utf8_path(options.file)),
                   .directory = utf8_path(options.file).parent_path(),
                   .overrides = options.overrides,
-                  .realisations = settings.realisations};
+                  .realisations = settings.realisations,
+                  .sampling = settings.sampling == "random" ? Sampling::random : Sampling::latin};
   for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
   return CasePlan(std::move(parts));
+}
+
+/// After how many realisations is looked whether they are enough: where the Latin hypercube is
+/// even, and few times, for whoever looks often is lucky sooner.
+std::vector<int> looks_until(int most) {
+  std::vector<int> looks;
+  for (int tenth = 10; tenth < most; tenth *= 10)
+    for (const int times : {1, 2, 3, 4, 5})
+      if (times * tenth < most) looks.push_back(times * tenth);
+  looks.push_back(most);
+  return looks;
+}
+
+/// Computes cases of a plan, a part of them in each of several processes.
+/// @return  finished if all of them are, in every process
+int work_together(const CasePlan& plan, const std::vector<std::size_t>& all_cases,
+                  FinishedCases& finished_cases, Journal& journal, const Options& options,
+                  ProgressLine& line) {
+  const Ranks& ranks = *options.ranks;
+  const bool is_first = ranks.rank() == 0;
+  // Parts of all cases, not of those that are left: of these two processes may think differently,
+  // if a network drive shows one of them a journal later than the other.
+  const std::vector<std::size_t> cases = part_of(all_cases, static_cast<std::size_t>(ranks.rank()),
+                                                 static_cast<std::size_t>(ranks.size()));
+  WorkDone done;
+  int status = finished;
+  together(ranks, [&] {
+    try {
+      done = work_on(plan, cases, finished_cases, journal,
+                     {.threads = options.threads, .report = shown_on(line)});
+    } catch (const Stopped&) {
+      status = interrupted;
+    }
+  });
+  line.clear();
+  together(ranks, [&] {
+    if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
+  });
+  status = ranks.largest(status);
+  if (status == interrupted) return is_first ? say_kept(finished_cases, plan) : interrupted;
+  if (!done.refused.empty()) status = say_refused(done);
+  return ranks.largest(status);
+}
+
+/// The realisations that are enough of those that a plan has, and why: a line.
+struct Enough {
+  int realisations;
+  std::string text;
+};
+Enough enough_of(const CasePlan& plan, const FinishedCases& finished_cases, int look,
+                 double width) {
+  PlanParts parts = plan.parts();
+  parts.realisations = look;
+  const CasePlan shorter(std::move(parts));
+  const auto events = unwanted_events(plan.input(), finished_cases.results(shorter));
+  const double widest = 100 * widest_interval(events);
+  const std::string found = std::to_string(look) + " realisations: the widest interval has " +
+                            significant_text(widest, 3) + " percentage points, asked for were " +
+                            significant_text(width, 3) + "\n";
+  if (widest <= width) return {look, "enough   " + found};
+  return {0, "not enough   " + found};
 }
 
 int worked_plan(const Options& options, PlanVerb verb, const PlanOptions& settings) {
   const Ranks& ranks = *options.ranks;
   const bool is_first = ranks.rank() == 0;
+  if (settings.until_width > 0 && !settings.engine.empty())
+    throw InvalidInput(
+        "--until-width " + significant_text(settings.until_width, 6) + " with --plan " +
+        settings.engine +
+        ": machines that share a plan do not know each other's results\n   = accepted: either; what "
+        "was computed stays when -n grows");
   std::optional<CasePlan> made;
   together(ranks, [&] { made.emplace(plan_of(options, verb, settings)); });
   const CasePlan& plan = *made;
@@ -220,14 +290,7 @@ int worked_plan(const Options& options, PlanVerb verb, const PlanOptions& settin
   if (!settings.engine.empty())
     return is_first ? write_plan(plan, finished_cases, options, settings, line) : finished;
 
-  // Parts of all cases, not of those that are left: of these two processes may think differently,
-  // if a network drive shows one of them a journal later than the other.
-  const std::vector<std::size_t> cases =
-      part_of(plan.work_order(), static_cast<std::size_t>(ranks.rank()),
-              static_cast<std::size_t>(ranks.size()));
   const std::string name = ranks.size() == 1 ? "local" : "rank-" + std::to_string(ranks.rank() + 1);
-  WorkDone done;
-  int status = finished;
   std::optional<Journal> journal;
   together(ranks, [&] {
     journal = journal_of(utf8_path(options.folder), plan, name);
@@ -235,26 +298,34 @@ int worked_plan(const Options& options, PlanVerb verb, const PlanOptions& settin
       throw std::runtime_error("another process writes the journal " + name + ".jsonl in " +
                                options.folder);
   });
-  together(ranks, [&] {
-    try {
-      done = work_on(plan, cases, finished_cases, *journal,
-                     {.threads = options.threads, .report = shown_on(line)});
-    } catch (const Stopped&) {
-      status = interrupted;
-    }
-  });
-  line.clear();
-  together(ranks, [&] {
-    if (ranks.size() > 1 && is_first) finished_cases.add_folder(utf8_path(options.folder), plan);
-  });
-  status = ranks.largest(status);
-  if (status == interrupted) return is_first ? say_kept(finished_cases, plan) : interrupted;
-  if (!done.refused.empty()) status = say_refused(done);
-  status = ranks.largest(status);
-  if (status != finished || !is_first) return status;
-  if (const auto missing = finished_cases.missing(plan); !missing.empty())
-    return say_missing(plan, missing);
-  return publish_results(plan, finished_cases, *outputs, options);
+  if (settings.until_width <= 0) {
+    const int status =
+        work_together(plan, plan.work_order(), finished_cases, *journal, options, line);
+    if (status != finished || !is_first) return status;
+    if (const auto missing = finished_cases.missing(plan); !missing.empty())
+      return say_missing(plan, missing);
+    return publish_results(plan, finished_cases, *outputs, options);
+  }
+  for (const int look : looks_until(plan.parts().realisations)) {
+    std::vector<std::size_t> cases = plan.work_order();  // a case for each realisation
+    std::erase_if(cases, [&](std::size_t k) { return k >= static_cast<std::size_t>(look); });
+    const int status = work_together(plan, cases, finished_cases, *journal, options, line);
+    if (status != finished) return status;
+    const bool is_last = look == plan.parts().realisations;
+    Enough enough{0, ""};
+    together(ranks, [&] {
+      if (is_first) enough = enough_of(plan, finished_cases, look, settings.until_width);
+    });
+    if (ranks.largest(enough.realisations) == 0 && !is_last) continue;
+    if (!is_first) return finished;
+    PlanParts parts = plan.parts();
+    parts.realisations = look;
+    const CasePlan shorter(std::move(parts));
+    write_atomically(plan_file(utf8_path(options.folder), plan.parts().verb), shorter.json());
+    if (!options.quiet) std::cout << enough.text;
+    return publish_results(shorter, finished_cases, *outputs, options);
+  }
+  return finished;
 }
 
 }  // namespace

@@ -154,6 +154,12 @@ bool has_more_realisations(const CasePlan& plan, const std::vector<std::string>&
   return false;
 }
 
+/// Without what results are held against: that may change in a folder.
+std::vector<std::string> without_criteria(std::vector<std::string> content) {
+  std::erase_if(content, [](const std::string& line) { return line.starts_with(criteria_head); });
+  return content;
+}
+
 /// Paths of the journals in a folder, sorted.
 std::vector<fs::path> journals_in(const fs::path& folder) {
   std::vector<fs::path> paths;
@@ -312,9 +318,10 @@ void adopt_plan(const fs::path& folder, const CasePlan& plan, bool discard) {
     } catch (const Json::exception& error) {
       trouble = error.what();
     }
-    const auto different = differences(plan.content(), before);
-    if (trouble.empty() && different.empty()) return;
-    if (trouble.empty() && different.size() == 1 && has_more_realisations(plan, before)) {
+    if (trouble.empty() && plan.content() == before) return;
+    const auto different = differences(without_criteria(plan.content()), without_criteria(before));
+    if (trouble.empty() &&
+        (different.empty() || (different.size() == 1 && has_more_realisations(plan, before)))) {
       write_atomically(path, plan.json());
       return;
     }

@@ -190,6 +190,7 @@ CheckedModel checked_model(const Input& input, const Report& report) {
   model.warnings = model.rock.warnings;
   for (std::string& text : unusual_values(input)) model.warnings.push_back(std::move(text));
   if (!input.unused.empty()) model.warnings.push_back(input.unused_text());
+  if (!input.uncertain.empty()) model.warnings.push_back(input.uncertain_text());
   if (input.survey && !input.survey->left_out.empty())
     model.warnings.push_back(left_out_text(*input.survey));
   return model;

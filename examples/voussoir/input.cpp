@@ -78,6 +78,14 @@ void read_picture(Section& s, Input& input) {
   for (const char* const key : {"from", "history"}) note_unused(input, s, key);
 }
 
+void read_criteria(Section& s, CriteriaInput& criteria) {
+  s.quantity("convergence", criteria.convergence, dimension::length, above(0));
+  s.number("utilisation", criteria.utilisation, above(0));
+  s.number("bolt_utilisation", criteria.bolt_utilisation, above(0));
+  s.quantity("probability", criteria.probability, dimension::number,
+             {.low = 0, .high = 1, .low_included = false, .high_included = false});
+}
+
 void read_all(Section& file, Input& input, const std::filesystem::path& directory) {
   int schema = 1;
   file.integer("schema", schema, 1, 1);
@@ -154,6 +162,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   file.table("picture", [&](Section& s) { read_picture(s, input); });
   refuse_loads_on_blocks(file);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
+  file.optional_table("criteria", [&](Section& s) { read_criteria(s, input.criteria); });
   file.finish();
 }
 
@@ -191,12 +200,22 @@ std::string Input::unused_text() const {
   return text;
 }
 
+std::string Input::uncertain_text() const {
+  if (uncertain.empty()) return "";
+  std::string text;
+  for (const UncertainKey& key : uncertain)
+    text += (text.empty() ? "" : ", ") + key.key + " = " + key.text_at(0.5);
+  return "keys with a distribution are at their medians: " + text +
+         "; `voussoir realisations` takes all of their values";
+}
+
 Input read_input_text(std::string_view text, const std::string& name,
                       const std::filesystem::path& directory,
                       const std::vector<std::string>& overrides) {
   const Document document = read_document(text, name, overrides);
   Checker checker(document);
   Input input;
+  input.uncertain = uncertain_keys(document);
   Section file(checker, &document.root, "");
   read_all(file, input, directory);
   if (input.laid) {

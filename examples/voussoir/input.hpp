@@ -19,6 +19,7 @@
 
 #include "input_errors.hpp"
 #include "laid_blocks.hpp"
+#include "uncertain_key.hpp"
 
 /// The input file of the program: what it has besides the analysis that it describes, and how to
 /// read it. The keys of the file are declared in rock_input.cpp, support_input.cpp, joint_laws.cpp
@@ -80,6 +81,16 @@ struct DiagramInput {
   std::vector<double> thickness;                    ///< 0: no lining; otherwise 1e-3 to 10 [m]
 };
 
+/// [criteria] What a design has to comply with, each if it is given.
+struct CriteriaInput {
+  std::optional<double> convergence;       ///< largest of the crown, > 0 [m]
+  std::optional<double> utilisation;       ///< largest of a lining, > 0 [-]
+  std::optional<double> bolt_utilisation;  ///< largest force of a bolt over its strength, > 0 [-]
+  /// Largest probability that rock falls, that the tunnel collapses or that one of the others is
+  /// exceeded, above 0 and below 1 [-].
+  std::optional<double> probability;
+};
+
 /// A whole input file, checked: every number is in its range, and they fit together.
 struct Input : AnalysisInput {
   std::string title;
@@ -93,12 +104,17 @@ struct Input : AnalysisInput {
   bool lists_linings = false;             ///< as [[support.lining]]
   PictureInput picture;
   std::optional<DiagramInput> diagram;
+  CriteriaInput criteria;
+  /// Keys with a distribution; the values above are those of their medians.
+  std::vector<UncertainKey> uncertain;
   /// Blocks in place of a tunnel: of the others model.gravity, rock, joint and run are then given.
   std::optional<LaidInput> laid;
   /// Keys of the file that have a meaning in the other dimension alone.
   std::vector<std::string> unused;
   /// Names them, and says why; empty: there are none.
   [[nodiscard]] std::string unused_text() const;
+  /// Says that keys with a distribution are at their medians; empty: there are none.
+  [[nodiscard]] std::string uncertain_text() const;
   /// Every key with its value, `stress.K0 = 1`, overrides included, sorted: for the run id.
   std::vector<std::string> content;
 

@@ -523,6 +523,23 @@ void check_diagram(Checker& checker, const Input& input) {
   }
 }
 
+/// A utilisation is that of a strength.
+void check_criteria(Checker& checker, const Input& input) {
+  const CriteriaInput& criteria = input.criteria;
+  const bool has_bolts = std::any_of(
+      input.bolts.begin(), input.bolts.end(),
+      [](const BoltsInput& pattern) { return pattern.yield_force || pattern.rupture_force; });
+  const bool has_linings =
+      std::any_of(input.linings.begin(), input.linings.end(),
+                  [](const LiningInput& lining) { return lining.concrete.has_value(); });
+  if (criteria.bolt_utilisation && !has_bolts && !checker.faulty("support"))
+    checker.report("criteria.bolt_utilisation", "is of bolts, and none has a strength",
+                   "support.bolts.yield_force or rupture_force beside it");
+  if (criteria.utilisation && !has_linings && !checker.faulty("support"))
+    checker.report("criteria.utilisation", "is of linings, and none has a strength",
+                   "support.lining.concrete beside it");
+}
+
 }  // namespace
 
 void check_together(Checker& checker, Input& input) {
@@ -537,6 +554,7 @@ void check_together(Checker& checker, Input& input) {
   check_bolts(checker, input);
   check_stages(checker, input);
   check_diagram(checker, input);
+  check_criteria(checker, input);
 }
 
 }  // namespace voussoir::program

@@ -22,6 +22,8 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/operating_system.hpp>
 
+#include "distribution_input.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -161,6 +163,19 @@ Place place_of(const toml::source_region& region) {
   return place;
 }
 
+/// Whether a table is a distribution in place of a value. No key of an input has one of these names
+/// (`sd` alone is one of [[joint_set]]). A table with a header of its own may hold nothing else.
+bool is_distribution(const Node& node, bool is_inline) {
+  if (node.kind != Node::Kind::table) return false;
+  const auto is_named = [](const Entry& entry) {
+    const auto& names = UncertainKey::names();
+    return std::find(names.begin(), names.end(), entry.key) != names.end();
+  };
+  const auto tells = [&](const Entry& entry) { return is_named(entry) && entry.key != "sd"; };
+  return std::any_of(node.table.begin(), node.table.end(), tells) &&
+         (is_inline || std::all_of(node.table.begin(), node.table.end(), is_named));
+}
+
 /// The library's node as ours. `lines` are those that its source positions count.
 Node convert(const toml::node& source, const std::vector<std::string>& lines) {
   Node node;
@@ -175,6 +190,7 @@ Node convert(const toml::node& source, const std::vector<std::string>& lines) {
   }
   if (const toml::table* table = source.as_table()) {
     node.kind = Node::Kind::table;
+    node.is_inline = table->is_inline();
     for (const auto& [key, value] : *table)
       node.table.push_back({std::string(key.str()), place_of(key.source()), convert(value, lines)});
   } else if (const toml::array* array = source.as_array()) {
@@ -397,6 +413,10 @@ std::string quoted(const std::string& text) {
 
 void append_lines(const Node& node, const std::string& key, std::vector<std::string>& lines) {
   const auto line = [&](const std::string& value) { lines.push_back(key + " = " + value); };
+  if (node.uncertain) {
+    for (const Entry& entry : node.table) append_lines(entry.value, key + "." + entry.key, lines);
+    return;
+  }
   switch (node.kind) {
     case Node::Kind::table:
       if (node.table.empty()) line("{}");
@@ -432,6 +452,56 @@ std::vector<std::string> canonical_lines(const Document& document) {
   append_lines(document.root, "", lines);
   std::sort(lines.begin(), lines.end());
   return lines;
+}
+
+namespace {
+
+/// Goes through the tree with the dotted key of every node.
+template <class Visit>
+void visit_nodes(Node& node, const std::string& key, const Visit& visit) {
+  if (!visit(node, key)) return;
+  for (Entry& entry : node.table)
+    visit_nodes(entry.value, key.empty() ? entry.key : key + "." + entry.key, visit);
+  for (std::size_t k = 0; k < node.array.size(); ++k)
+    visit_nodes(node.array[k], key + "[" + std::to_string(k) + "]", visit);
+}
+
+/// Puts medians in the place of distributions.
+/// @throws InputErrors  a table is meant for one and is none
+void take_medians(Document& document) {
+  const std::size_t before = document.errors.size();
+  visit_nodes(document.root, "", [&](Node& node, const std::string& key) {
+    if (key.empty() || !is_distribution(node, node.is_inline)) return true;
+    const std::optional<UncertainKey> read = uncertain_key(
+        node, key,
+        [&](const Place& place, const std::string& what, const std::string& complaint,
+            const std::string& accepted) {
+          document.errors.push_back(document.error_at(place, what, complaint, accepted));
+        });
+    if (!read) return false;
+    node.uncertain = std::make_shared<const UncertainKey>(*read);
+    if (read->unit.empty()) {
+      node.kind = Node::Kind::real;
+      node.real = read->value_at(0.5);
+    } else {
+      node.kind = Node::Kind::text;
+      node.text = read->text_at(0.5);
+    }
+    return false;
+  });
+  if (document.errors.size() > before) throw InputErrors(document.errors);
+}
+
+}  // namespace
+
+std::vector<UncertainKey> uncertain_keys(const Document& document) {
+  std::vector<UncertainKey> keys;
+  Document copy = document;
+  visit_nodes(copy.root, "", [&](const Node& node, const std::string&) {
+    if (node.uncertain) keys.push_back(*node.uncertain);
+    return !node.uncertain;
+  });
+  return keys;
 }
 
 InputError Document::error_at(const Place& place, std::string key, std::string message,
@@ -620,6 +690,7 @@ Document read_document(std::string_view text, const std::string& name,
   // The library places the root at the first line; a missing table belongs to no line.
   document.root.place = Place{};
   for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(document, static_cast<int>(i));
+  take_medians(document);
   return document;
 }
 

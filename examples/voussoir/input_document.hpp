@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,13 @@ struct Node {
   std::int64_t integer = 0;  ///< of Kind::integer
   double real = 0;           ///< of Kind::real, and Kind::integer as a double
   std::vector<Entry> table;  ///< of Kind::table
+  bool is_inline = false;    ///< a table in braces
   std::vector<Node> array;   ///< of Kind::array
   Place place;               ///< the value; of a table its header
   std::string written;       ///< the value as it was written; its first line
+  /// Of a distribution: its median stands here in its place, as a text or a number, and `table`
+  /// holds its parts. Null: a value as any other.
+  std::shared_ptr<const UncertainKey> uncertain;
 
   [[nodiscard]] const Node* find(std::string_view key) const;
   [[nodiscard]] Node* find(std::string_view key);
@@ -62,13 +67,18 @@ struct Document {
 /// @throws InputErrors  the file cannot be read, holds no text, or is not TOML
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
-/// @throws InputErrors  the text is empty or is not TOML
+/// Tables such as {mean = "35 deg", sd = "3 deg"} stand for distributions: see
+/// distribution_input.hpp.
+/// @throws InputErrors  the text is empty or is not TOML, or a distribution is none
 [[nodiscard]] Document read_document(std::string_view text, const std::string& name,
                                      const std::vector<std::string>& overrides);
 
 /// Every key with its value, `joint_set[0].dip = "75 deg"`, overrides laid over them, sorted: the
 /// same for two documents that differ in blanks, comments or the order of keys only.
 [[nodiscard]] std::vector<std::string> canonical_lines(const Document& document);
+
+/// Keys with a distribution, in the order of the tree.
+[[nodiscard]] std::vector<UncertainKey> uncertain_keys(const Document& document);
 
 /// `text` with control characters shown as `?`, cut behind 80 bytes.
 [[nodiscard]] std::string printable(std::string_view text);

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <tuple>
+#include <voussoir/drawing/number_text.hpp>
 
 namespace voussoir::program {
 
@@ -35,8 +36,9 @@ std::string shown_key(const std::string& key) {
   return bare ? key : quoted(printable(key));
 }
 
-std::string kind_name(Node::Kind kind) {
-  switch (kind) {
+std::string kind_name(const Node& node) {
+  if (node.uncertain) return "a distribution";
+  switch (node.kind) {
     case Node::Kind::table:
       return "a table";
     case Node::Kind::array:
@@ -64,7 +66,7 @@ std::string value_text(const Node& node) {
     case Node::Kind::real:
       return plain_number(node.real);
     default:
-      return kind_name(node.kind);
+      return kind_name(node);
   }
 }
 
@@ -247,6 +249,19 @@ void Value::refuse(const std::string& complaint, const std::string& accepted) co
   checker_->report(node_->place, key_, key_ + value + " " + complaint, accepted);
 }
 
+bool Value::stays_in(const Range& range, const std::string& accepted) const {
+  if (!node_->uncertain) return true;
+  const UncertainKey& key = *node_->uncertain;
+  for (const double end : {key.distribution.low(), key.distribution.high()}) {
+    if (range.contains(key.unit.empty() ? end : parse_quantity(key.text_of(end)).value)) continue;
+    refuse("reaches " + significant_text(end, 7) + (key.unit.empty() ? "" : " " + key.unit) +
+               ", which is outside the accepted range",
+           accepted + "; min and max cut a distribution off");
+    return false;
+  }
+  return true;
+}
+
 std::optional<double> Value::as_quantity(const Dimension& dimension, const Range& range,
                                          Infinity infinity) const {
   const std::string accepted = quantity_form(dimension, range, infinity);
@@ -269,9 +284,10 @@ std::optional<double> Value::as_quantity(const Dimension& dimension, const Range
     }
     value = node_->real;
   } else {
-    refuse("is " + kind_name(node_->kind) + ", not a number with its unit", accepted);
+    refuse("is " + kind_name(*node_) + ", not a number with its unit", accepted);
     return std::nullopt;
   }
+  if (!stays_in(range, accepted)) return std::nullopt;
   if (!range.contains(value)) {
     refuse("is outside the accepted range", accepted);
     return std::nullopt;
@@ -282,13 +298,14 @@ std::optional<double> Value::as_quantity(const Dimension& dimension, const Range
 std::optional<double> Value::as_number(const Range& range) const {
   const std::string accepted = number_form(range);
   if (node_->kind != Node::Kind::integer && node_->kind != Node::Kind::real) {
-    refuse("is " + kind_name(node_->kind) + ", not a bare number", accepted);
+    refuse("is " + kind_name(*node_) + ", not a bare number", accepted);
     return std::nullopt;
   }
   if (!std::isfinite(node_->real)) {
     refuse("is not finite", accepted);
     return std::nullopt;
   }
+  if (!stays_in(range, accepted)) return std::nullopt;
   if (!range.contains(node_->real)) {
     refuse("is outside the accepted range", accepted);
     return std::nullopt;
@@ -299,9 +316,9 @@ std::optional<double> Value::as_number(const Range& range) const {
 std::optional<std::int64_t> Value::as_integer(std::int64_t low, std::int64_t high) const {
   const std::string accepted = integer_form(low, high);
   if (node_->kind != Node::Kind::integer) {
-    refuse(node_->kind == Node::Kind::real
+    refuse(node_->kind == Node::Kind::real && !node_->uncertain
                ? std::string("is not a whole number")
-               : "is " + kind_name(node_->kind) + ", not a whole number",
+               : "is " + kind_name(*node_) + ", not a whole number",
            accepted);
     return std::nullopt;
   }
@@ -313,21 +330,21 @@ std::optional<std::int64_t> Value::as_integer(std::int64_t low, std::int64_t hig
 }
 
 std::optional<std::string> Value::as_text() const {
-  if (node_->kind == Node::Kind::text) return node_->text;
-  refuse("is " + kind_name(node_->kind) + ", not a text", "a text in quotes");
+  if (node_->kind == Node::Kind::text && !node_->uncertain) return node_->text;
+  refuse("is " + kind_name(*node_) + ", not a text", "a text in quotes");
   return std::nullopt;
 }
 
 std::optional<bool> Value::as_flag() const {
   if (node_->kind == Node::Kind::boolean) return node_->text == "true";
-  refuse("is " + kind_name(node_->kind) + ", not true or false", "true or false, without quotes");
+  refuse("is " + kind_name(*node_) + ", not true or false", "true or false, without quotes");
   return std::nullopt;
 }
 
 std::optional<std::size_t> Value::as_word(const std::vector<std::string>& words) const {
   const std::string accepted = words_form(words);
-  if (node_->kind != Node::Kind::text) {
-    refuse("is " + kind_name(node_->kind) + ", not one of its words", accepted);
+  if (node_->kind != Node::Kind::text || node_->uncertain) {
+    refuse("is " + kind_name(*node_) + ", not one of its words", accepted);
     return std::nullopt;
   }
   const auto at = std::find(words.begin(), words.end(), node_->text);
@@ -344,7 +361,7 @@ std::optional<std::size_t> Value::as_word(const std::vector<std::string>& words)
 std::optional<std::vector<Value>> Value::as_list(std::size_t least, std::size_t most,
                                                  const std::string& form) const {
   if (node_->kind != Node::Kind::array) {
-    refuse("is " + kind_name(node_->kind) + ", not a list", form);
+    refuse("is " + kind_name(*node_) + ", not a list", form);
     return std::nullopt;
   }
   if (node_->array.size() < least || node_->array.size() > most) {

@@ -177,6 +177,9 @@ class Value {
   /// Two lengths.
   std::optional<Point> as_point() const;
 
+  /// Of a distribution: whether all of its values are accepted, and reports if not. True of others.
+  bool stays_in(const Range& range, const std::string& accepted) const;
+
   /// "joint.kn = 5e9" and the complaint
   void refuse(const std::string& complaint, const std::string& accepted) const;
 

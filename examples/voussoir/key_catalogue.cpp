@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <voussoir/core/version.hpp>
 
+#include "distribution_input.hpp"
 #include "input_page.hpp"
 #include "joint_laws.hpp"
 
@@ -153,6 +154,21 @@ void describe(Json& schema, const DeclaredKey& key) {
       break;
   }
   if (const std::string text = description(key); !text.empty()) schema["description"] = text;
+  if (form.kind != Kind::quantity && form.kind != Kind::number) return;
+  // Bounds are of numbers, and what is referred to is of tables: both stand beside each other.
+  if (schema["type"].is_string()) schema["type"] = Json::array({schema["type"]});
+  schema["type"].push_back("object");
+  schema["allOf"] = Json::array({{{"$ref", "#/definitions/distribution"}}});
+}
+
+/// Of a table that stands in place of a number.
+Json distribution_schema() {
+  Json parts = Json::object();
+  for (const std::string& name : UncertainKey::names())
+    parts[name] = {{"type", Json::array({"number", "string"})}};
+  parts["distribution"] = {{"enum", {"normal", "lognormal", "uniform", "triangular"}}};
+  return {
+      {"properties", parts}, {"additionalProperties", false}, {"description", distribution_form}};
 }
 
 }  // namespace
@@ -161,7 +177,8 @@ std::string schema_json() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", std::string("Input file of voussoir ") + VOUSSOIR_VERSION_STRING},
                  {"type", "object"},
-                 {"additionalProperties", false}};
+                 {"additionalProperties", false},
+                 {"definitions", {{"distribution", distribution_schema()}}}};
   for (const DeclaredKey& key : key_catalogue()) {
     describe(place_of(schema, key.key), key);
     const std::size_t dot = key.key.rfind('.');

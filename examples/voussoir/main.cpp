@@ -288,10 +288,19 @@ int run_program(int argc, char** argv) {
         verb->add_option("-n,--realisations", plan.realisations,
                          "of the rock: seeds model.seed, model.seed + 1, ...")
             ->check(CLI::Range(1, CasePlan::most_realisations));
-    if (verb == realisations)
+    if (verb == realisations) {
       count->required();
-    else
+      verb->add_option("--until-width", plan.until_width,
+                       "stop before -n once no interval of a probability is wider, in percentage "
+                       "points; looked at after 10, 20, 30, 40, 50, 100, 200, ...")
+          ->check(CLI::Range(0.1, 100.0));
+    } else {
       count->capture_default_str();
+    }
+    verb->add_option("--sampling", plan.sampling,
+                     "of keys with a distribution: Latin hypercube, or plain Monte Carlo")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"latin", "random"}));
     verb->add_flag("--discard", plan.discard,
                    "remove the cases of another input or program from the folder first");
     verb->add_option(

@@ -116,6 +116,7 @@ RockBlocks blocks_of(const Input& input, RockIn<Geometry> made,
                             " " + size_unit(input) + " in all; the wall is the rock behind");
   for (std::string& text : unusual_values(input)) rock.warnings.push_back(std::move(text));
   if (!input.unused.empty()) rock.warnings.push_back(input.unused_text());
+  if (!input.uncertain.empty()) rock.warnings.push_back(input.uncertain_text());
   if (input.survey && !input.survey->left_out.empty())
     rock.warnings.push_back(left_out_text(*input.survey));
   rock.excavated = std::move(excavated);

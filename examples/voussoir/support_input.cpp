@@ -48,7 +48,7 @@ std::optional<BoltSpacing> read_spacing(const Value& value) {
       value.refuse("is neither an angle nor a length", spacing_form);
     } else if (!(quantity.value >= (is_angle ? radians(0.1) : 0.01))) {
       value.refuse("is outside the accepted range", spacing_form);
-    } else {
+    } else if (value.stays_in(at_least(is_angle ? radians(0.1) : 0.01), spacing_form)) {
       return BoltSpacing{quantity.value, is_angle};
     }
   } catch (const UnitError& error) {

@@ -108,6 +108,10 @@ inline int say_interrupted() {
 struct PlanOptions {
   std::vector<std::string> varied;  ///< "key=values" of a sweep
   int realisations = 1;
+  std::string sampling = "latin";  ///< of keys with a distribution: or "random"
+  /// Of realisations: no more of them than make every interval of a probability this wide
+  /// [percentage points]; 0: all that are asked for.
+  double until_width = 0;
   bool discard = false;       ///< what the folder holds of another plan
   std::string engine;         ///< to hand the plan to; empty: compute here
   int chunks = 0;             ///< 0: so that each lasts `chunk_minutes`

@@ -39,19 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A 3 m tunnel in some 150 blocks: a case takes milliseconds.
-std::string small_input() {
-  InputText input;
-  input.shape = "shape = \"circle\"\ndiameter = \"3 m\"\n";
-  input.rest =
-      "[diagram]\nspacing = [\"30 deg\", \"60 deg\", \"none\"]\n"
-      "thickness = [\"0 cm\", \"8 cm\"]\n";
-  std::string text = input.text();
-  text = replaced(text, "width = \"24 m\"", "width = \"14 m\"");
-  text = replaced(text, "below_invert = \"8 m\"", "below_invert = \"4 m\"");
-  return replaced(text, "cover = \"8 m\"", "cover = \"4 m\"");
-}
-
 std::vector<std::string> sweep(const std::string& file, const std::string& out,
                                const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"sweep",  file,

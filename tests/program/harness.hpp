@@ -153,4 +153,17 @@ interface = { kn = "1 GPa/m", friction = "30 deg" }
   }
 };
 
+/// A 3 m tunnel in some 150 blocks: a case takes milliseconds.
+inline std::string small_input() {
+  InputText input;
+  input.shape = "shape = \"circle\"\ndiameter = \"3 m\"\n";
+  input.rest =
+      "[diagram]\nspacing = [\"30 deg\", \"60 deg\", \"none\"]\n"
+      "thickness = [\"0 cm\", \"8 cm\"]\n";
+  std::string text = input.text();
+  text = replaced(text, "width = \"24 m\"", "width = \"14 m\"");
+  text = replaced(text, "below_invert = \"8 m\"", "below_invert = \"4 m\"");
+  return replaced(text, "cover = \"8 m\"", "cover = \"4 m\"");
+}
+
 }  // namespace voussoir_test

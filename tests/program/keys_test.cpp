@@ -101,7 +101,7 @@ std::vector<Base> bases() {
       {ground + joints + horseshoe + supports +
        "[boundary]\nsides = \"elastic\"\nbase = \"elastic\"\nE = \"5 GPa\"\nnu = 0.2\n"
        "[run]\nmethod = \"explicit\"\n[diagram]\nspacing = [\"20 deg\", \"none\"]\n"
-       "thickness = [\"0 cm\", \"20 cm\"]\n"},
+       "thickness = [\"0 cm\", \"20 cm\"]\n[criteria]\nconvergence = \"20 mm\"\n"},
       {ground + joints + horseshoe + supports +
        "[[stage]]\nwall_traction = 0.5\n"
        "[[stage]]\nwall_traction = 0\n"},
@@ -227,6 +227,35 @@ double beyond(const DeclaredKey& key, double bound, double sense) {
   return bound == 0 ? sense * 1e-12 : bound + sense * 1e-9 * std::abs(bound);
 }
 
+/// A distribution between two values.
+std::string between(const DeclaredKey& key, double low, double high) {
+  const auto value = [&](double x) {
+    const std::string text = value_text(key, x);
+    return text.find(' ') == std::string::npos ? text : "\"" + text + "\"";
+  };
+  return "{min = " + value(low) + ", max = " + value(high) + "}";
+}
+
+/// From end to end of its range, and beyond either.
+void try_distributions(const Base& base, const DeclaredKey& declared, const std::string& key) {
+  const Range& range = declared.form.range;
+  const bool starts = std::isfinite(range.low), ends = std::isfinite(range.high);
+  const double low = !starts ? -1 : range.low_included ? range.low : beyond(declared, range.low, 1);
+  const double high = !ends                 ? std::max(2 * low, low + 1)
+                      : range.high_included ? range.high
+                                            : beyond(declared, range.high, -1);
+  const auto errors = errors_with(base, key, between(declared, low, high));
+  INFO(key, " = ", between(declared, low, high));
+  for (const char* const complaint : {"reaches", "distribution", ", not a", "outside"})
+    CHECK_FALSE(is_refused(errors, key, complaint));
+  if (starts)
+    CHECK(is_refused(errors_with(base, key, between(declared, beyond(declared, low, -1), high)),
+                     key, "reaches"));
+  if (ends)
+    CHECK(is_refused(errors_with(base, key, between(declared, low, beyond(declared, high, 1))), key,
+                     "reaches"));
+}
+
 }  // namespace
 
 TEST_SUITE("program/keys") {
@@ -263,6 +292,7 @@ TEST_SUITE("program/keys") {
           refused("5 cd");
         }
         const Range& range = declared.form.range;
+        if (declared.form.kind != Kind::integer) try_distributions(base, declared, key);
         if (std::isfinite(range.low)) {
           refused(value_text(declared,
                              range.low_included ? beyond(declared, range.low, -1) : range.low));
@@ -345,7 +375,10 @@ TEST_SUITE("program/keys") {
     CHECK(at("/properties/model/properties/seed/type") == "integer");
     CHECK(at("/properties/support/properties/bolts/anyOf/1/items/additionalProperties") == false);
     const auto density = at("/properties/rock/properties/density");
-    CHECK(density.at("type") == "string");
+    CHECK(density.at("type") == nlohmann::json({"string", "object"}));
+    CHECK(density.at("allOf")[0].at("$ref") == "#/definitions/distribution");
+    CHECK(at("/definitions/distribution/properties").size() == UncertainKey::names().size());
+    CHECK(at("/properties/stress/properties/K0/type") == nlohmann::json({"number", "object"}));
     CHECK(density.at("description").get<std::string>().find("a density, not a unit weight") !=
           std::string::npos);
     // As many leaves as there are keys.

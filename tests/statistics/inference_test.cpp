@@ -7,12 +7,14 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/statistics/confidence.hpp>
 #include <voussoir/statistics/distribution_fit.hpp>
 #include <voussoir/statistics/goodness_of_fit.hpp>
 #include <voussoir/statistics/normal_update.hpp>
 
+#include "support/near.hpp"
 #include "support/reference.hpp"
 
 namespace inference_test {
@@ -196,6 +198,92 @@ TEST_SUITE("statistics/inference") {
     }
     CHECK_THROWS_AS((NormalBelief{nan, 1, 1, 1}.after(s)), InvalidInput);
     CHECK_THROWS_AS((NormalBelief{0, 1, 1, 1}.after(1, 0, -1)), InvalidInput);
+  }
+
+  TEST_CASE("intervals of a probability are those that Newcombe prints") {
+    // Newcombe (1998), Stat. Med. 17, Table I: score without continuity correction (Wilson), and
+    // exact (Clopper-Pearson); four digits.
+    struct Row {
+      int events, trials;
+      Interval wilson, exact;
+    };
+    for (const Row& row : {Row{81, 263, {0.2553, 0.3662}, {0.2527, 0.3676}},
+                           Row{15, 148, {0.0624, 0.1605}, {0.0578, 0.1617}},
+                           Row{0, 20, {0.0000, 0.1611}, {0.0000, 0.1684}},
+                           Row{1, 29, {0.0061, 0.1718}, {0.0009, 0.1776}}}) {
+      CAPTURE(row.events);
+      const Interval wilson = wilson_interval(row.events, row.trials),
+                     exact = probability_interval(row.events, row.trials);
+      for (const auto& [is, printed] :
+           {std::pair(wilson, row.wilson), std::pair(exact, row.exact)}) {
+        CHECK(std::abs(is.low - printed.low) <= 0.5e-4);
+        CHECK(std::abs(is.high - printed.high) <= 0.5e-4);
+      }
+      const Interval mirrored = wilson_interval(row.trials - row.events, row.trials);
+      CHECK(std::abs(mirrored.low + wilson.high - 1) <= 1e-15);
+      CHECK(std::abs(mirrored.high + wilson.low - 1) <= 1e-15);
+    }
+    // Its ends are where (share - p)^2 = z^2 p (1 - p) / n.
+    const Interval at = wilson_interval(7, 50);
+    for (const double p : {at.low, at.high})
+      CHECK(std::abs(7.0 / 50 - p) / std::sqrt(p * (1 - p) / 50) ==
+            voussoir_test::near(1.959963984540054).epsilon(1e-12));
+  }
+
+  TEST_CASE("Wilson's interval misses rare events too often, the exact one never") {
+    // Of 1000 trials with 0.175 expected events: one is then held to be too many. All numbers of
+    // events, with their probabilities.
+    constexpr int trials = 1000;
+    const auto held = [](double p, const auto& interval) {
+      const boost::math::binomial events(trials, p);
+      double sum = 0;
+      for (int k = 0; k <= trials; ++k)
+        if (interval(k, trials, 0.95).holds(p)) sum += pdf(events, k);
+      return sum;
+    };
+    CHECK(std::abs(held(0.000175, wilson_interval) - 0.838) <= 2e-3);
+    for (const double p : {0.000175, 0.001, 0.0103, 0.05, 0.31})
+      CHECK(held(p, probability_interval) >= 0.95);
+    CHECK(std::abs(held(0.31, wilson_interval) - 0.95) <= 5e-3);
+  }
+
+  TEST_CASE("so many trials make an interval as narrow as asked, and one less does not") {
+    // Where nothing happens, the interval ends at 1 - 0.025^(1/n).
+    for (const double width : {0.5, 0.1, 0.03, 0.001}) {
+      const int n = static_cast<int>(std::ceil(std::log(0.025) / std::log1p(-width)));
+      CHECK(trials_for_width(0, 17, width) == n);
+      CHECK(trials_for_width(17, 17, width) == n);
+    }
+    // Where the number of events is whole, it is the interval itself.
+    for (const int share : {2, 5, 10})
+      for (const double width : {0.3, 0.1, 0.04}) {
+        CAPTURE(share);
+        CAPTURE(width);
+        const int n = trials_for_width(1, share, width), above = (n + share - 1) / share * share,
+                  below = (n - 1) / share * share;
+        CHECK(probability_interval(above / share, above).width() <= width);
+        CHECK(probability_interval(below / share, below).width() > width);
+      }
+    CHECK_THROWS_AS((void)trials_for_width(0, 10, 0), InvalidInput);
+    CHECK_THROWS_AS((void)trials_for_width(1, 2, 1e-6), InvalidInput);
+    CHECK_THROWS_AS((void)trials_for_width(3, 2, 0.1), InvalidInput);
+  }
+
+  TEST_CASE("the band of a distribution holds all of its steps in 95 % of samples") {
+    CHECK(distribution_band(100) == voussoir_test::near(0.1358102).epsilon(1e-6));  // 1.358/sqrt(n)
+    std::mt19937_64 random(11);  // NOLINT: the same samples in every run
+    int held = 0;
+    constexpr int samples = 2000;
+    for (int k = 0; k < samples; ++k) {
+      std::vector<double> values;
+      for (int i = 0; i < 20; ++i) values.push_back(static_cast<double>(random() >> 11) * 0x1p-53);
+      held +=
+          kolmogorov_smirnov(Sample(values), [](double x) { return x; }) <= distribution_band(20);
+    }
+    // The exact probability for n = 20 is 96.1 % (band 0.3037 against the tabled 0.2941); 2000
+    // samples tell it to 0.45 %, within three of these.
+    CHECK(std::abs(held / static_cast<double>(samples) - 0.961) <= 0.0135);
+    CHECK_THROWS_AS((void)distribution_band(0), InvalidInput);
   }
 }
 

@@ -3,7 +3,9 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/statistics/sample.hpp>
@@ -63,6 +65,52 @@ namespace detail {
   const double tail = detail::tail(confidence);
   return {binomial::find_lower_bound_on_p(trials, events, tail),
           binomial::find_upper_bound_on_p(trials, events, tail)};
+}
+
+/// Interval for such a probability that holds it in about `confidence` of the cases on average, and
+/// less often for small ones (84 % where 0.18 events are expected): shorter than
+/// `probability_interval`, and no bound to sign.
+/// @throws InvalidInput  a value out of range
+/// Source: Wilson (1927), J. Am. Stat. Assoc. 22; Brown, Cai & DasGupta (2001), Stat. Sci. 16.
+[[nodiscard]] inline Interval wilson_interval(int events, int trials, double confidence = 0.95) {
+  require(trials >= 1, "trials", trials, ">= 1");
+  require(events >= 0 && events <= trials, "events", events, "0 to the number of trials");
+  const double z = quantile(complement(boost::math::normal(), detail::tail(confidence))),
+               n = trials, share = events / n, over = 1 + z * z / n,
+               middle = (share + z * z / (2 * n)) / over,
+               half = z / over * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n));
+  // At the ends of the range the formula gives 0 and 1 but for rounding.
+  return {events == 0 ? 0.0 : middle - half, events == trials ? 1.0 : middle + half};
+}
+
+/// How many trials in all make `probability_interval` no wider than `width`, if the share of events
+/// stays what it is.
+/// @param width  > 0 [-]
+/// @throws InvalidInput  a value out of range, or it would take more than 10^9
+[[nodiscard]] inline int trials_for_width(int events, int trials, double width,
+                                          double confidence = 0.95) {
+  require(trials >= 1, "trials", trials, ">= 1");
+  require(events >= 0 && events <= trials, "events", events, "0 to the number of trials");
+  require(width > 0, "width of the interval", width, "> 0");
+  const double tail = detail::tail(confidence), share = static_cast<double>(events) / trials;
+  // Of events that need not be a whole number: the width then falls steadily with n.
+  const auto is_narrow = [&](int n) {
+    const double k = share * n, none = n - k;
+    const double low = k > 0 ? boost::math::ibeta_inv(k, none + 1, tail) : 0,
+                 high = none > 0 ? boost::math::ibetac_inv(k + 1, none, tail) : 1;
+    return high - low <= width;
+  };
+  int few = 0, many = 1;
+  while (!is_narrow(many)) {
+    require(many < 500000000, "width of the interval", width, "what 10^9 trials can give");
+    few = many;
+    many *= 2;
+  }
+  while (many - few > 1) {
+    const int middle = few + (many - few) / 2;
+    (is_narrow(middle) ? many : few) = middle;
+  }
+  return many;
 }
 
 }  // namespace voussoir

@@ -39,4 +39,15 @@ template <class Cumulative>
   return 0.895 / (root - 0.01 + 0.85 / root);
 }
 
+/// How far the steps of n values may lie from the distribution they come from, whichever it is,
+/// over all of it at once: sqrt(ln(2 / (1 - confidence)) / (2 n)) [-].
+/// @throws InvalidInput  n < 1, or a confidence that is not between 0 and 1
+/// Source: Dvoretzky, Kiefer & Wolfowitz (1956); the constant is that of Massart (1990), Ann.
+/// Probab. 18.
+[[nodiscard]] inline double distribution_band(std::size_t n, double confidence = 0.95) {
+  require(n >= 1, "sample size n", static_cast<double>(n), ">= 1");
+  require(confidence > 0 && confidence < 1, "confidence", confidence, "> 0 and < 1");
+  return std::sqrt(std::log(2 / (1 - confidence)) / (2 * static_cast<double>(n)));
+}
+
 }  // namespace voussoir
