@@ -20,6 +20,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "bolts_strength.hpp"
 #include "lining_strength.hpp"
 #include "output_parts.hpp"
 #include "survey.hpp"
@@ -228,6 +229,8 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
         {"mean_over_p0_D_and_spacing",
          e.mean_bolt_force / (centre_stress * diameter * input.bolts.front().out_of_plane)}};
+  if (run.tunnel.bolt_count() > 0)
+    add_bolt_strength(bolt_utilisations(input, run.tunnel), json["bolts"]);
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"largest_stress_MPa", 1e-6 * lining_stress(input, run)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
@@ -255,7 +258,7 @@ std::string run_json(const Input& input, const RunResult& run) {
 
 std::string bolts_csv(const Input& input, const RunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    bolt_strengths(input, run.tunnel));
+                    crossing_strengths(bolt_utilisations(input, run.tunnel)));
 }
 
 std::string lining_csv(const Input& input, const RunResult& run) {
@@ -314,7 +317,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
-           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
+           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force) +
+           bolt_strength_line(bolt_utilisations(input, run.tunnel));
   if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +

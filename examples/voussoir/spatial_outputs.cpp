@@ -10,6 +10,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "bolts_strength.hpp"
 #include "lining_strength.hpp"
 #include "mapped_rock.hpp"
 #include "output_parts.hpp"
@@ -134,6 +135,8 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                      {"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force}};
+  if (run.tunnel.bolt_count() > 0)
+    add_bolt_strength(bolt_utilisations(input, run.tunnel), json["bolts"]);
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"strip_width_m", strip_width(input)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
@@ -155,11 +158,14 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
 
 std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    bolt_strengths(input, run.tunnel));
+                    crossing_strengths(bolt_utilisations(input, run.tunnel)));
 }
 
-std::string lining_csv(const Input&, const SpatialRunResult& run) {
-  return lining_table(lining_members(run.tunnel));
+std::string lining_csv(const Input& input, const SpatialRunResult& run) {
+  const auto members = lining_members(run.tunnel);
+  return lining_table(
+      members, strength_by_member(members, rib_forces(run.tunnel),
+                                  lining_utilisations(input, supports_of(input), run.tunnel)));
 }
 
 std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
@@ -235,7 +241,8 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
-           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
+           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force) +
+           bolt_strength_line(bolt_utilisations(input, run.tunnel));
   if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
     out += text("lining   strips %.3g m wide: thrust up to ", strip_width(input)) +
