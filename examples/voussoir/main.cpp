@@ -116,7 +116,7 @@ struct SafetyOptions {
   std::string limit = "collapse";
   double width = 1, largest = 5;  ///< of the bracket [%]; of the factors
   double loss = 0;                ///< tolerated [m^2]
-  bool from_start = false, with_supports = false;
+  bool from_start = false, with_supports = false, without_limit = false;
 
   [[nodiscard]] SafetySettings settings() const {
     return {.limit = limit == "rockfall"   ? SafetyLimit::rockfall
@@ -151,6 +151,7 @@ void add_safety_options(CLI::App& verb, SafetyOptions& chosen) {
   verb.add_flag("--with-supports", chosen.with_supports,
                 "divide what bolts, feet and the bond of a lining bear, too")
       ->needs(from_start);
+  verb.add_flag("--no-limit", chosen.without_limit, "without the bound by limit analysis");
 }
 
 /// Where this program lies, for scripts that call it from elsewhere.
@@ -441,7 +442,8 @@ int run_program(int argc, char** argv) {
     if (*report) return report_verb(options, report_file, wants_pdf);
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
-    if (*safety) return safety_verb(options, safety_options.settings());
+    if (*safety)
+      return safety_verb(options, safety_options.settings(), !safety_options.without_limit);
     if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);

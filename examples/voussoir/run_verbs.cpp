@@ -210,7 +210,7 @@ int check_verb(const Options& options, bool wants_picture) {
   return finished;
 }
 
-int safety_verb(const Options& options, const SafetySettings& settings) {
+int safety_verb(const Options& options, const SafetySettings& settings, bool wants_limit) {
   work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(utf8_path(options.file), options.overrides);
   RunFolder outputs(options.folder);
@@ -228,8 +228,9 @@ int safety_verb(const Options& options, const SafetySettings& settings) {
                              .add(static_cast<int>(settings.limit))
                              .add(static_cast<int>(settings.from_start))
                              .add(static_cast<int>(settings.with_supports))
+                             .add(static_cast<int>(wants_limit))
                              .text();
-  const SafetyAnswer answer = safety_of(input, settings, report);
+  const SafetyAnswer answer = safety_of(input, settings, wants_limit, report);
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";

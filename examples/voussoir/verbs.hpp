@@ -128,7 +128,8 @@ struct PlanOptions {
 /// @param steps  in which the wall is unloaded, 2-D
 [[nodiscard]] int grc_verb(const Options& options, int steps);
 /// The factor of safety by strength reduction, and what falls beyond it.
-[[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings);
+[[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings,
+                              bool wants_limit);
 /// @param file  to be written, which must not be there; empty: standard output
 [[nodiscard]] int init_verb(const std::string& name, const std::string& file);
 
