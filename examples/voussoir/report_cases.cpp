@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a report says of many tunnels: realisations of the rock, the interaction diagram, a sweep;
-// and of the factor of safety.
+// What a report says of many tunnels: realisations of the rock, the cheapest support, the
+// interaction diagram, a sweep; and of the factor of safety.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 #include "report_pictures.hpp"
@@ -21,7 +22,7 @@ using html::Table;
 constexpr std::size_t listed = 60;  ///< rows of a table of tunnels
 
 /// A share of tunnels with its interval.
-void add_share(Table& table, const Json& json, const char* key, const char* name) {
+void add_share(Table& table, const Json& json, const char* key, const std::string& name) {
   if (!json.contains(key) || !json[key].is_object()) return;
   const Json& share = json[key];
   table.add({name, shown(number_at(share, "/events")) + " of " + shown(number_at(share, "/of")),
@@ -168,10 +169,27 @@ Section realisations_section(const ReportFiles& files) {
       shown_count(static_cast<std::size_t>(std::max(0.0, number_at(json, "/realisations"))),
                   "realisation") +
       " of the rock, seeds from " + shown(number_at(json, "/first_seed")) + " on.");
-  Table shares("Probabilities, with their 95 % confidence interval (Wilson)",
+  Table shares("Probabilities, with their 95 % confidence interval (Clopper and Pearson)",
                {{"event", "", Kind::text}, {"tunnels"}, {"share"}, {"between"}});
-  add_share(shares, json, "rockfall_or_collapse", "rock falls");
-  add_share(shares, json, "collapse", "the tunnel collapses");
+  for (const Json& event : list_at(json, "/probabilities"))
+    add_share(shares, event, "probability", words_at(event, "/event"));
+  std::vector<Column> columns{{"key", "", Kind::text}, {"distribution", "", Kind::text}};
+  const std::vector<Json> keys = list_at(json, "/uncertain_keys/keys");
+  if (!keys.empty())
+    for (const auto& [outcome, value] : keys.front().at("rank_correlations").items())
+      columns.push_back({outcome});
+  Table influences(
+      "Rank correlations of what is not known: those beyond ±" +
+          shown_fixed(number_at(json, "/uncertain_keys/rank_correlation_by_chance_95"), 2) +
+          " are not by chance (95 %)",
+      columns);
+  for (const Json& key : keys) {
+    std::vector<std::string> cells{words_at(key, "/key"), words_at(key, "/distribution")};
+    for (const auto& [outcome, value] : key.at("rank_correlations").items())
+      cells.push_back(value.is_number() ? shown_fixed(value.get<double>(), 2) : "–");
+    cells.resize(columns.size());
+    influences.add(cells);
+  }
   Table verdicts("", {{"verdict", "", Kind::text}, {"tunnels"}});
   if (json.contains("verdicts") && json["verdicts"].is_object())
     for (const auto& [verdict, count] : json["verdicts"].items())
@@ -192,10 +210,50 @@ Section realisations_section(const ReportFiles& files) {
                       shown(number_at(value, "/value_of_quantile")) + " (" +
                           shown_percent(number_at(value, "/quantile")) + ")",
                       shown(number_at(value, "/realisations_with_a_value"))});
-  section.body += shares.text() + verdicts.text() + quantities.text();
+  section.body += shares.text() + verdicts.text() + quantities.text() + influences.text();
   if (files.has("realisations.svg"))
     section.body += html::figure(files.text("realisations.svg"), "realisations-figure",
                                  "How the realisations are distributed.");
+  return section;
+}
+
+Section design_section(const ReportFiles& files) {
+  Section section{"design", "Cheapest support that holds", ""};
+  const Json json = files.json("design.json");
+  if (json.is_null()) return section;
+  const std::string unit = words_at(json, "/currency") + "/m";
+  section.body = html::paragraph(words_at(json, "/text"));
+  if (files.has("design.svg"))
+    section.body += html::figure(files.text("design.svg"), "design-figure",
+                                 "What supports cost, and which of them hold.", true);
+  Table tried("Supports that were computed", {{"bolts", "", Kind::text},
+                                              {"lining", "cm"},
+                                              {"cost", unit},
+                                              {"holds", "", Kind::text},
+                                              {"broken in"},
+                                              {"nearest criterion", "", Kind::text},
+                                              {"of its limit"}});
+  for (const Json& support : list_at(json, "/supports")) {
+    if (!holds_at(support, "/computed")) continue;
+    std::string nearest = "–";
+    double most = std::numeric_limits<double>::quiet_NaN();
+    for (const Json& criterion : list_at(support, "/criteria")) {
+      const double worst = number_at(criterion, "/worst_over_limit");
+      if (!(most >= worst) && std::isfinite(worst)) {
+        most = worst;
+        nearest = words_at(criterion, "/broken_by");
+      }
+    }
+    const bool holds = holds_at(support, "/holds");
+    tried.add(
+        {words_at(support, "/bolt_spacing"), shown(number_at(support, "/lining_thickness_cm")),
+         shown(number_at(support, "/cost_per_m"), 4), holds ? "yes" : "no",
+         shown(number_at(support, "/broken/events")) + " of " +
+             shown(number_at(support, "/broken/of")),
+         nearest, shown_percent(most, 3)},
+        holds ? html::Tone::plain : html::Tone::bad);
+  }
+  section.body += tried.text();
   return section;
 }
 
@@ -221,6 +279,9 @@ Section diagram_section(const ReportFiles& files) {
 
 Section sweep_section(const ReportFiles& files) {
   Section section{"sweep", "Sweep", ""};
+  if (files.has("sweep.svg"))
+    section.body += html::figure(files.text("sweep.svg"), "sweep-figure",
+                                 "Convergence of the crown over what is varied.");
   if (files.has("sweep_means.csv"))
     section.body += tunnels_table(files.table("sweep_means.csv"), "sweep_means.csv",
                                   "Means over the realisations");

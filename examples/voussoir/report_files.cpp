@@ -32,10 +32,11 @@ const std::vector<FileGroup>& groups() {
         "blocks.csv", "contacts.csv"}},
       {"safety", {"safety.json", "safety.csv", "safety.svg"}},
       {"realisations", {"realisations.json", "realisations.csv", "realisations.svg"}},
+      {"design", {"design.json", "design.csv", "design.svg"}},
       {"diagram",
        {"interaction.csv", "interaction.svg", "interaction_quantile.svg",
         "interaction_rockfall.svg"}},
-      {"sweep", {"sweep.csv", "sweep_means.csv"}}};
+      {"sweep", {"sweep.csv", "sweep_means.csv", "sweep.svg"}}};
   return all;
 }
 
@@ -53,8 +54,8 @@ bool is_shown(const std::string& name) {
 }
 
 constexpr const char* what_is_accepted =
-    "\n   = accepted: a folder of results as voussoir run, diagram, realisations or sweep --out "
-    "writes it";
+    "\n   = accepted: a folder of results as voussoir run, safety, diagram, design, realisations "
+    "or sweep --out writes it";
 
 /// Cells of rows, by the rules of RFC 4180.
 std::vector<std::vector<std::string>> rows_of(std::string_view text) {
@@ -206,7 +207,8 @@ std::string ReportFiles::run_id() const {
 }
 
 void ReportFiles::check() const {
-  std::string leader, tunnel;  // the file that leads, the id of its run
+  std::string leader, tunnel;      // the file that leads, the id of its run
+  std::vector<std::string> known;  // that, and the ids of what is of the same tunnel
   for (const FileGroup& group : groups()) {
     std::string first, id;
     for (const char* const name : group.names) {
@@ -229,11 +231,12 @@ void ReportFiles::check() const {
         if (leader.empty()) {
           leader = first;
           tunnel = of;
-        } else if (of != tunnel) {
+        } else if (std::find(known.begin(), known.end(), of) == known.end()) {
           throw InvalidInput(path_of(name) + " is of another run (" + id + ") than " + leader +
                              " (" + tunnel +
                              "): a report is of one\n   = accepted: a folder for each of them");
         }
+        known.insert(known.end(), {of, id});
       } else if (found != id) {
         throw InvalidInput(path_of(name) + " is of another run (" + found + ") than " + first +
                            " (" + id +

@@ -70,6 +70,7 @@ struct LargestConvergence {
 // Sections of what other verbs wrote, beside a run or alone.
 [[nodiscard]] html::Section safety_section(const ReportFiles& files);
 [[nodiscard]] html::Section realisations_section(const ReportFiles& files);
+[[nodiscard]] html::Section design_section(const ReportFiles& files);
 [[nodiscard]] html::Section diagram_section(const ReportFiles& files);
 [[nodiscard]] html::Section sweep_section(const ReportFiles& files);
 

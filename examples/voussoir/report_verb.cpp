@@ -129,7 +129,7 @@ std::string report_page(const ReportFiles& files) {
     page.cards.push_back({"Factor of safety", shown(factor), "",
                           "stands over " + shown(number_at(safety, "/stands_over")) +
                               ", falls over " + shown(number_at(safety, "/falls_over"))});
-  for (auto section : {realisations_section, diagram_section, sweep_section})
+  for (auto section : {realisations_section, design_section, diagram_section, sweep_section})
     page.sections.push_back(section(files));
   page.sections.insert(page.sections.end(), last.begin(), last.end());
   std::string names;

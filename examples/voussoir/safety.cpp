@@ -14,6 +14,7 @@
 #include "blocks_outputs.hpp"
 #include "output_parts.hpp"
 #include "plausibility.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -223,6 +224,7 @@ std::string safety_json(const Input& input, const SafetySettings& settings,
       {"schema", 1},
       {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
       {"title", input.title},
+      {"tunnel_id", RunId(input.laid ? "blocks" : "tunnel").add(input).text()},
       {"factor_of_safety", answer.bracket.stands > 0 ? Json(answer.bracket.stands) : Json()},
       {"text", answer.text()},
       {"stands_over", answer.bracket.stands > 0 ? Json(answer.bracket.stands) : Json()},
