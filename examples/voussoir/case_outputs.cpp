@@ -2,9 +2,7 @@
 #include "case_outputs.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
@@ -12,130 +10,13 @@
 #include "case_statistics.hpp"
 #include "diagram_outputs.hpp"
 #include "realisations_outputs.hpp"
+#include "sweep_outputs.hpp"
 
 namespace voussoir::program {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// A key as a column: its values as numbers with the unit in the name, where all have one unit.
-struct KeyColumn {
-  std::string name;
-  std::vector<std::string> cells;
-};
-
-/// "_GPa_per_m" of "GPa/m".
-std::string unit_suffix(const std::string& unit) {
-  std::string words;
-  for (const char c : unit) {
-    if (c == '/')
-      words += words.empty() ? "per_" : "_per_";
-    else if (c == '%')
-      words += "percent";
-    else if (c != '^' && c != ' ')
-      words += c;
-  }
-  return words.empty() ? "" : "_" + words;
-}
-
-KeyColumn column_of(const VariedKey& varied) {
-  KeyColumn column{varied.key, varied.values};
-  std::string unit;
-  std::vector<std::string> numbers;
-  for (const std::string& text : varied.values) {
-    std::string value = text;
-    if (value.size() > 1 && value.front() == '"' && value.back() == '"')
-      value = value.substr(1, value.size() - 2);
-    double number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{}) return column;
-    const std::string digits(value.data(), static_cast<std::size_t>(end - value.data()));
-    std::string rest = value.substr(digits.size());
-    rest.erase(0, std::min(rest.find_first_not_of(' '), rest.size()));
-    if (!numbers.empty() && rest != unit) return column;
-    unit = rest;
-    numbers.push_back(digits);
-  }
-  column.cells = numbers;
-  column.name += unit_suffix(unit);
-  return column;
-}
-
-/// The cells of a case under the varied keys.
-std::vector<std::string> key_cells(const std::vector<KeyColumn>& columns, std::size_t combination) {
-  std::vector<std::string> cells(columns.size());
-  for (std::size_t k = columns.size(); k-- > 0;) {
-    cells[k] = columns[k].cells[combination % columns[k].cells.size()];
-    combination /= columns[k].cells.size();
-  }
-  return cells;
-}
-
 std::string number(double value) { return significant_text(value, 6); }
-
-std::string means_csv(const CasePlan& plan, const std::vector<KeyColumn>& columns,
-                      const std::vector<TunnelResult>& results) {
-  const std::string quantile = "_quantile_" + fixed_text(100 * reported_quantile, 0) + "_percent";
-  std::vector<std::string> header;
-  for (const KeyColumn& column : columns) header.push_back(column.name);
-  for (const char* const name :
-       {"realisations", "stable", "stable_after_rockfall", "stable_without_lining", "collapse",
-        "undecided", "failed", "marginal", "supports_yielded", "rockfall_share",
-        "rockfall_share_low_95", "rockfall_share_high_95"})
-    header.emplace_back(name);
-  for (const std::string quantity :
-       {"crown_convergence_mm", "largest_bolt_force_kN", "mean_bolt_force_kN",
-        "largest_thrust_kN_per_m", "largest_moment_kNm_per_m", "lining_of_its_strength"})
-    for (const std::string& what :
-         {std::string("_mean"), std::string("_deviation"), std::string("_mean_low_95"),
-          std::string("_mean_high_95"), quantile})
-      header.push_back(quantity + what);
-  CsvTable table(header);
-  const auto seeds = static_cast<std::size_t>(plan.parts().realisations);
-  for (std::size_t k = 0; k * seeds < results.size(); ++k) {
-    const Realised r = realised_in(plan, results, k);
-    std::vector<std::string> cells = key_cells(columns, k);
-    for (const int count : {r.count, r.whole, r.shedding, r.without_lining, r.collapsed,
-                            r.undecided, r.failed, r.marginal, r.yielded})
-      cells.push_back(std::to_string(count));
-    const Share share = r.rockfall();
-    const Interval shares = share.trials > 0 ? share.interval() : Interval{none, none};
-    cells.push_back(number(share.trials > 0 ? share.value() : none));
-    cells.push_back(number(shares.low));
-    cells.push_back(number(shares.high));
-    const auto add = [&](const Quantity& q, double scale) {
-      const Interval between = q.mean_between().value_or(Interval{none, none});
-      for (const double value : {q.mean(), q.deviation(), between.low, between.high, q.quantile()})
-        cells.push_back(number(scale * value));
-    };
-    add(r.crown, 1e3);
-    add(r.largest_bolt_force, 1e-3);
-    add(r.mean_bolt_force, 1e-3);
-    add(r.largest_thrust, 1e-3);
-    add(r.largest_moment, 1e-3);
-    add(r.of_lining_strength, 1);
-    table.add_cells(cells);
-  }
-  return table.text();
-}
-
-CaseOutputs sweep_outputs(const CasePlan& plan, const std::vector<TunnelResult>& results) {
-  std::vector<KeyColumn> columns;
-  for (const VariedKey& varied : plan.parts().varied) columns.push_back(column_of(varied));
-  CaseOutputs outputs;
-  outputs.files["sweep.csv"] = tunnels_csv(plan, results);
-  if (plan.parts().realisations > 1)
-    outputs.files["sweep_means.csv"] = means_csv(plan, columns, results);
-  const Realised all(results);
-  outputs.summary = "sweep    " + std::to_string(results.size()) + " tunnels over";
-  for (const VariedKey& varied : plan.parts().varied)
-    outputs.summary += (&varied == &plan.parts().varied.front() ? " " : ", ") + varied.key + " (" +
-                       std::to_string(varied.values.size()) + ")";
-  outputs.summary += ", " + seeds_text(plan) + "\nverdicts " + all.verdicts() + "\n";
-  outputs.summary += strength_text(plan) + warnings_text(results);
-  return outputs;
-}
 
 }  // namespace
 

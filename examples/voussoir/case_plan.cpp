@@ -155,9 +155,14 @@ std::string value_of(const std::string& line) {
 }  // namespace
 
 bool is_of_support(std::string_view key) {
-  for (const char* const head : {"support", "stage", "run.", "diagram", "title", "criteria"})
+  for (const char* const head :
+       {"support", "stage", "run.", "diagram", "title", "criteria", "costs"})
     if (key.starts_with(head)) return true;
   return false;
+}
+
+bool is_of_choice(std::string_view line) {
+  return line.starts_with("criteria.") || line.starts_with("costs.");
 }
 
 const char* to_string(PlanVerb verb) {
@@ -243,7 +248,7 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
     id.add(sources_hash).add(joints);
     for (const std::string& line : input->content)
       if (!names_a_file(line) && !line.starts_with("diagram.") && !line.starts_with("title = ") &&
-          !line.starts_with(criteria_head))
+          !is_of_choice(line))
         id.add(line);
     id.add(std::to_string(the_case.seed));
     if (the_case.place) {
@@ -275,8 +280,7 @@ CasePlan::CasePlan(PlanParts parts) : parts_(std::move(parts)) {
   std::string of_run, of_work;
   for (const std::string& line : content_) {
     if (!line.starts_with("program = ")) of_run += line + "\n";
-    if (!line.starts_with(realisations_line) && !line.starts_with(criteria_head))
-      of_work += line + "\n";
+    if (!line.starts_with(realisations_line) && !is_of_choice(line)) of_work += line + "\n";
   }
   run_id_ = text_hash(of_run);
   work_id_ = text_hash(of_work);

@@ -141,8 +141,9 @@ class CasePlan {
 /// Of the content of a plan: how many realisations it has, which may grow in the same folder.
 inline constexpr std::string_view realisations_line = "realisations = ";
 
-/// Of the content: what the results are held against, which changes none of them.
-inline constexpr std::string_view criteria_head = "criteria.";
+/// A line of the content by which results are judged, and which changes none of them: criteria,
+/// costs.
+[[nodiscard]] bool is_of_choice(std::string_view line);
 
 /// Whether the rock, its stress and its boundary do not depend on a key.
 /// @param key  or a line of an input's content that begins with one

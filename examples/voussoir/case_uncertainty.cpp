@@ -9,59 +9,11 @@
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/statistics/rank_correlation.hpp>
 
+#include "design_criteria.hpp"
+
 namespace voussoir::program {
 
 namespace {
-
-constexpr double beyond_any = std::numeric_limits<double>::infinity();
-
-/// Of a tunnel that is decided: its value, or worse than any where it has none.
-double ranked(const TunnelResult& r, double value) {
-  const bool stands = r.verdict == Verdict::stable;
-  return stands && std::isfinite(value) ? value : beyond_any;
-}
-
-bool has_bolt_strength(const Input& input) {
-  return std::any_of(input.bolts.begin(), input.bolts.end(), [](const BoltsInput& pattern) {
-    return std::isfinite(bolt_strength(pattern));
-  });
-}
-
-bool has_lining_strength(const Input& input) {
-  return std::any_of(input.linings.begin(), input.linings.end(),
-                     [](const LiningInput& lining) { return lining.concrete.has_value(); });
-}
-
-/// Something about a tunnel that is decided, and the limit it should keep.
-struct Limit {
-  std::string what;
-  std::function<bool(const TunnelResult&)> is_exceeded;
-};
-
-std::vector<Limit> limits_of(const Input& input) {
-  const CriteriaInput& criteria = input.criteria;
-  std::vector<Limit> limits{
-      {"rockfall",
-       [](const TunnelResult& r) { return r.verdict == Verdict::collapse || r.fallen > 0; }},
-      {"collapse", [](const TunnelResult& r) { return r.verdict == Verdict::collapse; }}};
-  if (const auto most = criteria.convergence)
-    limits.push_back(
-        {"crown convergence above " + format_quantity(*most, dimension::length),
-         [most](const TunnelResult& r) { return ranked(r, r.convergence.crown) > *most; }});
-  if (has_bolt_strength(input)) {
-    const double most = criteria.bolt_utilisation.value_or(1);
-    limits.push_back(
-        {"bolt utilisation above " + trimmed_text(most, 3),
-         [most](const TunnelResult& r) { return ranked(r, r.of_bolt_strength) > most; }});
-  }
-  if (has_lining_strength(input)) {
-    const double most = criteria.utilisation.value_or(1);
-    limits.push_back(
-        {"lining utilisation above " + trimmed_text(most, 3),
-         [most](const TunnelResult& r) { return ranked(r, r.of_lining_strength) > most; }});
-  }
-  return limits;
-}
 
 /// "5", "12.5", "0.31"
 std::string percent(double share) { return significant_text(100 * share, 3); }
@@ -75,9 +27,9 @@ std::string padded(std::string text, std::size_t width) {
 
 std::vector<UnwantedEvent> unwanted_events(const Input& input,
                                            std::span<const TunnelResult> results) {
-  const std::vector<Limit> limits = limits_of(input);
+  const std::vector<DesignLimit> limits = limits_of(input);
   std::vector<UnwantedEvent> events;
-  for (const Limit& limit : limits) events.push_back({limit.what, {}});
+  for (const DesignLimit& limit : limits) events.push_back({limit.what, {}});
   UnwantedEvent any{"any of these", {}};
   for (const TunnelResult& r : results) {
     if (r.failed || r.verdict == Verdict::undecided) continue;

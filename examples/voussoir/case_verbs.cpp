@@ -185,6 +185,8 @@ void together(const Ranks& ranks, const Step& step) {
   throw FailedElsewhere();
 }
 
+}  // namespace
+
 CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& settings) {
   work = {"reading " + options.file, "a smaller input file"};
   PlanParts parts{.verb = verb,
@@ -197,6 +199,8 @@ CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& setti
   for (const std::string& text : settings.varied) parts.varied.push_back(varied_key(text));
   return CasePlan(std::move(parts));
 }
+
+namespace {
 
 /// After how many realisations is looked whether they are enough: where the Latin hypercube is
 /// even, and few times, for whoever looks often is lucky sooner.

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -156,7 +157,7 @@ bool has_more_realisations(const CasePlan& plan, const std::vector<std::string>&
 
 /// Without what results are held against: that may change in a folder.
 std::vector<std::string> without_criteria(std::vector<std::string> content) {
-  std::erase_if(content, [](const std::string& line) { return line.starts_with(criteria_head); });
+  std::erase_if(content, is_of_choice);
   return content;
 }
 
@@ -290,11 +291,17 @@ void FinishedCases::add_folder(const fs::path& folder, const CasePlan& plan) {
 }
 
 std::vector<TunnelResult> FinishedCases::results(const CasePlan& plan) const {
-  std::vector<TunnelResult> all;
-  all.reserve(plan.size());
-  for (std::size_t k = 0; k < plan.size(); ++k)
-    all.push_back(result_from_json(results_.at(plan.name(k))));
-  return all;
+  std::vector<std::size_t> cases(plan.size());
+  std::iota(cases.begin(), cases.end(), 0);
+  return results(plan, cases);
+}
+
+std::vector<TunnelResult> FinishedCases::results(const CasePlan& plan,
+                                                 const std::vector<std::size_t>& cases) const {
+  std::vector<TunnelResult> found;
+  found.reserve(cases.size());
+  for (const std::size_t k : cases) found.push_back(result_from_json(results_.at(plan.name(k))));
+  return found;
 }
 
 std::vector<std::size_t> FinishedCases::missing(const CasePlan& plan) const {

@@ -43,6 +43,9 @@ class FinishedCases {
   [[nodiscard]] std::size_t size() const { return results_.size(); }
   /// In the order of the plan. @pre  all are there
   [[nodiscard]] std::vector<TunnelResult> results(const CasePlan& plan) const;
+  /// Of these, in their order. @pre  they are there
+  [[nodiscard]] std::vector<TunnelResult> results(const CasePlan& plan,
+                                                  const std::vector<std::size_t>& cases) const;
   /// Indices of those that are not there.
   [[nodiscard]] std::vector<std::size_t> missing(const CasePlan& plan) const;
   /// About lines that were damaged: a sentence each.

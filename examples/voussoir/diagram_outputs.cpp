@@ -19,10 +19,24 @@
 
 namespace voussoir::program {
 
+double in_own_unit(const BoltSpacing& spacing) {
+  return spacing.value / (spacing.is_angle ? std::numbers::pi / 180 : 1.0);
+}
+std::string spacing_text(const std::optional<BoltSpacing>& spacing, const char* degrees) {
+  if (!spacing) return "no bolts";
+  return significant_text(in_own_unit(*spacing), 6) + (spacing->is_angle ? degrees : " m");
+}
+std::string spacing_cell(const std::optional<BoltSpacing>& spacing) {
+  return spacing ? significant_text(in_own_unit(*spacing), 6) : "none";
+}
+const char* spacing_column(const DiagramInput& axes) {
+  return axes.spacing.front() && axes.spacing.front()->is_angle ? "bolt_spacing_deg"
+                                                                : "bolt_spacing_m";
+}
+
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = std::numbers::pi / 180;
 
 /// The tunnels of one place in the diagram, over the seeds.
 struct Place {
@@ -42,21 +56,6 @@ std::vector<Place> places_of(const CasePlan& plan, const std::vector<TunnelResul
       places.push_back({i, j, tunnels, Realised(tunnels)});
     }
   return places;
-}
-
-double in_own_unit(const BoltSpacing& spacing) {
-  return spacing.value / (spacing.is_angle ? degree : 1.0);
-}
-std::string spacing_text(const std::optional<BoltSpacing>& spacing, const char* degrees) {
-  if (!spacing) return "no bolts";
-  return significant_text(in_own_unit(*spacing), 6) + (spacing->is_angle ? degrees : " m");
-}
-std::string spacing_cell(const std::optional<BoltSpacing>& spacing) {
-  return spacing ? significant_text(in_own_unit(*spacing), 6) : "none";
-}
-const char* spacing_column(const DiagramInput& axes) {
-  return axes.spacing.front() && axes.spacing.front()->is_angle ? "bolt_spacing_deg"
-                                                                : "bolt_spacing_m";
 }
 
 std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) {

@@ -86,6 +86,15 @@ void read_criteria(Section& s, CriteriaInput& criteria) {
              {.low = 0, .high = 1, .low_included = false, .high_included = false});
 }
 
+void read_costs(Section& s, CostsInput& costs) {
+  s.text("currency", costs.currency);
+  s.number("bolt_per_metre", costs.bolt_per_metre, at_least(0), Need::optional);
+  s.number("bolt_per_hole", costs.bolt_per_hole, at_least(0), Need::optional);
+  s.number("concrete_per_m3", costs.concrete_per_m3, at_least(0), Need::optional);
+  s.quantity("rebound", costs.rebound, dimension::number, between(0, 0.9), Need::optional);
+  s.number("steel_per_kg", costs.steel_per_kg, at_least(0), Need::optional);
+}
+
 void read_all(Section& file, Input& input, const std::filesystem::path& directory) {
   int schema = 1;
   file.integer("schema", schema, 1, 1);
@@ -163,6 +172,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
   refuse_loads_on_blocks(file);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
   file.optional_table("criteria", [&](Section& s) { read_criteria(s, input.criteria); });
+  file.optional_table("costs", [&](Section& s) { read_costs(s, input.costs.emplace()); });
   file.finish();
 }
 

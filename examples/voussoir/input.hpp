@@ -105,6 +105,7 @@ struct Input : AnalysisInput {
   PictureInput picture;
   std::optional<DiagramInput> diagram;
   CriteriaInput criteria;
+  std::optional<CostsInput> costs;  ///< of supports, for `design`
   /// Keys with a distribution; the values above are those of their medians.
   std::vector<UncertainKey> uncertain;
   /// Blocks in place of a tunnel: of the others model.gravity, rock, joint and run are then given.

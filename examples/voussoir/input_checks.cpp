@@ -540,9 +540,19 @@ void check_criteria(Checker& checker, const Input& input) {
                    "support.lining.concrete beside it");
 }
 
+void check_costs(Checker& checker, const Input& input) {
+  if (!input.costs || checker.faulty("costs")) return;
+  const CostsInput& costs = *input.costs;
+  if (!(costs.bolt_per_metre + costs.bolt_per_hole + costs.concrete_per_m3 + costs.steel_per_kg >
+        0))
+    checker.report("costs", "has no price above 0: every support costs nothing",
+                   "bolt_per_metre, bolt_per_hole, concrete_per_m3 or steel_per_kg");
+}
+
 }  // namespace
 
 void check_together(Checker& checker, Input& input) {
+  check_costs(checker, input);
   check_opening(checker, input);
   check_snap(checker, input);
   check_linings(checker, input);

@@ -179,7 +179,8 @@ int run_program(int argc, char** argv) {
       "and realisations: one of their tunnels), 4 numerical fault, " +
       std::string(has_paper ? "5 a check of verify fails, " : "") +
       "6 the\n"
-      "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 130\n"
+      "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 9\n"
+      "design: no support on the axes holds, 130\n"
       "interrupted (results are not written; finished cases are kept).");
   Ranks ranks(argc, argv);
   Options options;
@@ -283,7 +284,15 @@ int run_program(int argc, char** argv) {
                    "KEY=A, B, C or KEY=A..B UNIT:N (N values), for example "
                    "support.lining.thickness=\"5 cm, 10 cm\"")
       ->allow_extra_args(false);
-  for (CLI::App* verb : {diagram, realisations, sweep}) {
+  CLI::App* design = app.add_subcommand(
+      "design", "the cheapest supports on the axes of [diagram] that comply with [criteria]");
+  add_input(design);
+  add_threads(design);
+  bool is_sure = false;
+  design->add_flag("--sure", is_sure,
+                   "criteria.probability with 95 % confidence, not only as the share found");
+  design->add_flag("--json", options.json, "print JSON in place of words");
+  for (CLI::App* verb : {diagram, design, realisations, sweep}) {
     CLI::Option* const count =
         verb->add_option("-n,--realisations", plan.realisations,
                          "of the rock: seeds model.seed, model.seed + 1, ...")
@@ -303,6 +312,7 @@ int run_program(int argc, char** argv) {
         ->check(CLI::IsMember({"latin", "random"}));
     verb->add_flag("--discard", plan.discard,
                    "remove the cases of another input or program from the folder first");
+    if (verb == design) continue;
     verb->add_option(
             "--plan", plan.engine,
             "compute nothing here: write a job array for Slurm, or a workflow for Snakemake")
@@ -427,6 +437,7 @@ int run_program(int argc, char** argv) {
     if (*paper) return paper_verb(options, samples, pages);
     if (*verify) return verify_verb(options);
     if (*diagram) return plan_verb(options, PlanVerb::diagram, plan);
+    if (*design) return design_verb(options, plan, is_sure);
     if (*realisations) return plan_verb(options, PlanVerb::realisations, plan);
     if (*sweep) return plan_verb(options, PlanVerb::sweep, plan);
     if (*one_case) return case_verb(options, chunk);

@@ -28,6 +28,7 @@ enum ExitStatus {
   stands_after_rockfall = 6,
   collapsed = 7,
   incomplete = 8,
+  nothing_holds = 9,
   interrupted = 130
 };
 
@@ -131,6 +132,11 @@ struct PlanOptions {
 /// @param file  to be written, which must not be there; empty: standard output
 [[nodiscard]] int init_verb(const std::string& name, const std::string& file);
 
+/// @throws as `CasePlan`
+[[nodiscard]] CasePlan plan_of(const Options& options, PlanVerb verb, const PlanOptions& settings);
+/// The cheapest supports on the axes of a diagram that comply with [criteria]; in the folder of
+/// that diagram, of which it computes as little as it takes.
+[[nodiscard]] int design_verb(const Options& options, const PlanOptions& settings, bool is_sure);
 /// `diagram`, `realisations`, `sweep`.
 [[nodiscard]] int plan_verb(const Options& options, PlanVerb verb, const PlanOptions& settings);
 /// One chunk of a plan, "3/60"; options.file names the plan or its folder.

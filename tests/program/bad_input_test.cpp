@@ -278,8 +278,8 @@ TEST_SUITE("program/bad_input") {
       CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
       CHECK(
           outcome.err.find(
-              "accepted: init, check, run, blocks, grc, explain, schema, completion, diff, diagram, "
-              "realisations, sweep, case, merge, patterns" +
+              "accepted: init, check, run, blocks, grc, safety, explain, schema, completion, diff, "
+              "diagram, realisations, sweep, design, case, merge, patterns" +
               std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
     }
   }

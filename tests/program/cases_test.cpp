@@ -319,7 +319,7 @@ TEST_SUITE("program/cases") {
     CAPTURE(local.err);
     REQUIRE(local.status == 0);
     const auto expected = results_in(folder / "local");
-    REQUIRE(expected.size() == 2);
+    REQUIRE(expected.size() == 3);  // two tables and a picture
     CHECK(finished_in(folder / "local").size() == 18);
 
     CHECK(run_program(sweep(file, folder / "threads", {"-j", "3"})).status == 0);

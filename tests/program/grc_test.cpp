@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "run_results.hpp"
+#include "table_rows.hpp"
 
 namespace grc_test {
 
@@ -18,26 +18,6 @@ using namespace voussoir_test;
 namespace {
 
 using Row = std::map<std::string, std::string>;
-
-std::vector<Row> rows_of(const std::string& csv) {
-  std::vector<Row> rows;
-  std::vector<std::string> head;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.ends_with('\r')) line.pop_back();
-    std::vector<std::string> cells;
-    std::istringstream fields(line);
-    for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
-    if (head.empty()) {
-      head = cells;
-      continue;
-    }
-    Row row;
-    for (std::size_t k = 0; k < std::min(head.size(), cells.size()); ++k) row[head[k]] = cells[k];
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 double number(const Row& row, const char* column) { return std::stod(row.at(column)); }
 

@@ -99,7 +99,8 @@ std::vector<Base> bases() {
       {ground + joints + horseshoe + supports +
        "[boundary]\nsides = \"elastic\"\nbase = \"elastic\"\nE = \"5 GPa\"\nnu = 0.2\n"
        "[run]\nmethod = \"explicit\"\n[diagram]\nspacing = [\"20 deg\", \"none\"]\n"
-       "thickness = [\"0 cm\", \"20 cm\"]\n[criteria]\nconvergence = \"20 mm\"\n"},
+       "thickness = [\"0 cm\", \"20 cm\"]\n[criteria]\nconvergence = \"20 mm\"\n"
+       "[costs]\nbolt_per_metre = 20\nconcrete_per_m3 = 400\n"},
       {ground + joints + horseshoe + supports +
        "[[stage]]\nwall_traction = 0.5\n"
        "[[stage]]\nwall_traction = 0\n"},

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 #include <voussoir/design/section_capacity.hpp>
 
 #include "run_results.hpp"
+#include "table_rows.hpp"
 
 namespace lining_strength_test {
 
@@ -36,25 +36,6 @@ const std::string mesh =
     plain +
     "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"4 cm\"\n"
     "[[support.lining.concrete.bars]]\ndiameter = \"8 mm\"\nspacing = \"10 cm\"\ndepth = \"11 cm\"\n";
-
-/// The rows of a table, cells with commas in quotes.
-std::vector<std::vector<std::string>> cells_of(const std::string& table) {
-  std::vector<std::vector<std::string>> rows(1, {""});
-  bool is_quoted = false;
-  for (const char c : table) {
-    if (c == '"')
-      is_quoted = !is_quoted;
-    else if (c == '\n' && !is_quoted)
-      rows.push_back({""});
-    else if (c == ',' && !is_quoted)
-      rows.back().emplace_back();
-    else if (c != '\r')
-      rows.back().back() += c;
-  }
-  if (rows.back().size() == 1 && rows.back().front().empty())
-    rows.pop_back();  // the last line ends
-  return rows;
-}
 
 std::size_t column(const std::vector<std::vector<std::string>>& rows, const char* name) {
   const auto at = std::find(rows.front().begin(), rows.front().end(), name);

@@ -11,6 +11,7 @@
 
 #include "harness.hpp"
 #include "support/near.hpp"
+#include "table_rows.hpp"
 
 namespace program_strength_test {
 
@@ -49,26 +50,6 @@ Run run(const Folder& folder, const std::string& file, const std::vector<std::st
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
   const Outcome outcome = run_program(arguments);
   return {outcome, Json::parse(read_file(folder / (name + "/run.json"))), folder / name};
-}
-
-/// One cell of a table without line breaks in its cells.
-std::string cell(const std::string& table, std::size_t row, const std::string& column) {
-  std::vector<std::vector<std::string>> rows(1, {""});
-  bool quoted = false;
-  for (const char c : table) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == '\n' && !quoted)
-      rows.push_back({""});
-    else if (c == ',' && !quoted)
-      rows.back().emplace_back();
-    else if (c != '\r')
-      rows.back().back() += c;
-  }
-  for (std::size_t k = 0; k < rows.front().size(); ++k)
-    if (rows.front()[k] == column) return rows.at(row).at(k);
-  FAIL("no column ", column);
-  return "";
 }
 
 std::string with_unit(double newton) { return std::to_string(newton) + " N"; }

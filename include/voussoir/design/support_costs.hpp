@@ -6,40 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <string>
 #include <vector>
 #include <voussoir/core/elementary.hpp>
-#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/design/bodies.hpp>
 #include <voussoir/design/construction_plan.hpp>
 
 /// What the supports of a tunnel cost, per metre of it.
 namespace voussoir::design {
-
-/// Prices, all in one currency.
-struct CostsInput {
-  std::string currency = "EUR";
-  double bolt_per_metre = 0;   ///< of a bolt's length, with drilling and grout [1/m], >= 0
-  double bolt_per_hole = 0;    ///< of each bolt besides: plate, nut, setting up [-], >= 0
-  double concrete_per_m3 = 0;  ///< sprayed or cast [1/m^3], >= 0
-  double rebound = 0;          ///< of what is sprayed the part that falls off [-], 0 to 0.9
-  double steel_per_kg = 0;     ///< of bars and mesh in a lining [1/kg], >= 0
-
-  /// @throws InvalidInput  out of range, or nothing costs anything
-  void check() const {
-    const auto price = [](double value, const char* what) {
-      require(value >= 0 && std::isfinite(value), what, value, ">= 0");
-    };
-    price(bolt_per_metre, "cost of a metre of bolt");
-    price(bolt_per_hole, "cost of a hole");
-    price(concrete_per_m3, "cost of concrete");
-    price(steel_per_kg, "cost of steel");
-    require(rebound >= 0 && rebound <= 0.9, "rebound", rebound, "0 to 0.9");
-    require(bolt_per_metre + bolt_per_hole + concrete_per_m3 + steel_per_kg > 0, "sum of all costs",
-            0.0, "> 0");
-  }
-};
 
 inline constexpr double steel_density = 7850;  ///< EN 1991-1-1, table A.4 [kg/m^3]
 

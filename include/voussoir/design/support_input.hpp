@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
 #include <voussoir/design/section_capacity.hpp>
 #include <voussoir/geometry/segment.hpp>
@@ -105,6 +107,30 @@ struct LiningInput {
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {
     return tensile_bond > 0 && beam != LiningElement::pinned;
+  }
+};
+
+/// Prices, all in one currency.
+struct CostsInput {
+  std::string currency = "EUR";
+  double bolt_per_metre = 0;   ///< of a bolt's length, with drilling and grout [1/m], >= 0
+  double bolt_per_hole = 0;    ///< of each bolt besides: plate, nut, setting up [-], >= 0
+  double concrete_per_m3 = 0;  ///< sprayed or cast [1/m^3], >= 0
+  double rebound = 0;          ///< of what is sprayed the part that falls off [-], 0 to 0.9
+  double steel_per_kg = 0;     ///< of bars and mesh in a lining [1/kg], >= 0
+
+  /// @throws InvalidInput  out of range, or nothing costs anything
+  void check() const {
+    const auto price = [](double value, const char* what) {
+      require(value >= 0 && std::isfinite(value), what, value, ">= 0");
+    };
+    price(bolt_per_metre, "cost of a metre of bolt");
+    price(bolt_per_hole, "cost of a hole");
+    price(concrete_per_m3, "cost of concrete");
+    price(steel_per_kg, "cost of steel");
+    require(rebound >= 0 && rebound <= 0.9, "rebound", rebound, "0 to 0.9");
+    require(bolt_per_metre + bolt_per_hole + concrete_per_m3 + steel_per_kg > 0, "sum of all costs",
+            0.0, "> 0");
   }
 };
 

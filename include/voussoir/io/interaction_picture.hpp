@@ -125,8 +125,9 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
       any_failed = any_failed || (picture.is_failed(i, j) && !picture.is_shedding(i, j));
       any_marginal = any_marginal || picture.is_marginal(i, j);
       any_undecided = any_undecided || picture.is_undecided(i, j);
-      any_missing = any_missing || (!std::isfinite(value) && !picture.is_failed(i, j) &&
-                                    !picture.is_undecided(i, j));
+      any_missing =
+          any_missing || picture.is_assumed(i, j) ||
+          (!std::isfinite(value) && !picture.is_failed(i, j) && !picture.is_undecided(i, j));
       if (!std::isfinite(value)) continue;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
@@ -162,15 +163,16 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   add(lined, main_left, right);
   if (has_column_without) add({0}, left, left + strip_width);
   std::vector<LegendItem> items = {
-      {"computed, " + shown.point_unit,
+      {picture.computed_name + ", " + shown.point_unit,
        [](SvgCanvas& canvas, const Vec2& c) { canvas.circle(c, 3, {.fill = "#111"}); }}};
   if (any_shedding) items.push_back({"rock falls, the rest stands", draw_shedding_mark});
   if (any_failed)
     items.push_back(
-        {picture.collapsed.size() > 0 ? "collapse" : "blocks detach", draw_failed_mark});
+        {picture.collapsed.size() > 0 ? "collapse" : picture.failed_name, draw_failed_mark});
   if (any_marginal) items.push_back({"marginal: limits and rates decide", draw_marginal_mark});
   if (any_undecided) items.push_back({"undecided: no result", draw_undecided_mark});
   if (any_missing) items.push_back({"not computed", draw_missing_mark});
+  if (picture.chosen) items.push_back({"recommended", draw_chosen_mark});
   if (!picture.others.empty()) items.push_back({picture.others_name, draw_other_mark});
   items.push_back({shown.name + ", " + shown.contour_unit, [](SvgCanvas& canvas, const Vec2& c) {
                      canvas.line(c - Vec2(12, 0), c + Vec2(12, 0),

@@ -63,6 +63,12 @@ struct InteractionPicture {
   /// (thickness, spacing): what came off depends on limits and rates that nobody knows. Empty:
   /// nowhere.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> marginal = {};
+  /// (thickness, spacing): the value is known, the tunnel was not computed. Empty: nowhere.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> assumed = {};
+  std::string computed_name = "computed";     ///< in the legend
+  std::string failed_name = "blocks detach";  ///< in the legend, where `collapsed` is empty
+  /// The one that is recommended: indices of its thickness and spacing.
+  std::optional<std::pair<std::size_t, std::size_t>> chosen = {};
   std::optional<PictureBanner> banner = {};          ///< between header and diagram
   std::optional<InteractionQuantity> quantity = {};  ///< none: crown convergence
   /// A result from elsewhere, drawn into the diagram where it belongs; contours know nothing of it.
@@ -93,6 +99,10 @@ struct InteractionPicture {
     return marginal.size() > 0 &&
            marginal(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
+  [[nodiscard]] bool is_assumed(std::size_t i, std::size_t j) const {
+    return assumed.size() > 0 &&
+           assumed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
     return values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
@@ -115,7 +125,8 @@ VOUSSOIR_INLINE void check_interaction(const InteractionPicture& picture) {
   };
   if (picture.values.rows() != columns || picture.values.cols() != rows ||
       has_another_size(picture.failed) || has_another_size(picture.collapsed) ||
-      has_another_size(picture.undecided) || has_another_size(picture.marginal)) {
+      has_another_size(picture.undecided) || has_another_size(picture.marginal) ||
+      has_another_size(picture.assumed)) {
     throw InvalidInput("interaction picture: tables must be thicknesses x spacings");
   }
   for (std::size_t i = 0; i + 1 < picture.thicknesses.size(); ++i) {

@@ -70,6 +70,11 @@ inline void draw_marginal_mark(SvgCanvas& canvas, const Vec2& at) {
   canvas.circle(at, 10.5, {.stroke = "#7a1fa2", .stroke_width = 1.8});
 }
 
+/// About the one that is recommended.
+inline void draw_chosen_mark(SvgCanvas& canvas, const Vec2& at) {
+  canvas.circle(at, 9, {.stroke = "#0b5d3b", .stroke_width = 3});
+}
+
 inline void draw_other_mark(SvgCanvas& canvas, const Vec2& at) {
   const SvgStyle style{.stroke = "#b45309", .stroke_width = 2};
   const Vec2 corners[4] = {at + Vec2(9, 0), at + Vec2(0, 9), at - Vec2(9, 0), at - Vec2(0, 9)};
@@ -170,12 +175,14 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
       draw_shedding_mark(canvas, point.at);
     } else if (picture.is_failed(point.i, point.j)) {
       draw_failed_mark(canvas, point.at);
-    } else if (std::isfinite(picture.at(point.i, point.j))) {
+    } else if (std::isfinite(picture.at(point.i, point.j)) &&
+               !picture.is_assumed(point.i, point.j)) {
       canvas.circle(point.at, 3, {.fill = "#111"});
     } else {
       draw_missing_mark(canvas, point.at);
     }
     if (picture.is_marginal(point.i, point.j)) draw_marginal_mark(canvas, point.at);
+    if (picture.chosen == std::pair(point.i, point.j)) draw_chosen_mark(canvas, point.at);
   }
   for (const Label& label : labels) canvas.text(label.at, label.text, small);
   for (const auto& [at, text] : others) {
