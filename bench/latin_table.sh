@@ -71,14 +71,17 @@ sd = "5 deg"
 intensity = "0.7 /m^2"
 extent = "2 m"
 '
-# figures <realisations.csv> <rows>: means of crown and bolt force, and Student's interval of the former
+# figures <realisations.csv> <rows>: means of crown and bolt force, how many have a value, median and
+# largest crown
 figures() {
   awk -F, -v rows="$2" '
     NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
     NR <= rows + 1 && $at["crown_convergence_mm"] != "nan" {
-      ++n; c = $at["crown_convergence_mm"]; s += c; ss += c * c; b += $at["largest_bolt_force_kN"]
+      ++n; c = $at["crown_convergence_mm"] + 0; s += c; b += $at["largest_bolt_force_kN"]
+      for (k = n; k > 1 && v[k - 1] > c; --k) v[k] = v[k - 1]
+      v[k] = c
     }
-    END { print s / n, b / n, n }' "$1"
+    END { print s / n, b / n, n, (v[int((n + 1) / 2)] + v[int(n / 2) + 1]) / 2, v[n] }' "$1"
 }
 for rock in beds random; do
   printf '%s%s' "$head" "${!rock}" > "$scratch/$rock.toml"
@@ -99,19 +102,21 @@ for rock in beds random; do
     done
   done
 done > "$scratch/all"
-# Spread over the designs, mean width of the printed interval, mean share explained.
+# Spread over the designs, largest of all, mean width of the printed interval, mean share explained.
 awk '
   { key = $1 " | " $2 " | " $3; if (!(key in n)) order[++keys] = key
     ++n[key]; c[key] += $4; cc[key] += $4 * $4; b[key] += $5; bb[key] += $5 * $5
-    valued[key] += $6; w[key] += $7; e[key] += $8 }
+    valued[key] += $6; d[key] += $7; dd[key] += $7 * $7
+    if ($8 > most[key]) most[key] = $8
+    w[key] += $9; e[key] += $10 }
   function spread(sum, squares, m) { return sqrt((squares - sum * sum / m) / (m - 1)) }
   END {
-    print "| rock | sampling | realisations | with a value | crown [mm] | its spread | bolt force [kN] | its spread | interval of the crown printed | explained by the keys |"
-    print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+    print "| rock | sampling | realisations | with a value | crown [mm] | its spread | spread of its median | largest of all [mm] | bolt force [kN] | its spread | interval of the crown printed | explained by the keys |"
+    print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for (k = 1; k <= keys; ++k) {
       key = order[k]; m = n[key]
-      printf "| %s | %.1f | %.4f | %.4f | %.2f | %.3f | %.4f | %.2f |\n", key, valued[key] / m,
-        c[key] / m, spread(c[key], cc[key], m), b[key] / m, spread(b[key], bb[key], m),
-        w[key] / m, e[key] / m
+      printf "| %s | %.1f | %.4f | %.4f | %.4f | %.2f | %.2f | %.3f | %.4f | %.2f |\n", key,
+        valued[key] / m, c[key] / m, spread(c[key], cc[key], m), spread(d[key], dd[key], m),
+        most[key], b[key] / m, spread(b[key], bb[key], m), w[key] / m, e[key] / m
     }
   }' "$scratch/all"

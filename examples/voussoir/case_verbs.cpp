@@ -254,6 +254,11 @@ Enough enough_of(const CasePlan& plan, const FinishedCases& finished_cases, int 
   PlanParts parts = plan.parts();
   parts.realisations = look;
   const CasePlan shorter(std::move(parts));
+  // Of several processes one may see another's journal later than it was written.
+  if (const auto missing = finished_cases.missing(shorter); !missing.empty())
+    throw std::runtime_error(std::to_string(missing.size()) + " of " + std::to_string(look) +
+                             " realisations are not in the journals that can be read\n   = "
+                             "accepted: the same command again");
   const auto events = unwanted_events(plan.input(), finished_cases.results(shorter));
   const double widest = 100 * widest_interval(events);
   const std::string found = std::to_string(look) + " realisations: the widest interval has " +

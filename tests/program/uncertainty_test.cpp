@@ -253,7 +253,7 @@ TEST_SUITE("program/uncertainty") {
     parts.realisations = 3;
     const CasePlan several(parts);
     REQUIRE(several.uncertain().size() == 2);  // what is varied is not drawn
-    for (const std::size_t k : {0, 1, 2}) {
+    for (std::size_t k = 0; k < 3; ++k) {
       CHECK(several.at(k).drawn == several.at(k + 3).drawn);
       CHECK(several.input_of(several.at(k + 3)).joint_law.at("friction") ==
             near(35 * std::numbers::pi / 180).epsilon(1e-14));
@@ -351,7 +351,7 @@ TEST_SUITE("program/uncertainty") {
     REQUIRE(outcome.status == 0);
     const auto columns = columns_of(read_file(folder / "out/realisations.csv"));
     REQUIRE(columns.at("seed").size() == 20);
-    for (const std::size_t k : {0, 13}) {
+    for (const std::size_t k : std::vector<std::size_t>{0, 13}) {
       const Outcome alone = run_program(
           {"run", file, "--out", folder / "alone", "--set",
            "joint.friction=" + columns.at("joint.friction_deg")[k] + " deg", "--set",

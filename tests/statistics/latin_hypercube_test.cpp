@@ -58,11 +58,11 @@ double independent(const GrowingLatinHypercube& points, std::uint64_t k, std::ui
 
 TEST_SUITE("statistics/latin_hypercube") {
   TEST_CASE("every part holds one point, of the first N, of the next N, and so on") {
-    for (const std::uint64_t seed : {1, 7, 20261130})
+    for (const std::uint64_t seed : {1U, 7U, 20261130U})
       for (const std::uint64_t variable : variables) {
         const GrowingLatinHypercube points(seed);
-        for (const std::uint64_t parts : {10, 50, 100, 500, 1000, 5000})
-          for (const std::uint64_t block : {0, 1, 2, 9})
+        for (const std::uint64_t parts : {10U, 50U, 100U, 500U, 1000U, 5000U})
+          for (const std::uint64_t block : {0U, 1U, 2U, 9U})
             CHECK(counted(points, variable, block * parts, parts, parts) ==
                   std::vector<int>(parts, 1));
       }
@@ -95,7 +95,7 @@ TEST_SUITE("statistics/latin_hypercube") {
     // Over 4000 designs: Kolmogorov-Smirnov distances stay below 1.95 / sqrt(n), which one in a
     // thousand uniform samples exceeds; correlations below 3.3 / sqrt(n), the same.
     constexpr int designs = 4000;
-    for (const std::uint64_t k : {0, 3, 17, 64}) {
+    for (const std::uint64_t k : {0U, 3U, 17U, 64U}) {
       CAPTURE(k);
       std::vector<double> first;
       double together = 0, neighbours = 0;
