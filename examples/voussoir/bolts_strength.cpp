@@ -57,7 +57,7 @@ std::string bolt_strength_warning(const std::vector<BoltUtilisation>& joints) {
   if (over.empty()) return "";
   return "bolts carry more than their bond bears at " + counted(over.size(), "joint") + " of " +
          std::to_string(joints.size()) + ", most with " + share_text(*governing(over)) +
-         ": the model holds them there, where the grout would let go";
+         "; the model holds them there, where the grout would let go";
 }
 
 }  // namespace voussoir::program
