@@ -35,14 +35,18 @@ std::string without_run_id(const std::string& table) {
 using namespace voussoir_test;
 using Json = nlohmann::json;
 
-/// Runs `text` into a folder of its own; every run must end well and leave the four files.
+/// Runs `text` into a folder of its own; every run must end well and leave the five files, and
+/// pictures of its stages.
 Results ended_well(const std::string& text, const std::vector<std::string>& more = {},
                    const std::string& traces = "") {
   std::map<std::string, std::string> beside;
   if (!traces.empty()) beside["traces.csv"] = traces;
   Results results = results_of(text, more, beside);
   REQUIRE((results.outcome.status == 0 || results.outcome.status == 6));
-  REQUIRE(results.files.size() == 4);  // and nothing half-written beside them
+  std::size_t files = 0;
+  for (const auto& [name, content] : results.files)
+    files += name != "history" && !name.starts_with("stage_");
+  REQUIRE(files == 5);  // and nothing half-written beside them
   const bool fell = results.json.at("detached_area_m2") > 0.0;
   CHECK(results.json.at("verdict") == (fell ? "stable after rockfall" : "stable"));
   CHECK(results.outcome.status == (fell ? 6 : 0));

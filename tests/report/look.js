@@ -20,20 +20,19 @@
       claim(target !== null, "the target of " + link.textContent);
       claim(target !== null && Math.abs(target.getBoundingClientRect().top) < window.innerHeight, "the link leads to " + link.textContent);
     });
-    all("figure svg").forEach(function (picture) {
+    all("figure:not([hidden]) svg").forEach(function (picture) {
       var box = picture.getBoundingClientRect();
       claim(box.width > 250 && box.height > 100, "a picture is seen: " + box.width + " x " + box.height);
     });
     // Every kind of part that speaks, where it is seen: its middle is pointed at.
     var kinds = {};
-    all("g.spots [data-says]").forEach(function (spot) {
+    all("figure:not([hidden]) g.spots [data-says]").forEach(function (spot) {
       var kind = spot.getAttribute("data-says").split(/[ \n]/)[0];
       (kinds[kind] = kinds[kind] || []).push(spot);
     });
     Object.keys(kinds).forEach(function (kind) {
       var told = 0, tried = kinds[kind].slice(0, 60);
       tried.forEach(function (spot) {
-        if (spot.closest("[hidden]")) return;  // a stage that is not shown
         spot.scrollIntoView({ block: "center" });
         var at = spot.getPointAtLength(0.5 * spot.getTotalLength()), matrix = spot.getScreenCTM();
         var seen = new DOMPoint(at.x, at.y).matrixTransform(matrix);
