@@ -23,6 +23,8 @@ say "one tunnel with bolts and lining (a second): $program run $input --out resu
 "$program" run "$input" --out results || stop "the design case did not end well (exit status $?)"
 say "its interaction diagram, 36 tunnels (half a minute): $program diagram $input --out results"
 "$program" diagram "$input" --out results || stop "the diagram did not end well (exit status $?)"
+say "both as one page: $program report results"
+"$program" report results || stop "the report did not end well (exit status $?)"
 
-say "the pictures, to be opened in a browser:"
-for picture in results/*.svg; do printf '  %s\n' "$PWD/$picture"; done
+say "the report and the pictures, to be opened in a browser:"
+for picture in results/report.html results/*.svg; do printf '  %s\n' "$PWD/$picture"; done

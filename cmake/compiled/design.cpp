@@ -4,6 +4,7 @@
 #include <voussoir/design/analysis.hpp>
 #include <voussoir/design/bolt_strength.hpp>
 #include <voussoir/design/factor_of_safety.hpp>
+#include <voussoir/design/limit_problem.hpp>
 #include <voussoir/design/lining_utilisation.hpp>
 #include <voussoir/design/size_estimate.hpp>
 #include <voussoir/design/support_costs.hpp>

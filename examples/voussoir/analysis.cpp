@@ -14,6 +14,7 @@
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/tunnel/support_demand.hpp>
 
+#include "bolts_strength.hpp"
 #include "joint_laws.hpp"
 #include "lining_strength.hpp"
 #include "mapped_rock.hpp"
@@ -46,6 +47,8 @@ void warn_of_stress_and_supports(const Input& input, const RunResultIn<Geometry>
                        " deg of friction; joints that cannot carry the in-situ shear slip at the "
                        "first equilibrium");
   append(warnings, remarks_on(support_condition(run.tunnel)));
+  if (std::string text = bolt_strength_warning(bolt_utilisations(input, run.tunnel)); !text.empty())
+    warnings.push_back(std::move(text));
   if (std::string text =
           lining_strength_warning(lining_utilisations(input, supports_of(input), run.tunnel));
       !text.empty())
@@ -234,9 +237,9 @@ RunResultIn<Geometry> timed_run(const Input& input, const Report& report,
 
 }  // namespace
 
-RunResult run_of(const Input& input, const Report& report) {
+RunResult run_of(const Input& input, const Report& report, const StageObserver<Tunnel>& observer) {
   auto run = timed_run<Planar>(input, report, [&](ExcavatedRock&& rock) {
-    return run_tunnel(input, std::move(rock), report);
+    return run_tunnel(input, std::move(rock), report, observer);
   });
   for (const LiningInput& lining : input.linings)
     if (!lining.nodes && lining.bends_on_bond())

@@ -44,7 +44,9 @@ struct RockIn : JointedRock<Geometry>, DescribedRock {};
 
 /// @throws InvalidInput, NumericalFault  the latter names the values of the input that are unusual
 /// @throws Stopped       `report` said so while rock was made
-[[nodiscard]] RunResult run_of(const Input& input, const Report& report);
+/// @param observer  of its stages
+[[nodiscard]] RunResult run_of(const Input& input, const Report& report,
+                               const StageObserver<Tunnel>& observer = {});
 /// @pre the input is one in 3-D
 /// @param observer  of its stages
 [[nodiscard]] SpatialRunResult spatial_run_of(const Input& input, const Report& report,

@@ -131,6 +131,7 @@ std::string blocks_run_json(const Input& input, const BlocksRun& run) {
       {"fallen_area_m2",
        run.weight.fallen_measure + (run.steps.empty() ? 0.0 : run.steps.back().fallen_measure)},
       {"error_estimate", run.last().error_estimate},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages},
       {"loads_on_fixed_blocks", reactions},
       {"blocks",
@@ -140,7 +141,7 @@ std::string blocks_run_json(const Input& input, const BlocksRun& run) {
       {"warnings", run.warnings},
       {"time_s", {{"equilibrium", run.seconds}}}};
   if (!run.steps.empty()) json["stands_up_to_part_of_loading"] = run.reached;
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string blocks_csv(const Input& input, const BlocksRun& run) {
@@ -184,8 +185,12 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
     for (const Vec2& v : run.solver.mass().bodies[static_cast<std::size_t>(b)].parts[0].vertices())
       corners.push_back(motion(v));
     if (input.laid->blocks[static_cast<std::size_t>(b)].fixed) fixed.push_back(corners);
-    picture.blocks.push_back(
-        {std::move(corners), run.solver.displacement_of(b, body.centre).norm(), body.is_gone});
+    const double moved = run.solver.displacement_of(b, body.centre).norm(),
+                 area = run.solver.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
+    picture.blocks.push_back({std::move(corners), moved, body.is_gone,
+                              name_of(input, b) + "\n" +
+                                  (body.is_gone ? "fell" : shown("moved %.3g mm", 1e3 * moved)) +
+                                  shown("\n%.3g m²", area)});
   }
   const std::vector<ContactForces> contacts = contact_forces(run.solver);
   double largest = 0;
@@ -268,6 +273,7 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
     canvas.circle(map(c.at), 3, {.fill = force_colour});
   }
   canvas.end_layer();
+  detail::draw_spots(canvas, picture, map);
   canvas.rectangle(frame, {.stroke = "#111"});
   detail::draw_displacement_bar(
       canvas, {{frame.low.x() + 4, foot + 28}, {frame.low.x() + 324, foot + 41}}, scale);

@@ -56,6 +56,7 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<TunnelResult>& r
                                  "bolt_joints_ruptured",
                                  "feet_yielded",
                                  "largest_bolt_force_of_its_strength",
+                                 "bolts_governed_by",
                                  "lining_of_its_strength",
                                  "lining_governed_by",
                                  "error_estimate",
@@ -88,8 +89,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<TunnelResult>& r
                                     std::to_string(r.bolts_ruptured),
                                     std::to_string(r.feet_yielded),
                                     strength_cell(r.of_bolt_strength),
+                                    governed_cell(r.bolts_governed_by),
                                     strength_cell(r.of_lining_strength),
-                                    governed_cell(r),
+                                    governed_cell(r.lining_governed_by),
                                     number(r.error_estimate),
                                     number(r.out_of_balance),
                                     std::to_string(r.blocks),
@@ -129,8 +131,8 @@ std::string strength_cell(double utilisation) {
                                    : significant_text(utilisation, 6);
 }
 
-std::string governed_cell(const TunnelResult& result) {
-  return result.lining_governed_by.empty() ? "-" : result.lining_governed_by;
+std::string governed_cell(const std::string& governed_by) {
+  return governed_by.empty() ? "-" : governed_by;
 }
 
 std::string warnings_text(const std::vector<TunnelResult>& results) {

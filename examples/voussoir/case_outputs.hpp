@@ -43,7 +43,7 @@ struct CaseOutputs {
 /// A utilisation [-]; "-" where no strength was given.
 [[nodiscard]] std::string strength_cell(double utilisation);
 /// Where the lining is nearest to its strength, "-" where none was given.
-[[nodiscard]] std::string governed_cell(const TunnelResult& result);
+[[nodiscard]] std::string governed_cell(const std::string& governed_by);
 
 /// Warnings of one tunnel.
 [[nodiscard]] std::string warnings_cell(const TunnelResult& result);

@@ -199,7 +199,8 @@ std::string result_json(const TunnelResult& r) {
                      {"bolts_yielded", r.bolts_yielded},
                      {"bolts_ruptured", r.bolts_ruptured},
                      {"feet_yielded", r.feet_yielded},
-                     {"of_bolt_strength", r.of_bolt_strength},
+                     {"of_bolt_strength", utilisation_json(r.of_bolt_strength)},
+                     {"bolts_governed_by", r.bolts_governed_by},
                      {"of_lining_strength", utilisation_json(r.of_lining_strength)},
                      {"lining_governed_by", r.lining_governed_by},
                      {"error_estimate", r.error_estimate},
@@ -238,7 +239,8 @@ TunnelResult result_from_json(const std::string& text) {
     r.bolts_yielded = json.at("bolts_yielded");
     r.bolts_ruptured = json.at("bolts_ruptured");
     r.feet_yielded = json.at("feet_yielded");
-    r.of_bolt_strength = number_at(json, "of_bolt_strength");
+    r.of_bolt_strength = utilisation_at(json, "of_bolt_strength");
+    r.bolts_governed_by = json.at("bolts_governed_by");
     r.of_lining_strength = utilisation_at(json, "of_lining_strength");
     r.lining_governed_by = json.at("lining_governed_by");
     r.error_estimate = number_at(json, "error_estimate");

@@ -76,6 +76,7 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
                   "bolt_joints_ruptured",
                   "feet_yielded",
                   "largest_bolt_force_of_its_strength",
+                  "bolts_governed_by",
                   "lining_of_its_strength",
                   "lining_governed_by",
                   "error_estimate",
@@ -90,8 +91,9 @@ std::string tunnels_csv(const CasePlan& plan, const std::vector<Place>& places) 
                   1e2 * r.convergence.crown / radius, r.fallen, 1e-3 * r.demand.largest_bolt_force,
                   1e-3 * r.demand.mean_bolt_force, 1e-3 * r.demand.largest_thrust,
                   1e-3 * r.demand.largest_moment, r.bolts_yielded, r.bolts_ruptured, r.feet_yielded,
-                  strength_cell(r.of_bolt_strength), strength_cell(r.of_lining_strength),
-                  governed_cell(r), r.error_estimate, r.out_of_balance, warnings_cell(r));
+                  strength_cell(r.of_bolt_strength), governed_cell(r.bolts_governed_by),
+                  strength_cell(r.of_lining_strength), governed_cell(r.lining_governed_by),
+                  r.error_estimate, r.out_of_balance, warnings_cell(r));
   }
   return table.text();
 }

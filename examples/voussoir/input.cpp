@@ -7,6 +7,7 @@
 #include <voussoir/design/openings.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/equilibrium/explicit.hpp>
+#include <voussoir/io/journal.hpp>
 #include <voussoir/io/operating_system.hpp>
 
 #include "blocks_input.hpp"
@@ -16,6 +17,7 @@
 #include "joint_laws.hpp"
 #include "key_catalogue.hpp"
 #include "plausibility.hpp"
+#include "regular_file.hpp"
 #include "rock_input.hpp"
 #include "support_input.hpp"
 #include "survey.hpp"
@@ -75,7 +77,7 @@ void read_picture(Section& s, Input& input) {
       Need::optional);
   s.flag("history", input.picture.history);
   if (input.is_spatial()) return;
-  for (const char* const key : {"from", "history"}) note_unused(input, s, key);
+  note_unused(input, s, "from");
 }
 
 void read_criteria(Section& s, CriteriaInput& criteria) {
@@ -219,6 +221,26 @@ std::string Input::uncertain_text() const {
          "; `voussoir realisations` takes all of their values";
 }
 
+namespace {
+
+InputSource source_of(std::string_view text, const std::string& name,
+                      const std::filesystem::path& directory,
+                      const std::vector<std::string>& overrides,
+                      const std::vector<std::string>& content) {
+  InputSource source{utf8_text(utf8_path(name).filename()), text_hash(text), overrides, {}};
+  for (const std::string& line : content) {
+    if (!names_a_file(line)) continue;
+    const std::size_t at = line.find(" = ");
+    std::string file = line.substr(at + 3);
+    if (file.size() > 1 && file.front() == '"' && file.back() == '"')
+      file = file.substr(1, file.size() - 2);
+    source.files.push_back({line.substr(0, at), file, file_hash(directory / utf8_path(file))});
+  }
+  return source;
+}
+
+}  // namespace
+
 Input read_input_text(std::string_view text, const std::string& name,
                       const std::filesystem::path& directory,
                       const std::vector<std::string>& overrides) {
@@ -228,14 +250,11 @@ Input read_input_text(std::string_view text, const std::string& name,
   input.uncertain = uncertain_keys(document);
   Section file(checker, &document.root, "");
   read_all(file, input, directory);
-  if (input.laid) {
-    checker.finish();
-    input.content = canonical_lines(document);
-    return input;
-  }
-  check_together(checker, input);
+  if (!input.laid) check_together(checker, input);
   checker.finish();
   input.content = canonical_lines(document);
+  input.source = source_of(text, name, directory, overrides, input.content);
+  if (input.laid) return input;
   // What a survey comes to decides the rock, wherever its file lies.
   for (std::size_t k = 0; k < input.joint_sets.size(); ++k)
     if (const JointSetInput& set = input.joint_sets[k]; input.set_files[k].surveyed >= 0)

@@ -91,9 +91,24 @@ struct CriteriaInput {
   std::optional<double> probability;
 };
 
+/// Where an input came from, for whoever has to find it again. Nothing of it decides the results.
+struct InputSource {
+  /// Another file that it names.
+  struct File {
+    std::string key;   ///< `joints.file`
+    std::string name;  ///< as the file has it
+    std::string hash;  ///< of its content, see `text_hash`; empty: a pipe or a device
+  };
+  std::string name;                    ///< of the file, without its folder
+  std::string hash;                    ///< of its text
+  std::vector<std::string> overrides;  ///< see `read_input`
+  std::vector<File> files;
+};
+
 /// A whole input file, checked: every number is in its range, and they fit together.
 struct Input : AnalysisInput {
   std::string title;
+  InputSource source;
   std::filesystem::path joints_file;  ///< measured traces, resolved, not opened; empty: none
   TraceFileInput trace_file;
   std::optional<SurveyInput> survey;

@@ -57,26 +57,6 @@ std::vector<std::string> tables_of(std::string_view heading) {
   return tables;
 }
 
-/// For a terminal: code without its marks, links by their text.
-std::string plain(std::string_view cell) {
-  std::string text;
-  for (std::size_t k = 0; k < cell.size(); ++k) {
-    if (cell[k] == '`') continue;
-    const std::size_t close = cell[k] == '[' ? cell.find("](", k) : std::string_view::npos,
-                      end = close != std::string_view::npos ? cell.find(')', close)
-                                                            : std::string_view::npos;
-    const bool is_link = end != std::string_view::npos &&
-                         cell.substr(k, close - k).find('`') == std::string_view::npos;
-    if (is_link) {
-      text += cell.substr(k + 1, close - k - 1);
-      k = end;
-    } else {
-      text += cell[k];
-    }
-  }
-  return text;
-}
-
 std::string without_lists(std::string_view key) {
   std::string text(key);
   for (std::size_t at; (at = text.find("[]")) != std::string::npos;) text.erase(at, 2);
@@ -136,18 +116,37 @@ std::optional<PageRow> page_row_of(std::string_view key) {
   return std::nullopt;
 }
 
+std::string plain_cell(std::string_view cell) {
+  std::string text;
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    if (cell[k] == '`') continue;
+    const std::size_t close = cell[k] == '[' ? cell.find("](", k) : std::string_view::npos,
+                      end = close != std::string_view::npos ? cell.find(')', close)
+                                                            : std::string_view::npos;
+    const bool is_link = end != std::string_view::npos &&
+                         cell.substr(k, close - k).find('`') == std::string_view::npos;
+    if (is_link) {
+      text += cell.substr(k + 1, close - k - 1);
+      k = end;
+    } else {
+      text += cell[k];
+    }
+  }
+  return text;
+}
+
 std::string explanation(std::string_view name) {
   std::string text;
   for (const PageRow& row : page_rows()) {
     const bool is_named =
         row.is_of(name) || std::find(row.names.begin(), row.names.end(), name) != row.names.end();
     if (!is_named) continue;
-    text.append(text.empty() ? "" : "\n").append(plain(row.heading)).append("\n");
+    text.append(text.empty() ? "" : "\n").append(plain_cell(row.heading)).append("\n");
     for (std::size_t k = 0; k < std::min(row.cells.size(), row.columns.size()); ++k)
       if (!row.cells[k].empty()) {
         std::string head = "  " + row.columns[k];
         head.resize(std::max<std::size_t>(head.size() + 2, 12), ' ');
-        text.append(head).append(plain(row.cells[k])).append("\n");
+        text.append(head).append(plain_cell(row.cells[k])).append("\n");
       }
   }
   for (const DeclaredKey& key : key_catalogue()) {

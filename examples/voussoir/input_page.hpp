@@ -32,6 +32,9 @@ struct PageRow {
 /// The first that is of a key.
 [[nodiscard]] std::optional<PageRow> page_row_of(std::string_view key);
 
+/// A cell as text: code without its marks, links by their words.
+[[nodiscard]] std::string plain_cell(std::string_view cell);
+
 /// What a key, a verdict, an exit status or any other name of the page means; all rows that have
 /// it.
 /// @throws InvalidInput  nothing has that name: says which is near

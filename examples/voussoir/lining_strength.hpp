@@ -13,8 +13,8 @@
 namespace voussoir::program {
 
 /// [support.lining.concrete]
-/// @param thickness  of the lining, within which bars lie [m]
-void read_concrete(Section& s, ConcreteSection& concrete, double thickness);
+/// @param lining  of which its thickness has been read, within which bars lie
+void read_concrete(Section& s, LiningInput& lining);
 
 /// Of a lining that stands, beside its forces: "strength", "of_its_strength", "governing".
 /// @param nodes  of all linings whose concrete is given
@@ -29,6 +29,12 @@ void add_lining_strength(const Input& input, const std::vector<NodeUtilisation>&
                                               const std::vector<NodeUtilisation>& nodes);
 /// A warning where it carries more than it can; empty: it does not, or nothing is checked.
 [[nodiscard]] std::string lining_strength_warning(const std::vector<NodeUtilisation>& nodes);
+/// For every member in 3-D across the tunnel that of its ends which has more, of those along it not
+/// a number.
+/// @param ribs  of which `nodes` are
+[[nodiscard]] std::vector<double> strength_by_member(const std::vector<MemberForces<3>>& members,
+                                                     const std::vector<RibForce>& ribs,
+                                                     const std::vector<NodeUtilisation>& nodes);
 /// For every node of a table its utilisation; not a number: it is not checked.
 [[nodiscard]] std::vector<double> strength_by_node(const std::vector<NodeUtilisation>& nodes);
 

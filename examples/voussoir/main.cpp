@@ -116,7 +116,7 @@ struct SafetyOptions {
   std::string limit = "collapse";
   double width = 1, largest = 5;  ///< of the bracket [%]; of the factors
   double loss = 0;                ///< tolerated [m^2]
-  bool from_start = false, with_supports = false;
+  bool from_start = false, with_supports = false, without_limit = false;
 
   [[nodiscard]] SafetySettings settings() const {
     return {.limit = limit == "rockfall"   ? SafetyLimit::rockfall
@@ -151,6 +151,7 @@ void add_safety_options(CLI::App& verb, SafetyOptions& chosen) {
   verb.add_flag("--with-supports", chosen.with_supports,
                 "divide what bolts, feet and the bond of a lining bear, too")
       ->needs(from_start);
+  verb.add_flag("--no-limit", chosen.without_limit, "without the bound by limit analysis");
 }
 
 /// Where this program lies, for scripts that call it from elsewhere.
@@ -266,6 +267,15 @@ int run_program(int argc, char** argv) {
   diff->add_option("FOLDERS", compared, "two folders of results, or their run.json")
       ->required()
       ->expected(2);
+  CLI::App* report = app.add_subcommand(
+      "report", "the results of a folder as one page, to be read, printed and forwarded");
+  std::string report_file;
+  report->add_option("FOLDER", options.folder, "that run, diagram, realisations or sweep wrote to")
+      ->required();
+  report->add_option("-o,--out", report_file, "file; left out: report.html in the folder");
+  bool wants_pdf = false;
+  report->add_flag("--pdf", wants_pdf, "print it by Chromium, too: report.pdf beside it");
+  add_quiet(report);
   CLI::App* diagram = app.add_subcommand(
       "diagram", "interaction diagram: crown convergence over bolt spacing and lining thickness");
   add_input(diagram);
@@ -429,9 +439,11 @@ int run_program(int argc, char** argv) {
       std::cout << run_diff(compared[0], compared[1]);
       return finished;
     }
+    if (*report) return report_verb(options, report_file, wants_pdf);
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
-    if (*safety) return safety_verb(options, safety_options.settings());
+    if (*safety)
+      return safety_verb(options, safety_options.settings(), !safety_options.without_limit);
     if (*check) return check_verb(options, check->count("--out") > 0);
     if (*patterns) return patterns_verb(options, choice, settings);
     if (*paper) return paper_verb(options, samples, pages);

@@ -7,9 +7,12 @@
 #include <numbers>
 #include <utility>
 #include <voussoir/core/units.hpp>
+#include <voussoir/core/version.hpp>
+#include <voussoir/io/journal.hpp>
 #include <voussoir/io/solved_picture.hpp>
 
 #include "analysis.hpp"
+#include "case_plan.hpp"
 #include "joint_laws.hpp"
 
 namespace voussoir::program {
@@ -119,6 +122,77 @@ nlohmann::json openings_json(const std::vector<OpeningConvergence>& openings) {
     list.push_back(
         {{"name", opening.name}, {"convergence", convergence_json(opening.convergence)}});
   return list;
+}
+
+namespace {
+
+/// Every key with its value as it was written, overrides included.
+nlohmann::json input_json(const Input& input) {
+  const InputSource& source = input.source;
+  nlohmann::json keys = nlohmann::json::object(), files = nlohmann::json::array();
+  for (const std::string& line : input.content) {
+    const std::size_t at = line.find(" = ");
+    if (at == std::string::npos || line.substr(0, at).ends_with(")")) continue;  // was derived
+    std::string value = line.substr(at + 3);
+    if (value.size() > 1 && value.front() == '"' && value.back() == '"')
+      value = value.substr(1, value.size() - 2);
+    keys[line.substr(0, at)] = value;
+  }
+  for (const InputSource::File& file : source.files)
+    files.push_back({{"key", file.key}, {"name", file.name}, {"hash", file.hash}});
+  return {{"file", source.name},
+          {"hash", source.hash},
+          {"overrides", source.overrides},
+          {"keys", keys},
+          {"other_files", files}};
+}
+
+nlohmann::json build_json() {
+#if defined(__clang__)
+  const std::string compiler = "clang++ " __clang_version__;
+#elif defined(__GNUC__)
+  const std::string compiler = "g++ " __VERSION__;
+#else
+  const std::string compiler = "not known";
+#endif
+#if defined(__OPTIMIZE__)
+  const bool is_optimised = true;
+#else
+  const bool is_optimised = false;
+#endif
+  return {{"version", VOUSSOIR_VERSION_STRING},
+          {"sources", sources_hash},
+          {"compiler", compiler},
+          {"optimised", is_optimised}};
+}
+
+}  // namespace
+
+std::string run_json_text(const Input& input, nlohmann::json results) {
+  nlohmann::json hashed = results;
+  hashed.erase("time_s");
+  using Json = nlohmann::json;
+  results["result_hash"] = text_hash(hashed.dump(-1, ' ', false, Json::error_handler_t::replace));
+  results["input"] = input_json(input);
+  results["build"] = build_json();
+  return results.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::json acceptance_json(const Input& input) {
+  return {{"error_estimate", input.run.tolerance},
+          {"out_of_balance_force_ratio", input.run.out_of_balance}};
+}
+
+std::string place_at(const SimplePolygon& opening, const Vec2& centre) {
+  const auto [low, high] = *bounding_rect(opening.vertices());
+  const double half_width = 0.5 * (high.x() - low.x()),
+               aside = std::abs(centre.x() - 0.5 * (low.x() + high.x()));
+  if (centre.y() < low.y() && aside < half_width) return "invert";
+  // Above a line at 45 degrees through the corners of the crown's box.
+  if (centre.y() > 0.5 * (low.y() + high.y()) &&
+      aside - half_width < centre.y() - high.y() + 0.5 * half_width)
+    return "crown";
+  return centre.x() < 0.5 * (low.x() + high.x()) ? "left wall" : "right wall";
 }
 
 std::string convergence_text(const Convergence& c) {

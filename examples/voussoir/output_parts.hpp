@@ -42,6 +42,15 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Of openings besides the tunnel: a list, and a line each.
 [[nodiscard]] nlohmann::json openings_json(const std::vector<OpeningConvergence>& openings);
 [[nodiscard]] std::string opening_lines(const std::vector<OpeningConvergence>& openings);
+/// run.json: what was computed with a hash of it, which is the same wherever the same bits were
+/// computed, then what it was computed from and by which build of the program.
+/// @param results  what of them is told otherwise than by their bits, `time_s`, is not hashed
+[[nodiscard]] std::string run_json_text(const Input& input, nlohmann::json results);
+/// Where at an opening a block was: "crown", "left wall", "invert", ...
+/// @param centre  of the block, in the section of the opening [m]
+[[nodiscard]] std::string place_at(const SimplePolygon& opening, const Vec2& centre);
+/// By which equilibrium is accepted.
+[[nodiscard]] nlohmann::json acceptance_json(const Input& input);
 /// "crown 1.2 mm, springings 0.3 and 0.2 mm, invert 0.9 mm"
 [[nodiscard]] std::string convergence_text(const Convergence& c);
 

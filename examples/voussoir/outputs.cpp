@@ -20,6 +20,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "bolts_strength.hpp"
 #include "lining_strength.hpp"
 #include "output_parts.hpp"
 #include "survey.hpp"
@@ -89,19 +90,6 @@ double opening_diameter(const RunResult& run) {
 
 namespace {
 
-/// Where at an opening a block was.
-std::string place_at(const SimplePolygon& opening, const Vec2& centre) {
-  const auto [low, high] = *bounding_rect(opening.vertices());
-  const double half_width = 0.5 * (high.x() - low.x()),
-               aside = std::abs(centre.x() - 0.5 * (low.x() + high.x()));
-  if (centre.y() < low.y() && aside < half_width) return "invert";
-  // Above a line at 45 degrees through the corners of the crown's box.
-  if (centre.y() > 0.5 * (low.y() + high.y()) &&
-      aside - half_width < centre.y() - high.y() + 0.5 * half_width)
-    return "crown";
-  return centre.x() < 0.5 * (low.x() + high.x()) ? "left wall" : "right wall";
-}
-
 /// At the opening that is nearest by its centre.
 std::string place_of(const Input& input, const Vec2& centre) {
   std::size_t nearest = 0;
@@ -117,11 +105,13 @@ nlohmann::json detached_json(const Input& input, const RunResult& run) {
   nlohmann::json blocks = nlohmann::json::array();
   for (const int b : run.tunnel.fallen()) {
     const Vec2 centre = run.tunnel.system().body(b).centre;
+    const double area = run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
     blocks.push_back(
         {{"block", b},
          {"x_m", centre.x()},
          {"y_m", centre.y()},
-         {"area_m2", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure},
+         {"area_m2", area},
+         {"weight_kN_per_m", 1e-3 * run.tunnel.in_situ().density * input.model.gravity * area},
          {"from", place_of(input, centre)}});
   }
   return blocks;
@@ -195,7 +185,11 @@ std::string run_json(const Input& input, const RunResult& run) {
       {"detached_blocks", detached_json(input, run)},
       {"convergence", convergence_json(run.convergence())},
       {"boundary", boundary_json(run.boundary)},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages_json(run.built.stages, "area_m2")},
+      {"tunnel",
+       {{"width_m", 2 * input.tunnel.half_width()},
+        {"height_m", input.tunnel.crown() - input.tunnel.invert()}}},
       {"rock",
        {{"joints", mass.slicing.joints},
         {"joints_by_source", joints_json(run.joints)},
@@ -235,6 +229,8 @@ std::string run_json(const Input& input, const RunResult& run) {
         {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force},
         {"mean_over_p0_D_and_spacing",
          e.mean_bolt_force / (centre_stress * diameter * input.bolts.front().out_of_plane)}};
+  if (run.tunnel.bolt_count() > 0)
+    add_bolt_strength(bolt_utilisations(input, run.tunnel), json["bolts"]);
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"largest_stress_MPa", 1e-6 * lining_stress(input, run)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
@@ -257,12 +253,12 @@ std::string run_json(const Input& input, const RunResult& run) {
       json["lining"]["feet"].back()["beam_moment_kNm"] =
           1e-3 * beam_moment(*input.linings.front().feet, foot.bearing);
   }
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string bolts_csv(const Input& input, const RunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    bolt_strengths(input, run.tunnel));
+                    crossing_strengths(bolt_utilisations(input, run.tunnel)));
 }
 
 std::string lining_csv(const Input& input, const RunResult& run) {
@@ -282,6 +278,9 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
         "On elastic ground: convergence is counted against the opening as a whole, which rises by " +
         millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
+  text.bolt_strengths = bolt_strengths(input, run.tunnel);
+  text.node_utilisations =
+      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel));
   return draw_tunnel(run.tunnel, run.built, text);
 }
 
@@ -318,7 +317,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
-           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
+           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force) +
+           bolt_strength_line(bolt_utilisations(input, run.tunnel));
   if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +

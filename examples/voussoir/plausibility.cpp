@@ -42,7 +42,9 @@ constexpr Common trace_length{0.1, 90};                        // [m]
 constexpr Common ground_modulus{0.1e9, 95e9};                  // [Pa]
 constexpr Common concrete_modulus{0.5e9, 250e9};               // to steel [Pa]
 constexpr Common poisson_ratio{0.05, 0.45, true};              // [-]
-constexpr Common bolt_stiffness{5e6, 4e9}, dowel_stiffness{1e6, 900e6};   // [N/m]
+constexpr Common bolt_stiffness{5e6, 4e9}, dowel_stiffness{1e6, 900e6};  // [N/m]
+// Grouted cables and bars: 0.1 to 1 MN/m; split sets less.
+constexpr Common bolt_bond{10e3, 2e6};                                    // [N/m]
 constexpr Common pretension{1e3, 900e3, true}, bolt_strength{10e3, 5e6};  // [N]
 constexpr Common bond{20e3, 10e6, true};                                  // [Pa]
 constexpr Common bearing_stiffness{20e6, 19e9};                           // [Pa/m]
@@ -228,6 +230,7 @@ void look_at_bolts(const std::string& table, const BoltsInput& bolts, Look& look
   look.at(table + "pretension", bolts.pretension, pretension, dimension::force);
   look.at(table + "yield_force", bolts.yield_force, bolt_strength, dimension::force);
   look.at(table + "rupture_force", bolts.rupture_force, bolt_strength, dimension::force);
+  look.at(table + "bond_strength", bolts.bond_strength, bolt_bond, dimension::stiffness);
   if (bolts.anchors == AnchorKind::lorig)
     look.at(table + "anchor_offset", bolts.anchor_offset, {0.005, 2}, dimension::length);
 }

@@ -10,6 +10,7 @@
 #include <voussoir/io/distribution_picture.hpp>
 
 #include "case_uncertainty.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -137,6 +138,7 @@ std::string realisations_json(const CasePlan& plan, const Realised& r,
       {"schema", 1},
       {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
       {"title", plan.input().title},
+      {"tunnel_id", RunId("tunnel").add(plan.input()).text()},
       {"first_seed", plan.input().model.seed},
       {"realisations", r.count},
       {"verdicts",

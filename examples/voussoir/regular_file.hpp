@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
+#include <voussoir/io/journal.hpp>
 
 namespace voussoir::program {
 
@@ -21,6 +23,13 @@ namespace voussoir::program {
     return "cannot be read: it is not a regular file";
   file.open(path, std::ios::binary);
   return file ? "" : "cannot be read: it cannot be opened";
+}
+
+/// A hash of what a file holds, see `text_hash`; empty: it is no file that can be read twice.
+[[nodiscard]] inline std::string file_hash(const std::filesystem::path& path) {
+  std::ifstream file;
+  if (!open_regular(path, file).empty()) return "";
+  return text_hash(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 }  // namespace voussoir::program

@@ -12,6 +12,7 @@
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/design/construction_plan.hpp>
+#include <voussoir/design/shotcrete_blocks.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -128,6 +129,14 @@ std::string mode_text(const RemovableBlock& block) {
   return text;
 }
 
+/// Of what shotcrete holds: the weight along the way that the block would take, without friction;
+/// none: it rests, or nothing is checked.
+std::optional<ShotcreteUse> use_of(const Input& input, const RemovableBlock& block) {
+  if (block.mode == BlockMode::rests) return std::nullopt;
+  return shotcrete_use(input, block.angle, block.weight * elementary::sine(block.plunge),
+                       block.free_measure);
+}
+
 /// How many fall or slide: the first ones of the list.
 std::size_t driven_count(const RockBlocks& rock) {
   return rock.of_mode[static_cast<std::size_t>(BlockMode::falls)] +
@@ -205,8 +214,11 @@ std::string rock_blocks_text(const Input& input, const RockBlocks& rock) {
         "block    " + std::to_string(k + 1) + " at " + fixed_text(block.angle / degree, 0) + " deg";
     if (input.is_spatial()) out += ", " + fixed_text(block.along, 1) + " m along";
     out += ": " + figure(block.size) + " " + size_unit(input) + ", " + figure(1e-3 * block.weight) +
-           " " + weight_unit(input) + ", " + figure(block.depth) + " m deep; " + mode_text(block) +
-           "\n";
+           " " + weight_unit(input) + ", " + figure(block.depth) + " m deep; " + mode_text(block);
+    if (const auto use = use_of(input, block))
+      out += "; " + fixed_text(100 * use->value, 0) + " % of what the shotcrete holds, " +
+             to_string(use->mode);
+    out += "\n";
   }
   if (driven > shown)
     out += "block    and " + std::to_string(driven - shown) +
@@ -253,6 +265,10 @@ std::string rock_blocks_json(const Input& input, const RockBlocks& rock) {
              {"depth_m", block.depth},
              {"needed_friction_deg", nullptr}};
     if (input.is_spatial()) one["along_m"] = block.along;
+    if (const auto use = use_of(input, block)) {
+      one["of_shotcrete"] = use->value;
+      one["shotcrete_mode"] = to_string(use->mode);
+    }
     if (block.mode != BlockMode::falls) one["needed_friction_deg"] = block.needed_friction / degree;
     removable.push_back(std::move(one));
   }
@@ -306,17 +322,20 @@ std::string removable_csv(const Input& input, const RockBlocks& rock) {
   CsvTable table({"number", "block", "mode", is_spatial ? "volume_m3" : "area_m2",
                   is_spatial ? "weight_kN" : "weight_kN_per_m", "angle_deg", "x_m", "y_m",
                   "along_m", "depth_m", is_spatial ? "free_face_m2" : "free_face_m",
-                  "plunge_of_motion_deg", "needed_friction_deg"},
+                  "plunge_of_motion_deg", "needed_friction_deg", "of_shotcrete", "shotcrete_mode"},
                  6);
   int number = 0;
-  for (const RemovableBlock& block : rock.removable)
-    table.add_row(++number, block.body, to_string(block.mode), block.size, 1e-3 * block.weight,
-                  block.angle / degree, block.x, block.y,
-                  is_spatial ? significant_text(block.along, 6) : std::string("-"), block.depth,
-                  block.free_measure, block.plunge / degree,
-                  block.mode == BlockMode::falls
-                      ? std::string("-")
-                      : significant_text(block.needed_friction / degree, 6));
+  for (const RemovableBlock& block : rock.removable) {
+    const auto use = use_of(input, block);
+    table.add_row(
+        ++number, block.body, to_string(block.mode), block.size, 1e-3 * block.weight,
+        block.angle / degree, block.x, block.y,
+        is_spatial ? significant_text(block.along, 6) : std::string("-"), block.depth,
+        block.free_measure, block.plunge / degree,
+        block.mode == BlockMode::falls ? std::string("-")
+                                       : significant_text(block.needed_friction / degree, 6),
+        use ? significant_text(use->value, 6) : std::string("-"), use ? to_string(use->mode) : "-");
+  }
   return table.text();
 }
 

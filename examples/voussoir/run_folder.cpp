@@ -11,6 +11,8 @@
 #include <voussoir/drawing/xml_text.hpp>
 #include <voussoir/io/journal.hpp>
 
+#include "regular_file.hpp"
+
 namespace voussoir::program {
 
 RunId::RunId(std::string_view what) {
@@ -44,12 +46,7 @@ RunId& RunId::add_keys(const Input& input) {
 }
 
 std::string joints_hash(const Input& input) {
-  // What is no file but a pipe or a device can be read once, and not here.
-  std::error_code error;
-  if (input.joints_file.empty() || !std::filesystem::is_regular_file(input.joints_file, error))
-    return "";
-  std::ifstream file(input.joints_file, std::ios::binary);
-  return text_hash(std::string(std::istreambuf_iterator<char>(file), {}));
+  return input.joints_file.empty() ? "" : file_hash(input.joints_file);
 }
 
 std::string RunId::text() const { return text_hash(text_); }

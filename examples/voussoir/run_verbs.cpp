@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/io/atomic_file.hpp>
 #include <voussoir/io/operating_system.hpp>
@@ -16,9 +17,11 @@
 #include "ground_reaction.hpp"
 #include "lining_strength.hpp"
 #include "outputs.hpp"
+#include "report_sections.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
 #include "safety.hpp"
+#include "stage_pictures.hpp"
 #include "survey.hpp"
 #include "templates.hpp"
 #include "verbs.hpp"
@@ -58,6 +61,26 @@ ExitStatus status_of(voussoir::Verdict verdict, bool has_lost) {
   return not_decided;
 }
 
+/// What a run writes, and its report of it.
+class ReportedFiles {
+ public:
+  ReportedFiles(RunFolder& outputs, std::string id) : outputs_(&outputs), id_(std::move(id)) {}
+  void add(const std::string& name, const std::string& text) {
+    outputs_->add(name, text, id_);
+    files_.add(name, with_run_id(name, text, id_));
+  }
+  /// Adds the report of what was added. @return  run.json as it is written
+  std::string report() {
+    outputs_->add("report.html", report_page(files_), id_);
+    return files_.text("run.json");
+  }
+
+ private:
+  RunFolder* outputs_;
+  std::string id_;
+  ReportFiles files_;
+};
+
 /// Blocks that are laid.
 int run_blocks_verb(const Options& options, const Input& input) {
   RunFolder outputs(options.folder);
@@ -70,14 +93,14 @@ int run_blocks_verb(const Options& options, const Input& input) {
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
-  const std::string id = RunId("blocks").add(input).text();
-  outputs.add("run.json", blocks_run_json(input, run), id);
-  outputs.add("blocks.csv", blocks_csv(input, run), id);
-  outputs.add("contacts.csv", contacts_csv(input, run), id);
-  outputs.add("blocks.svg", laid_blocks_svg(input, run), id);
-  say(options, blocks_summary(input, run),
-      with_run_id("run.json", blocks_run_json(input, run), id));
-  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg");
+  ReportedFiles files(outputs, RunId("blocks").add(input).text());
+  files.add("run.json", blocks_run_json(input, run));
+  files.add("blocks.csv", blocks_csv(input, run));
+  files.add("contacts.csv", contacts_csv(input, run));
+  files.add("blocks.svg", laid_blocks_svg(input, run));
+  const std::string json = files.report();
+  say(options, blocks_summary(input, run), json);
+  publish(outputs, options, "run.json, blocks.csv, contacts.csv, blocks.svg, report.html");
   return status_of(run.last().verdict, !run.last().fallen.empty());
 }
 
@@ -86,10 +109,11 @@ int run_blocks_verb(const Options& options, const Input& input) {
 template <class Compute>
 int run_tunnel_verb(const Options& options, const Input& input, Compute&& compute) {
   RunFolder outputs(options.folder);
-  if (input.is_spatial()) outputs.expect_folder(HistoryFiles::folder);
+  outputs.expect_folder(HistoryFiles::folder);
   const std::string id = RunId("tunnel").add(input).text();
   HistoryFiles history(input,
                        [&](const NamedDocument& file) { outputs.add(file.name, file.text, id); });
+  StagePictures pictures(input);
   ProgressLine line(options.quiet);
   work.remedy = smaller_model;
   const auto run = compute(
@@ -97,7 +121,7 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
         now_doing(what, "computing the stage " + what);
         return line.show(what, fraction);
       },
-      history);
+      history, pictures);
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";
@@ -107,17 +131,19 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
     outputs.replace(name);
   outputs.replace_all_in(HistoryFiles::folder);
   std::string names = "run.json, bolts.csv, lining.csv, blocks.svg";
-  outputs.add("run.json", run_json(input, run), id);
-  outputs.add("bolts.csv", bolts_csv(input, run), id);
-  outputs.add("lining.csv", lining_csv(input, run), id);
-  outputs.add("blocks.svg", blocks_svg(input, run), id);
+  ReportedFiles files(outputs, id);
+  files.add("run.json", run_json(input, run));
+  files.add("bolts.csv", bolts_csv(input, run));
+  files.add("lining.csv", lining_csv(input, run));
+  files.add("blocks.svg", blocks_svg(input, run));
+  for (const NamedDocument& picture : pictures.finish()) files.add(picture.name, picture.text);
   if (const auto nodes = lining_utilisations(input, supports_of(input), run.tunnel);
       !nodes.empty()) {
-    outputs.add("lining_strength.svg", lining_strength_svg(input, nodes), id);
+    files.add("lining_strength.svg", lining_strength_svg(input, nodes));
     names += ", lining_strength.svg";
   }
   if (input.survey) {
-    outputs.add("stereonet.svg", stereonet_svg(input), id);
+    files.add("stereonet.svg", stereonet_svg(input));
     names += ", stereonet.svg";
   }
   if constexpr (std::is_same_v<std::decay_t<decltype(run)>, SpatialRunResult>) {
@@ -127,8 +153,9 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
     }
     if (history.finish()) names += std::string(", ") + HistoryFiles::collection;
   }
-  say(options, run_summary(input, run), with_run_id("run.json", run_json(input, run), id));
-  publish(outputs, options, names);
+  const std::string json = files.report();
+  say(options, run_summary(input, run), json);
+  publish(outputs, options, names + ", report.html");
   return status_of(run.verdict(), run.fallen_measure() > 0 || run.built.has_lost_lining());
 }
 
@@ -139,13 +166,20 @@ int run_verb(const Options& options) {
   const Input input = read_input(voussoir::utf8_path(options.file), options.overrides);
   if (input.laid) return run_blocks_verb(options, input);
   if (input.is_spatial())
-    return run_tunnel_verb(options, input, [&](const Report& report, HistoryFiles& history) {
-      return spatial_run_of(input, report, [&](const SpatialTunnel& tunnel, const StageResult&) {
-        history.add(tunnel);
-      });
-    });
+    return run_tunnel_verb(
+        options, input, [&](const Report& report, HistoryFiles& history, StagePictures& pictures) {
+          return spatial_run_of(input, report,
+                                [&](const SpatialTunnel& tunnel, const StageResult& stage) {
+                                  history.add(tunnel);
+                                  pictures.add(tunnel, stage);
+                                });
+        });
   return run_tunnel_verb(
-      options, input, [&](const Report& report, HistoryFiles&) { return run_of(input, report); });
+      options, input, [&](const Report& report, HistoryFiles&, StagePictures& pictures) {
+        return run_of(input, report, [&](const Tunnel& tunnel, const StageResult& stage) {
+          pictures.add(tunnel, stage);
+        });
+      });
 }
 
 int check_verb(const Options& options, bool wants_picture) {
@@ -176,7 +210,7 @@ int check_verb(const Options& options, bool wants_picture) {
   return finished;
 }
 
-int safety_verb(const Options& options, const SafetySettings& settings) {
+int safety_verb(const Options& options, const SafetySettings& settings, bool wants_limit) {
   work = {"reading " + options.file, "a smaller input file"};
   const Input input = read_input(utf8_path(options.file), options.overrides);
   RunFolder outputs(options.folder);
@@ -194,8 +228,9 @@ int safety_verb(const Options& options, const SafetySettings& settings) {
                              .add(static_cast<int>(settings.limit))
                              .add(static_cast<int>(settings.from_start))
                              .add(static_cast<int>(settings.with_supports))
+                             .add(static_cast<int>(wants_limit))
                              .text();
-  const SafetyAnswer answer = safety_of(input, settings, report);
+  const SafetyAnswer answer = safety_of(input, settings, wants_limit, report);
   line.clear();
   if (stop_asked != 0) return say_interrupted();
   work.doing = "writing the results";

@@ -14,6 +14,7 @@
 #include "blocks_outputs.hpp"
 #include "output_parts.hpp"
 #include "plausibility.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -60,6 +61,17 @@ std::string mechanism_picture(const Input& input, const TunnelAtFactor<Geometry>
   return draw_tunnel(falling.tunnel, falling.built, words);
 }
 
+/// @param standing  the model under the largest factor that stands; null: under none
+LimitAnswer limit_beside(const FactorBracket& bracket, const Tunnel* standing,
+                         const LawsBySet<AnyJoint>& laws, const Report& report) {
+  if (standing == nullptr) {
+    LimitAnswer none;
+    none.reason = "not sought: nothing stands under any factor tried";
+    return none;
+  }
+  return limit_of(*standing, laws, bracket.stands, report);
+}
+
 template <class Geometry>
 SafetyAnswer answer_of(const Input& input, const SafetySettings& settings,
                        const TunnelSafety<Geometry>& safety) {
@@ -84,10 +96,10 @@ SafetyAnswer answer_of(const Input& input, const SafetySettings& settings,
 }
 
 /// Every trial lays the blocks anew.
-SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings,
+SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings, bool wants_limit,
                               const Report& report) {
   SafetyAnswer answer;
-  std::optional<BlocksRun> falling;
+  std::optional<BlocksRun> standing, falling;
   const auto trial = [&](double factor) {
     Input weaker = input;
     weaker.joint = weakened(*input.joint, factor);
@@ -109,7 +121,7 @@ SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings
     made.outcome = stands                                     ? TrialOutcome::stands
                    : run.last().verdict == Verdict::undecided ? TrialOutcome::undecided
                                                               : TrialOutcome::falls;
-    if (!stands) falling = std::move(run);
+    (stands ? standing : falling) = std::move(run);
     return made.outcome;
   };
   answer.bracket = bracket_factor(trial, settings.search);
@@ -117,6 +129,9 @@ SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings
     answer.fallen = falling->solver.fallen_measure();
     answer.mechanism = laid_blocks_svg(input, *falling);
   }
+  if (wants_limit)
+    answer.limit =
+        limit_beside(answer.bracket, standing ? &standing->solver : nullptr, *input.joint, report);
   return answer;
 }
 
@@ -137,21 +152,28 @@ bool SafetyAnswer::is_undecided() const {
   });
 }
 
-SafetyAnswer safety_of(const Input& input, const SafetySettings& settings, const Report& report) {
+SafetyAnswer safety_of(const Input& input, const SafetySettings& settings, bool wants_limit,
+                       const Report& report) {
   const auto start = std::chrono::steady_clock::now();
   const Progress blocks = [&](double fraction) { return report("blocks", fraction); };
   SafetyAnswer answer;
   std::vector<std::string> warnings;
   if (input.laid) {
-    answer = safety_of_blocks(input, settings, report);
+    answer = safety_of_blocks(input, settings, wants_limit, report);
   } else if (input.is_spatial()) {
     const RockIn<Spatial> rock = described_spatial_rock(input, blocks);
     warnings = rock.warnings;
     answer = answer_of(input, settings, factor_of_safety(input, rock, settings, report));
+    if (wants_limit) answer.limit.reason = "not sought: it is of sections in 2-D";
   } else {
     const RockIn<Planar> rock = described_rock(input, blocks);
     warnings = rock.warnings;
-    answer = answer_of(input, settings, factor_of_safety(input, rock, settings, report));
+    const TunnelSafety<Planar> safety = factor_of_safety(input, rock, settings, report);
+    answer = answer_of(input, settings, safety);
+    if (wants_limit)
+      answer.limit =
+          limit_beside(answer.bracket, safety.standing ? &safety.standing->tunnel : nullptr,
+                       laws_of(input), report);
   }
   for (std::string& value : warnings_about_values(input)) warnings.push_back(std::move(value));
   if (answer.is_undecided())
@@ -181,6 +203,7 @@ std::string safety_text(const SafetySettings& settings, const SafetyAnswer& answ
   if (answer.fallen > 0)
     out += text("detached %.3g ", answer.fallen) + answer.unit + " with strength over " +
            factor_text(answer.bracket.falls) + "\n";
+  out += limit_text(answer.limit, answer.bracket.stands);
   for (const std::string& warning : answer.warnings) out += "warning  " + warning + "\n";
   return out;
 }
@@ -201,6 +224,7 @@ std::string safety_json(const Input& input, const SafetySettings& settings,
       {"schema", 1},
       {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
       {"title", input.title},
+      {"tunnel_id", RunId(input.laid ? "blocks" : "tunnel").add(input).text()},
       {"factor_of_safety", answer.bracket.stands > 0 ? Json(answer.bracket.stands) : Json()},
       {"text", answer.text()},
       {"stands_over", answer.bracket.stands > 0 ? Json(answer.bracket.stands) : Json()},
@@ -212,6 +236,7 @@ std::string safety_json(const Input& input, const SafetySettings& settings,
       {"supports_divided", settings.with_supports},
       {"width_percent", 100 * settings.search.width},
       {"mechanism", {{"detached_" + answer.unit, answer.fallen}}},
+      {"limit_load", limit_json(answer.limit)},
       {"trials", trials},
       {"warnings", answer.warnings},
       {"seconds", answer.seconds}};

@@ -7,6 +7,7 @@
 #include <voussoir/design/factor_of_safety.hpp>
 
 #include "analysis.hpp"
+#include "limit_answer.hpp"
 
 /// By how much the strength of joints may be divided until an input falls: `voussoir safety`.
 namespace voussoir::program {
@@ -28,6 +29,7 @@ struct SafetyAnswer {
   double fallen = 0;                ///< of the mechanism: detached [m^2], 3-D [m^3]
   std::string unit = "m2";
   std::string mechanism;  ///< a picture of what falls; empty: nothing does
+  LimitAnswer limit;      ///< a bound by another method
   std::vector<std::string> warnings;
   double seconds = 0;
 
@@ -37,10 +39,11 @@ struct SafetyAnswer {
   [[nodiscard]] bool is_undecided() const;
 };
 
+/// @param wants_limit  whether the bound by limit analysis is sought, too
 /// @throws InvalidInput  the strength of a joint law cannot be divided; as `run_of`
 /// @throws Stopped
 [[nodiscard]] SafetyAnswer safety_of(const Input& input, const SafetySettings& settings,
-                                     const Report& report);
+                                     bool wants_limit, const Report& report);
 
 /// Lines for a terminal.
 [[nodiscard]] std::string safety_text(const SafetySettings& settings, const SafetyAnswer& answer);

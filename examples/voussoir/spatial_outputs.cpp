@@ -10,6 +10,7 @@
 #include <voussoir/io/solved_picture.hpp>
 #include <voussoir/io/tunnel_tables.hpp>
 
+#include "bolts_strength.hpp"
 #include "lining_strength.hpp"
 #include "mapped_rock.hpp"
 #include "output_parts.hpp"
@@ -33,16 +34,27 @@ double strip_width_of(const Input& input) {
 
 double driven_length(const Input& input) { return input.round_count() * input.stretch(); }
 
-nlohmann::json detached_json(const SpatialRunResult& run) {
+/// The axis of the tunnel.
+const TunnelAxis& axis_of(const SpatialRunResult& run) {
+  return run.built.measured ? run.built.measured->axis()
+                            : run.tunnel.mass().openings.front().axis();
+}
+
+nlohmann::json detached_json(const Input& input, const SpatialRunResult& run) {
   nlohmann::json blocks = nlohmann::json::array();
   for (const int b : run.tunnel.fallen()) {
     const Vec3 centre = run.tunnel.system().body(b).centre;
+    const Vec3 seen = axis_of(run).local(centre);
+    const double volume = run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure;
     blocks.push_back(
         {{"block", b},
          {"x_m", centre.x()},
          {"y_m", centre.y()},
          {"z_m", centre.z()},
-         {"volume_m3", run.tunnel.mass().bodies[static_cast<std::size_t>(b)].properties.measure}});
+         {"volume_m3", volume},
+         {"weight_kN", 1e-3 * run.tunnel.in_situ().density * input.model.gravity * volume},
+         {"along_m", seen.z()},
+         {"from", place_at(opening_of(input), Vec2(seen.x(), seen.y()))}});
   }
   return blocks;
 }
@@ -83,13 +95,16 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
       {"lost_lining", run.built.has_lost_lining()},
       {"error_estimate", run.last().error_estimate},
       {"detached_volume_m3", run.fallen_measure()},
-      {"detached_blocks", detached_json(run)},
+      {"detached_blocks", detached_json(input, run)},
       {"convergence", convergence_json(shown_convergence(input, run))},
       {"convergence_of_the_whole_length", convergence_json(run.convergence())},
       {"boundary", spatial_boundary_text},
+      {"acceptance", acceptance_json(input)},
       {"stages", stages_json(run.built.stages, "volume_m3")},
       {"tunnel",
-       {{"driven_m", driven_length(input)},
+       {{"width_m", 2 * input.tunnel.half_width()},
+        {"height_m", input.tunnel.crown() - input.tunnel.invert()},
+        {"driven_m", driven_length(input)},
         {"rounds", input.round_count()},
         {"round_length_m", input.stretch()}}},
       {"rock",
@@ -120,6 +135,8 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                      {"count", run.tunnel.bolt_count()},
                      {"largest_force_kN", 1e-3 * e.largest_bolt_force},
                      {"mean_of_largest_forces_kN", 1e-3 * e.mean_bolt_force}};
+  if (run.tunnel.bolt_count() > 0)
+    add_bolt_strength(bolt_utilisations(input, run.tunnel), json["bolts"]);
   if (run.tunnel.first_lining_node() >= 0)
     json["lining"] = {{"strip_width_m", strip_width(input)},
                       {"largest_thrust_kN_per_m", 1e-3 * e.largest_thrust},
@@ -136,16 +153,19 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                                       {"shear_kN", 1e-3 * foot.shear},
                                       {"of_its_strength", foot.utilisation},
                                       {"settlement_mm", 1e3 * foot.settlement}});
-  return json.dump(2) + "\n";
+  return run_json_text(input, std::move(json));
 }
 
 std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
   return bolt_table(bolt_forces(run.tunnel), bars_of(run.tunnel),
-                    bolt_strengths(input, run.tunnel));
+                    crossing_strengths(bolt_utilisations(input, run.tunnel)));
 }
 
-std::string lining_csv(const Input&, const SpatialRunResult& run) {
-  return lining_table(lining_members(run.tunnel));
+std::string lining_csv(const Input& input, const SpatialRunResult& run) {
+  const auto members = lining_members(run.tunnel);
+  return lining_table(
+      members, strength_by_member(members, rib_forces(run.tunnel),
+                                  lining_utilisations(input, supports_of(input), run.tunnel)));
 }
 
 std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
@@ -158,6 +178,7 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   words.strip_width = strip_width_of(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
+  words.bolt_strengths = bolt_strengths(input, run.tunnel);
   return draw_tunnel(run.tunnel, run.built, words);
 }
 
@@ -220,7 +241,8 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +
-           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force);
+           text(", mean of the largest %.0f kN\n", 1e-3 * e.mean_bolt_force) +
+           bolt_strength_line(bolt_utilisations(input, run.tunnel));
   if (run.built.has_lost_lining()) out += "lining   came off the wall: it carries nothing\n";
   if (has_standing_lining(run.tunnel))
     out += text("lining   strips %.3g m wide: thrust up to ", strip_width(input)) +

@@ -14,6 +14,7 @@
 #include "design_criteria.hpp"
 #include "diagram_outputs.hpp"
 #include "output_parts.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -145,6 +146,22 @@ SupportDesign cheapest_support(const CasePlan& plan, const PlaceResults& results
   return design;
 }
 
+namespace {
+
+/// The answer in a sentence.
+std::string answer_text(const CasePlan& plan, const SupportDesign& design) {
+  if (!design.cheapest) {
+    const SupportAt& strongest = design.strongest();
+    return "none on the axes of [diagram] holds; the strongest, " +
+           supports_text(strongest.supports, " deg") + ", does not: " + failing_text(strongest);
+  }
+  const SupportAt& best = design.at(*design.cheapest);
+  return supports_text(best.supports, " deg") + ": " + money(plan, best.cost) +
+         ", the cheapest that holds; " + margin_text(best);
+}
+
+}  // namespace
+
 std::string design_text(const CasePlan& plan, const SupportDesign& design) {
   std::string out;
   const int realisations = plan.parts().realisations;
@@ -156,15 +173,9 @@ std::string design_text(const CasePlan& plan, const SupportDesign& design) {
          std::to_string(design.all.size() * static_cast<std::size_t>(realisations)) + ", " +
          std::to_string(realisations) + (realisations == 1 ? " realisation" : " realisations") +
          " each\n";
-  if (!design.cheapest) {
-    const SupportAt& strongest = design.strongest();
-    return out + "design   none on the axes of [diagram] holds; the strongest, " +
-           supports_text(strongest.supports, " deg") + ", does not: " + failing_text(strongest) +
-           "\n";
-  }
+  out += "design   " + answer_text(plan, design) + "\n";
+  if (!design.cheapest) return out;
   const SupportAt& best = design.at(*design.cheapest);
-  out += "design   " + supports_text(best.supports, " deg") + ": " + money(plan, best.cost) +
-         ", the cheapest that holds; " + margin_text(best) + "\n";
   if (best.broken.trials > 0) out += "broken   any criterion in " + best.broken.text() + "\n";
   for (const SupportPlace& place : design.surer) {
     const SupportAt& at = design.at(place);
@@ -210,6 +221,8 @@ std::string design_json(const CasePlan& plan, const SupportDesign& design) {
       {"schema", 1},
       {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
       {"title", plan.input().title},
+      {"tunnel_id", RunId("tunnel").add(plan.input()).text()},
+      {"text", answer_text(plan, design)},
       {"currency", plan.input().costs->currency},
       {"realisations", plan.parts().realisations},
       {"design", design.cheapest ? support_json(design.at(*design.cheapest)) : Json()},

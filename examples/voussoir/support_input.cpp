@@ -22,6 +22,7 @@ constexpr Range bolt_range{.low = 1e3, .high = 1e12};                       // o
 constexpr Range modulus_range{.low = 1e6, .high = 1e12};                    // of a lining [Pa]
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};              // [m]
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
+constexpr Range bond_per_metre_range{.low = 1, .high = 1e9};   // of the grout of a bolt [N/m]
 constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
 constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
 constexpr Range duration_range{.low = 0, .high = 3.2e10};      // a thousand years [s]
@@ -138,6 +139,11 @@ void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
              Need::optional);
   s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
   s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
+  s.quantity("bond_strength", bolts.bond_strength, dimension::stiffness, bond_per_metre_range);
+  s.only_with(bolts.bond_strength.has_value() || s.faulty("bond_strength"), "bond_strength", [&] {
+    s.quantity("plate_strength", bolts.plate_strength, dimension::force,
+               between(0, force_range.high), Need::optional);
+  });
 
   const bool anchors_known = s.choice<AnchorKind>("anchors", bolts.anchors,
                                                   {{"lorig", AnchorKind::lorig},
@@ -210,9 +216,7 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   s.quantity("rib_spacing", lining.rib_spacing, dimension::length, rib_spacing_range);
   if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
-  s.optional_table("concrete", [&](Section& table) {
-    read_concrete(table, lining.concrete.emplace(), lining.thickness);
-  });
+  s.optional_table("concrete", [&](Section& table) { read_concrete(table, lining); });
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     std::optional<double> width, friction;

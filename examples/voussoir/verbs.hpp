@@ -128,7 +128,8 @@ struct PlanOptions {
 /// @param steps  in which the wall is unloaded, 2-D
 [[nodiscard]] int grc_verb(const Options& options, int steps);
 /// The factor of safety by strength reduction, and what falls beyond it.
-[[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings);
+[[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings,
+                              bool wants_limit);
 /// @param file  to be written, which must not be there; empty: standard output
 [[nodiscard]] int init_verb(const std::string& name, const std::string& file);
 
@@ -143,6 +144,11 @@ struct PlanOptions {
 [[nodiscard]] int case_verb(const Options& options, const std::string& chunk);
 /// Joins what several folders hold of one plan; options.folder empty: into the first.
 [[nodiscard]] int merge_verb(const Options& options, const std::vector<std::string>& folders);
+
+/// The results in options.folder as one page.
+/// @param file       to be written; empty: report.html in that folder
+/// @param wants_pdf  printed by Chromium, too, beside it
+[[nodiscard]] int report_verb(const Options& options, const std::string& file, bool wants_pdf);
 
 /// Whether `paper` and `verify` are in this build (CMake option VOUSSOIR_BUILD_PAPER). Where they
 /// are not, `--help` does not list them, and both say how to get them.

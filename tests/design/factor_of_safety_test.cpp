@@ -201,7 +201,8 @@ TEST_SUITE("design/factor_of_safety") {
             (factor == one.bracket.stands));
     }
     // It stands longer than it keeps all of its rock.
-    const auto whole = factor_of_safety(input, rock, {.search = settings.search, .from_start = true});
+    const auto whole =
+        factor_of_safety(input, rock, {.search = settings.search, .from_start = true});
     CHECK(one.bracket.stands <= whole.bracket.stands * (1 + 1e-12));
     MESSAGE("rock falls from " << one.bracket.falls << ", collapse from " << whole.bracket.falls);
   }

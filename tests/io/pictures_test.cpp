@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -140,6 +141,41 @@ TEST_SUITE("io/blocks_picture") {
     CHECK(contains(text, "not finite numbers: 1"));
     CHECK_FALSE(contains(text, "nan"));
     CHECK_FALSE(contains(text, "inf"));
+  }
+
+  TEST_CASE("what parts say is in the picture once, as text, and nothing of it is drawn") {
+    BlocksPicture picture = small_picture();
+    const std::string silent = draw_blocks_picture(picture);
+    CHECK_FALSE(contains(silent, "</title></path>"));
+    const auto block = std::find_if(picture.blocks.begin(), picture.blocks.end(),
+                                    [](const auto& b) { return b.corners[0] == Vec2(2, 0); });
+    REQUIRE(block != picture.blocks.end());
+    block->says = "block <7>\nmoved 2 mm";
+    picture.blocks[0].says = "far off";  // outside of the view
+    picture.bolts[0].says = "bolt 1 & only";
+    picture.linings = {ring(1e5, 1e3)};
+    for (std::size_t k = 0; k < 24; ++k)
+      picture.linings[0].nodes[k].says = "node " + std::to_string(k) + ".";
+    const std::string text = draw_blocks_picture(picture);
+    CHECK(xml_fault(text) == "");
+    const auto count = [&](const std::string& part) {
+      int found = 0;
+      for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+      return found;
+    };
+    CHECK(count("<title>block &lt;7&gt;\nmoved 2 mm</title></path>") == 1);
+    CHECK(count("<title>bolt 1 &amp; only</title></path>") == 1);
+    CHECK(count("far off") == 0);
+    for (int k = 0; k < 24; ++k) CHECK(count("<title>node " + std::to_string(k) + ".") == 1);
+    // Its block of 1 m is as large as it is drawn: 640 px show 12 m.
+    const std::size_t at = text.find("<title>block"), from = text.rfind(" d=\"m", at) + 5;
+    const std::string outline = text.substr(from, text.find('"', from) - from);
+    CHECK(contains(outline, "l53.3 0 0-53.3-53.3 0z"));
+    // Nothing is painted: no place has a colour of its own.
+    const std::size_t spots = text.find("<g id=\"spots\"");
+    const std::string layer = text.substr(spots, text.find("</g>", spots) - spots);
+    CHECK(contains(layer, "fill=\"none\" pointer-events=\"all\">"));
+    CHECK_FALSE(contains(layer, "stroke=\""));
   }
 
   TEST_CASE("nothing at all is a picture too") {

@@ -279,7 +279,7 @@ TEST_SUITE("program/bad_input") {
       CHECK(
           outcome.err.find(
               "accepted: init, check, run, blocks, grc, safety, explain, schema, completion, diff, "
-              "diagram, realisations, sweep, design, case, merge, patterns" +
+              "report, diagram, realisations, sweep, design, case, merge, patterns" +
               std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
     }
   }

@@ -255,6 +255,7 @@ TEST_SUITE("program/cases") {
     r.bolts_ruptured = 2;
     r.feet_yielded = 1;
     r.of_bolt_strength = 1.0 / 3;
+    r.bolts_governed_by = "bolt 7: bond beyond its joint at 2.9 m";
     r.of_lining_strength = std::numeric_limits<double>::infinity();
     r.lining_governed_by = "crown, 92 deg: bending";
     r.boundary = "rollers";
@@ -269,6 +270,7 @@ TEST_SUITE("program/cases") {
     CHECK(back.reason == r.reason);
     CHECK(std::isinf(back.of_lining_strength));
     CHECK(back.lining_governed_by == r.lining_governed_by);
+    CHECK(back.bolts_governed_by == r.bolts_governed_by);
     CHECK(back.word() ==
           "stable after rockfall, bolts yielded, bolts ruptured, feet at their strength, "
           "lining beyond its strength");

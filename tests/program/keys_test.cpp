@@ -78,13 +78,15 @@ spacing = "20 deg"
 stiffness = "0.2 GN/m"
 law = "axial-shear"
 shear_stiffness = "0.2 GN/m"
+bond_strength = "300 kN/m"
+plate_strength = "100 kN"
 [support.lining]
 thickness = "20 cm"
 E = "25 GPa"
 interface = { kn = "1 GPa/m", friction = "35 deg", shear_bond = "1 MPa", tensile_bond = "0.5 MPa" }
 arc = ["0 deg", "180 deg"]
 feet = { stiffness = "2 GPa/m", beam = { depth = "30 cm", E = "30 GPa", spacing = "1 m" } }
-concrete = { fck = "30 MPa" }
+concrete = { fck = "30 MPa", adhesion = "0.5 MPa" }
 )";
 
 /// A file, and where the paths in it begin.
@@ -113,7 +115,7 @@ std::vector<Base> bases() {
                          "feet = { stiffness = \"2 GPa/m\", beam = { depth = \"30 cm\", E = "
                          "\"30 GPa\", spacing = \"1 m\" } }\n",
                          "rib_spacing = \"1 m\"\n"),
-                "{ fck = \"30 MPa\" }",
+                "{ fck = \"30 MPa\", adhesion = \"0.5 MPa\" }",
                 "{ fck = \"30 MPa\", bars = [{ diameter = \"8 mm\", spacing = \"15 cm\", depth = "
                 "\"5 cm\" }] }") +
        "[[round]]\nabove = \"-1 m\"\n[[round]]\nbelow = \"-1 m\"\nbehind = 1\n"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "run_results.hpp"
@@ -114,6 +115,46 @@ TEST_SUITE("program/rock_blocks") {
     const nlohmann::json& first = looked.json.at("removable")[0];
     CHECK(is_near(first.at("weight_kN_per_m").get<double>(),
                   2.7 * 9.81 * first.at("area_m2").get<double>(), 1e-12));
+  }
+
+  TEST_CASE("what shotcrete holds of them, once its adhesion is given") {
+    const auto lined = [](bool is_spatial, const std::string& adhesion) {
+      return grid(is_spatial) +
+             "[support.lining]\nthickness = \"8 cm\"\nE = \"25 GPa\"\narc = [\"0 deg\", \"90 "
+             "deg\"]\ninterface = { kn = \"1 GPa/m\", friction = \"30 deg\" }\n"
+             "concrete = { fck = \"30 MPa\"" +
+             adhesion + " }\n";
+    };
+    // Of 8 cm of C30, f_ctd = 1.081348 MPa: 20 kN/m of adhesion, 115.3 of shear, 9.2 / span of
+    // bending, which is more for less than 46 cm.
+    for (const auto& [adhesion, capacity, mode] :
+         {std::tuple("0.5", 20.0, "adhesion"), std::tuple("10", 115.3438, "direct shear")}) {
+      const Looked looked =
+          blocks(lined(false, std::string(", adhesion = \"") + adhesion + " MPa\""));
+      CAPTURE(looked.outcome.err);
+      REQUIRE(looked.outcome.status == 0);
+      int held = 0;
+      for (const nlohmann::json& block : looked.json.at("removable")) {
+        const double angle = block.at("angle_deg").get<double>();
+        const bool is_covered = angle <= 90 && block.at("mode") != "rests";
+        CHECK(block.contains("of_shotcrete") == is_covered);
+        if (!is_covered || block.at("mode") != "falls" || block.at("shotcrete_mode") == "flexure")
+          continue;
+        ++held;
+        CHECK(block.at("shotcrete_mode") == mode);
+        CHECK(is_near(block.at("of_shotcrete").get<double>() * capacity,
+                      block.at("weight_kN_per_m").get<double>(), 1e-5));
+      }
+      CHECK(held > 0);
+      CHECK(looked.outcome.out.find(std::string(" % of what the shotcrete holds, ") + mode) !=
+            std::string::npos);
+      CHECK(looked.files.at("removable.csv").find(std::string(",") + mode) != std::string::npos);
+    }
+    const Looked spatial = blocks(lined(true, ", adhesion = \"0.5 MPa\""));
+    CHECK(spatial.outcome.out.find(" % of what the shotcrete holds, ") != std::string::npos);
+    const Looked unasked = blocks(lined(false, ""));
+    CHECK(unasked.outcome.out.find("shotcrete") == std::string::npos);
+    CHECK_FALSE(unasked.json.at("removable")[0].contains("of_shotcrete"));
   }
 
   TEST_CASE("it is the rock that run has") {

@@ -82,7 +82,7 @@ TEST_SUITE("program/run_folder") {
     CHECK(first.wait().status == 130);
     CHECK_FALSE(std::filesystem::exists(out));  // nothing written, nothing left
     CHECK(run_program({"run", file, "--out", out}).status == 0);
-    CHECK(contents(out).size() == 4);
+    CHECK(contents(out).size() == 5);
   }
 
   TEST_CASE("the lock of a killed run is taken over") {
@@ -96,7 +96,7 @@ TEST_SUITE("program/run_folder") {
     const Outcome next = run_program({"run", file, "--out", out});
     CAPTURE(next.err);
     CHECK(next.status == 0);
-    CHECK(contents(out).size() == 4);
+    CHECK(contents(out).size() == 5);
   }
 
   TEST_CASE("part files of dead processes are cleared, all others stay") {
@@ -120,7 +120,7 @@ TEST_SUITE("program/run_folder") {
     for (const std::string& name : stay) write_file(out + "/" + name, "kept");
     std::filesystem::create_directory(out + "/.folder." + dead + ".1.part");
     CHECK(run_program({"run", file, "--out", out, "-q"}).status == 0);
-    CHECK(contents(out).size() == 4 + stay.size() + 1);
+    CHECK(contents(out).size() == 5 + stay.size() + 1);
     for (const std::string& name : stay) CHECK(read_file(out + "/" + name) == "kept");
   }
 
@@ -134,7 +134,7 @@ TEST_SUITE("program/run_folder") {
       REQUIRE(run_program(more).status == 0);
       std::vector<std::string> ids;
       for (const auto& [path, text] : contents(folder / name)) ids.push_back(run_id_in(text));
-      REQUIRE(ids.size() == 4);
+      REQUIRE(ids.size() == 5);
       for (const std::string& id : ids) CHECK(id == ids.front());
       CHECK(ids.front().size() == 16);
       CHECK(ids.front().find_first_not_of("0123456789abcdef") == std::string::npos);

@@ -96,10 +96,10 @@ TEST_SUITE("program/run") {
     const Results& r = supported_results();
     CHECK(
         header(r.files.at("bolts.csv")) ==
-        "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state,of_its_strength,run_id");
+        "bolt,angle_deg,joint,distance_from_head_m,x_m,y_m,axial_force_kN,extension_mm,state,of_its_strength,strength_kN,mode,run_id");
     CHECK(
         header(r.files.at("lining.csv")) ==
-        "lining,node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm,lost,of_its_strength,run_id");
+        "lining,node,angle_deg,x_m,y_m,thrust_kN_per_m,shear_kN_per_m,moment_kNm_per_m,convergence_mm,lost,of_its_strength,largest_shear_kN_per_m,run_id");
     CHECK(r.files.at("blocks.svg").starts_with("<"));
     CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
 

@@ -3,6 +3,7 @@
 // verb, not by the run alone.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -108,6 +109,60 @@ TEST_SUITE("program/strength") {
             near(1e3 * foot["bearing_kN_per_m"].get<double>() / (50e6 * 0.2)).epsilon(1e-9));
     const Run bare = run(folder, file, {}, "bare");
     CHECK(bare.outcome.status == 0);
+  }
+
+  TEST_CASE("the bond of bolts is checked at every joint, and no force changes by it") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", unchecked());
+    const Run plain = run(folder, file, {}, "plain");
+    const std::string before = read_file(plain.folder + "/bolts.csv");
+    REQUIRE(plain.outcome.status == 0);
+    const auto value = [](const std::string& table, std::size_t row, const char* column) {
+      return std::stod(cell(table, row, column));
+    };
+    for (const double plate : {0.0, 40e3}) {
+      CAPTURE(plate);
+      const double bond = 50e3;
+      const Run held = run(
+          folder, file,
+          {"support.bolts.bond_strength=" + std::to_string(bond) + " N/m",
+           "support.bolts.plate_strength=" + with_unit(plate), "support.bolts.rupture_force=60 MN"},
+          "held");
+      CAPTURE(held.outcome.out);
+      REQUIRE(held.outcome.status == 0);
+      const std::string table = read_file(held.folder + "/bolts.csv");
+      const Json& bolts = held.json["bolts"];
+      double most = 0;
+      std::size_t rows = 0;
+      for (const char c : table) rows += c == '\n';
+      for (std::size_t row = 1; row < rows; ++row) {
+        CHECK(cell(table, row, "axial_force_kN") == cell(before, row, "axial_force_kN"));
+        const double at = value(table, row, "distance_from_head_m");
+        const double length = 2;  // of InputText
+        const double strength = 1e-3 * std::min(bond * (length - at), bond * at + plate);
+        CHECK(value(table, row, "strength_kN") == near(strength).epsilon(1e-6));
+        const double part = std::max(0.0, value(table, row, "axial_force_kN") / strength);
+        CHECK(std::max(0.0, value(table, row, "of_its_strength")) == near(part).epsilon(1e-6));
+        if (part > most) {
+          most = part;
+          CHECK(cell(table, row, "mode") != "-");
+        }
+      }
+      CHECK(bolts["of_its_strength"].get<double>() == near(most).epsilon(1e-6));
+      const Json& at = bolts["governing"];
+      CHECK(at["axial_force_kN"].get<double>() / at["strength_kN"].get<double>() ==
+            near(most).epsilon(1e-6));
+      CHECK(says(held.outcome.out,
+                 "% of the strength of bolt " + std::to_string(at["bolt"].get<int>()) + ": "));
+      CHECK(says(held.outcome.out, "warning  bolts carry more than their bond bears") ==
+            (most > 1));
+      CHECK(!says(held.outcome.out, "strength bolts"));
+    }
+    const Outcome refused =
+        run_program({"check", file, "--set", "support.bolts.plate_strength=40 kN"});
+    CHECK(refused.status == 2);
+    CHECK(says(refused.err, "plate_strength"));
+    CHECK(says(refused.err, "bond_strength"));
   }
 
   TEST_CASE("bolts that have yielded and feet at their strength are in every table and verdict") {

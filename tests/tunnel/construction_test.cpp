@@ -148,7 +148,7 @@ TEST_SUITE("tunnel/construction") {
     const auto nodes = rib_forces(by_plan);
     CHECK(static_cast<int>(nodes.size()) == by_plan.linings().front()->node_count());
     for (const RibForce& node : nodes) {
-      double thrust = 0, moment = 0;
+      double thrust = 0, moment = 0, shear = 0;
       int met = 0;
       for (const auto& m : members) {
         if (std::abs(m.to.y() - m.from.y()) > 1e-9 ||
@@ -157,10 +157,15 @@ TEST_SUITE("tunnel/construction") {
         ++met;
         thrust += m.thrust;
         moment = std::max(moment, m.moment);
+        shear = std::max(shear, m.shear);
       }
       REQUIRE(met == 2);
       CHECK(node.thrust == near(0.5 * thrust).epsilon(1e-9));
       CHECK(std::abs(node.moment) <= moment);
+      // Radial, where that of a member has its part along the tunnel, too.
+      CHECK(node.largest_shear <= shear * (1 + 1e-9));
+      CHECK(node.largest_shear >= std::abs(node.shear));
+      CHECK(node.largest_shear > 0);
       largest = std::max(largest, node.thrust);
       sum += node.thrust;
     }

@@ -101,6 +101,7 @@ TEST_SUITE("tunnel/measurements") {
       // The two chords there carry P/2 sin(half) each.
       CHECK(std::abs(at[k].thrust - 0.5 * force * std::sin(half)) <= 1e-8 * force);
       CHECK(std::abs(at[k].shear) <= 1e-8 * force);  // equal and opposite on the two sides
+      CHECK(std::abs(at[k].largest_shear - 0.5 * force * std::cos(half)) <= 1e-8 * force);
     }
     for (const std::size_t k : {std::size_t{count / 4}, std::size_t{3 * count / 4}}) {
       CHECK(std::abs(at[k].moment - beside) <= tolerance);

@@ -134,12 +134,12 @@ TEST_SUITE("tunnel/tunnel_state") {
                          "table of bolts: no bar was given for bolt 1", InvalidInput);
     const std::string table =
         bolt_table(crossings, std::vector<Segment>{{{0, 1}, {0, 2}}, {{1, 0}, {3, 0}}});
-    CHECK(table.ends_with("\r\n2,0,1,0.5,1.5,0,200,1,yielded,-\r\n"));  // no strength was given
+    CHECK(table.ends_with("\r\n2,0,1,0.5,1.5,0,200,1,yielded,-,-,-\r\n"));  // no strength was given
     CHECK(bolt_table(crossings, std::vector<Segment>{{{0, 1}, {0, 2}}, {{1, 0}, {3, 0}}}, 250e3)
-              .ends_with(",200,1,yielded,0.8\r\n"));
+              .ends_with(",200,1,yielded,0.8,250,-\r\n"));
     const std::string space = bolt_table(
         crossings, std::vector<SpatialLine>{{{0, 0, 1}, {0, 0, 2}}, {{1, 7, 0}, {3, 7, 0}}});
-    CHECK(space.ends_with("\r\n2,1,0.5,1.5,7,0,200,0,1,yielded,-\r\n"));
+    CHECK(space.ends_with("\r\n2,1,0.5,1.5,7,0,200,0,1,yielded,-,-,-\r\n"));
   }
 }
 

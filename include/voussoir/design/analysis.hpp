@@ -130,8 +130,10 @@ struct TunnelResult {
   std::string boundary;  ///< in words
   /// Joints at which a bolt has yielded or ruptured, and feet that have reached their strength.
   int bolts_yielded = 0, bolts_ruptured = 0, feet_yielded = 0;
-  /// Largest bolt force over the strength of a bolt [-]; not a number: none was given.
+  /// The largest utilisation of a bolt at a joint [-]; not a number: no strength was given. See
+  /// `bolt_utilisations`.
   double of_bolt_strength = not_computed;
+  std::string bolts_governed_by = {};  ///< see `governed_by`
   /// The largest utilisation of a lining [-], infinite where no thrust bears its moment; not a
   /// number: no concrete was given. See `lining_utilisations`.
   double of_lining_strength = not_computed;
@@ -144,7 +146,8 @@ struct TunnelResult {
   [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::string word() const;
   /// Something of the supports has reached its strength.
   [[nodiscard]] bool has_yielded() const {
-    return bolts_yielded + bolts_ruptured + feet_yielded > 0 || of_lining_strength > 1;
+    return bolts_yielded + bolts_ruptured + feet_yielded > 0 || of_bolt_strength > 1 ||
+           of_lining_strength > 1;
   }
   /// It has a verdict and, where no rock has fallen, a number for the crown.
   [[nodiscard]] bool is_decided() const {
@@ -327,6 +330,8 @@ VOUSSOIR_DESIGN_INLINE std::string TunnelResult::word() const {
   if (verdict != Verdict::stable) return text;
   if (bolts_yielded > 0) text += ", bolts yielded";
   if (bolts_ruptured > 0) text += ", bolts ruptured";
+  if (of_bolt_strength > 1 && bolts_yielded + bolts_ruptured == 0)
+    text += ", bolts beyond their bond";
   if (feet_yielded > 0) text += ", feet at their strength";
   if (of_lining_strength > 1) text += ", lining beyond its strength";
   return text;
@@ -358,6 +363,9 @@ void describe(const AnalysisInput& input, const SupportChoice& supports, const S
   result.bolts_ruptured = condition.ruptured;
   result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
   if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
+  const std::vector<BoltUtilisation> joints = bolt_utilisations(input, tunnel);
+  if (const BoltUtilisation* const most = governing(joints))
+    result.bolts_governed_by = governed_by(*most);
   const std::vector<NodeUtilisation> nodes = lining_utilisations(input, supports, tunnel);
   if (const NodeUtilisation* const most = governing(nodes)) {
     result.of_lining_strength = most->use.value;

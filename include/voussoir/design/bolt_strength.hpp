@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voussoir/core/message_number.hpp>
 #include <voussoir/design/analysis_input.hpp>
 #include <voussoir/design/bodies.hpp>
 #include <voussoir/design/construction_plan.hpp>
@@ -16,31 +17,104 @@
 /// What bolts carry of what they can.
 namespace voussoir::design {
 
-/// Of one bolt in tension [N], the lower of yield and rupture; infinite: none was given.
+/// Of the bar of one bolt in tension [N], the lower of yield and rupture; infinite: none was given.
 [[nodiscard]] inline double bolt_strength(const BoltsInput& bolts) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   return std::min(bolts.yield_force.value_or(unlimited), bolts.rupture_force.value_or(unlimited));
 }
 
-/// Of every bolt that was installed [N].
+/// What a bolt would fail of at a joint.
+enum class BoltMode { yield, rupture, bond_at_tip, bond_at_head, plate };
+[[nodiscard]] inline const char* to_string(BoltMode mode) {
+  constexpr const char* words[] = {"yield", "rupture", "bond at the tip", "bond at the head",
+                                   "plate"};
+  return words[static_cast<std::size_t>(mode)];
+}
+
+/// What a bolt bears in tension where it crosses a joint.
+struct BoltLimit {
+  double strength = std::numeric_limits<double>::infinity();  ///< [N]; infinite: none was given
+  BoltMode mode = BoltMode::yield;
+};
+
+/// The least of three: the bar; the bond of all that is grouted beyond the joint, to the tip; the
+/// bond of all that is grouted before it, to the head, and the plate there. `plate`: where that
+/// bears the larger part of the last.
+/// @param length    of the bolt [m]
+/// @param position  of the joint from the head [m], 0 to `length`
+[[nodiscard]] inline BoltLimit bolt_limit(const BoltsInput& bolts, double length, double position) {
+  BoltLimit limit{bolt_strength(bolts), bolts.yield_force ? BoltMode::yield : BoltMode::rupture};
+  if (!bolts.bond_strength) return limit;
+  const double beyond = *bolts.bond_strength * (length - position),
+               before = *bolts.bond_strength * position;
+  if (beyond < limit.strength) limit = {beyond, BoltMode::bond_at_tip};
+  if (before + bolts.plate_strength < limit.strength)
+    limit = {before + bolts.plate_strength,
+             bolts.plate_strength > before ? BoltMode::plate : BoltMode::bond_at_head};
+  return limit;
+}
+
+/// A bolt where it crosses a joint: what it carries there of what it can.
+struct BoltUtilisation {
+  int bolt = 0;         ///< in the order of installation, from 0
+  int joint = 0;        ///< along it from the head, from 1
+  double position = 0;  ///< of that joint from the head [m]
+  double force = 0;     ///< axial, tension positive [N]
+  BoltLimit limit = {};
+
+  [[nodiscard]] double value() const {  ///< [-]; 0 in compression, and where there is no limit
+    return limit.strength > 0 ? std::max(0.0, force / limit.strength)
+           : force > 0        ? std::numeric_limits<double>::infinity()
+                              : 0.0;
+  }
+};
+
+/// At all joints, in the order of `bolt_forces`.
+template <class Solver>
+[[nodiscard]] std::vector<BoltUtilisation> bolt_utilisations(const AnalysisInput& input,
+                                                             const Solver& tunnel) {
+  const auto bars = bars_of(tunnel);
+  const std::vector<const BoltsInput*> patterns = patterns_of_bars(input, bars);
+  std::vector<int> joints(bars.size(), 0);
+  std::vector<BoltUtilisation> found;
+  for (const CrossingForce& at : bolt_forces(tunnel)) {
+    const auto k = static_cast<std::size_t>(at.bolt);
+    found.push_back({at.bolt, ++joints[k], at.position, at.report.axial,
+                     bolt_limit(*patterns[k], bars[k].length(), at.position)});
+  }
+  return found;
+}
+
+/// The one that governs; none: nothing is checked.
+[[nodiscard]] inline const BoltUtilisation* governing(const std::vector<BoltUtilisation>& joints) {
+  const BoltUtilisation* most = nullptr;
+  for (const BoltUtilisation& at : joints)
+    if (std::isfinite(at.limit.strength) && (most == nullptr || at.value() > most->value()))
+      most = &at;
+  return most;
+}
+
+/// What of a bolt governs, and where: "bolt 7: bond beyond its joint at 2.9 m".
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE std::string governed_by(const BoltUtilisation& at);
+
+/// Its value [-]; 0: no bolt that has a strength crosses a joint; none: no bolt has one.
+template <class Solver>
+[[nodiscard]] std::optional<double> most_of_bolt_strength(const AnalysisInput& input,
+                                                          const Solver& tunnel) {
+  const std::vector<BoltUtilisation> joints = bolt_utilisations(input, tunnel);
+  if (const BoltUtilisation* const most = governing(joints)) return most->value();
+  for (const BoltsInput* pattern : patterns_of_bars(input, bars_of(tunnel)))
+    if (std::isfinite(bolt_strength(*pattern)) || pattern->bond_strength) return 0.0;
+  return std::nullopt;
+}
+
+/// The strength of the bar of every bolt that was installed [N].
 template <class Solver>
 [[nodiscard]] std::vector<double> bolt_strengths(const AnalysisInput& input, const Solver& tunnel) {
   std::vector<double> strengths;
   for (const BoltsInput* pattern : patterns_of_bars(input, bars_of(tunnel)))
     strengths.push_back(bolt_strength(*pattern));
   return strengths;
-}
-
-/// The largest force of a bolt over its strength [-]; none: no bolt has one.
-template <class Solver>
-[[nodiscard]] std::optional<double> most_of_bolt_strength(const AnalysisInput& input,
-                                                          const Solver& tunnel) {
-  const std::vector<double> strengths = bolt_strengths(input, tunnel);
-  const std::vector<double> forces = largest_bolt_forces(tunnel);
-  std::optional<double> most;
-  for (std::size_t k = 0; k < strengths.size(); ++k)
-    if (std::isfinite(strengths[k])) most = std::max(most.value_or(0), forces[k] / strengths[k]);
-  return most;
 }
 
 /// Supports whose strength is not given, so that nothing says whether they bear what they carry:
@@ -51,10 +125,34 @@ inline constexpr const char* not_checked = "no strength was given: not checked";
 
 #if VOUSSOIR_DESIGN_BODIES
 
+VOUSSOIR_DESIGN_INLINE std::string governed_by(const BoltUtilisation& at) {
+  const char* words = "";
+  switch (at.limit.mode) {
+    case BoltMode::yield:
+      words = "yield at";
+      break;
+    case BoltMode::rupture:
+      words = "rupture at";
+      break;
+    case BoltMode::bond_at_tip:
+      words = "bond beyond";
+      break;
+    case BoltMode::bond_at_head:
+      words = "bond before";
+      break;
+    case BoltMode::plate:
+      words = "plate and bond before";
+      break;
+  }
+  return "bolt " + std::to_string(at.bolt + 1) + ": " + words + " its joint at " +
+         message_number(at.position, 3) + " m";
+}
+
 VOUSSOIR_DESIGN_INLINE std::vector<std::string> unchecked_supports(const AnalysisInput& input) {
   std::vector<std::string> unchecked;
-  if (std::any_of(input.bolts.begin(), input.bolts.end(),
-                  [](const BoltsInput& pattern) { return std::isinf(bolt_strength(pattern)); }))
+  if (std::any_of(input.bolts.begin(), input.bolts.end(), [](const BoltsInput& pattern) {
+        return std::isinf(bolt_strength(pattern)) && !pattern.bond_strength;
+      }))
     unchecked.emplace_back("bolts");
   if (std::any_of(input.linings.begin(), input.linings.end(),
                   [](const LiningInput& lining) { return !lining.concrete; }))

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/message.hpp>
@@ -15,7 +16,7 @@
 #include <voussoir/design/construction_plan.hpp>
 #include <voussoir/design/models.hpp>
 #include <voussoir/design/openings.hpp>
-#include <voussoir/design/section_capacity.hpp>
+#include <voussoir/design/section_check.hpp>
 #include <voussoir/tunnel/rib_forces.hpp>
 #include <voussoir/tunnel/support_forces.hpp>
 
@@ -30,8 +31,9 @@ struct NodeUtilisation {
   double angle = 0;      ///< at the centre of its opening, from the right-hand springing,
                          ///< anticlockwise [rad], 0 to 2 pi
   double along = 0;      ///< 3-D: along the axis of its opening [m]
-  SectionForces load;    ///< on `SectionCapacity::section` [N], [N m]
+  SectionForces load;  ///< on `SectionCheck::section`; shear is that of the member with most of it
   SectionUtilisation use;
+  SectionMethod method = SectionMethod::en1992;  ///< by which thrust and moment were checked
 };
 
 /// The part of a lining at an angle from the right-hand springing: "crown", "left springing", ...
@@ -82,14 +84,14 @@ namespace detail {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// The capacity of every lining that is installed, none where its concrete is not given.
-VOUSSOIR_DESIGN_INLINE std::vector<std::optional<SectionCapacity>> capacities(
+/// Of every lining that is installed, none where its concrete is not given.
+VOUSSOIR_DESIGN_INLINE std::vector<std::optional<SectionCheck>> checks_of_sections(
     const AnalysisInput& input, const SupportChoice& supports) {
-  std::vector<std::optional<SectionCapacity>> all;
+  std::vector<std::optional<SectionCheck>> all;
   for (const LiningInput* const lining : linings_as_installed(input, supports)) {
-    auto& capacity = all.emplace_back();
+    auto& check = all.emplace_back();
     if (auto section = section_of_lining(input, *lining, supports))
-      capacity.emplace(std::move(*section));
+      check.emplace(std::move(*section));
   }
   return all;
 }
@@ -98,38 +100,39 @@ VOUSSOIR_DESIGN_INLINE std::vector<std::optional<SectionCapacity>> capacities(
 
 VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
     const AnalysisInput& input, const SupportChoice& supports, const Tunnel& tunnel) {
-  const auto capacities = detail::capacities(input, supports);
+  const auto checks = detail::checks_of_sections(input, supports);
   const std::vector<LiningForce> forces = lining_forces(tunnel);
   std::vector<NodeUtilisation> found;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const LiningForce& at = forces[k];
-    const auto& capacity = capacities.at(static_cast<std::size_t>(at.lining));
-    if (!capacity || at.is_lost) continue;
+    const auto& check = checks.at(static_cast<std::size_t>(at.lining));
+    if (!check || at.is_lost) continue;
     const Vec2 out = at.position - at.centre;
-    const SectionForces load{at.thrust, at.moment};
-    found.push_back({k, at.lining, detail::turn_of(out), 0, load, capacity->utilisation(load)});
+    const SectionForces load{at.thrust, at.moment, at.largest_shear};
+    found.push_back({k, at.lining, detail::turn_of(out), 0, load, check->utilisation(load),
+                     check->section().method});
   }
   return found;
 }
 
 VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
     const AnalysisInput& input, const SupportChoice& supports, const SpatialTunnel& tunnel) {
-  const auto capacities = detail::capacities(input, supports);
+  const auto checks = detail::checks_of_sections(input, supports);
   const auto linings = linings_as_installed(input, supports);
   const std::vector<RibForce> forces = rib_forces(tunnel);
   std::vector<NodeUtilisation> found;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const RibForce& at = forces[k];
     const auto number = static_cast<std::size_t>(at.lining);
-    const auto& capacity = capacities.at(number);
-    if (!capacity) continue;
+    const auto& check = checks.at(number);
+    if (!check) continue;
     const std::size_t opening = linings[number]->opening;
     const PrismaticOpening whole =
         opening_in_space(input, opening, outline_of(outline_input(input, opening)));
     const Vec2 out = whole.across(at.position);
-    const SectionForces load{at.thrust, at.moment};
+    const SectionForces load{at.thrust, at.moment, at.largest_shear};
     found.push_back({k, at.lining, detail::turn_of(out), whole.along(at.position), load,
-                     capacity->utilisation(load)});
+                     check->utilisation(load), check->section().method});
   }
   return found;
 }

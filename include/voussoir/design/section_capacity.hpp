@@ -5,15 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/message.hpp>
 
-/// How much thrust, moment and shear a section of a lining bears: EN 1992-1-1, and the elastic
-/// check of edge stresses. Thrust is positive in compression, a moment where the outer fibre is in
-/// tension.
+/// A section of a lining, and how much thrust and moment it bears together by EN 1992-1-1. Thrust
+/// is positive in compression, a moment where the outer fibre is in tension. Other checks, and
+/// which of them is asked for: design/section_check.hpp.
 namespace voussoir::design {
 
 /// Bars or a mesh in one layer of a section.
@@ -24,6 +25,15 @@ struct BarLayer {
   double modulus = 200e9;         ///< E_s [Pa], 5e10 to 3e11
   double partial_factor = 1.15;   ///< gamma_S [-], 1 to 3
 };
+
+/// By which thrust and moment are checked.
+enum class SectionMethod {
+  en1992,  ///< `SectionCapacity`
+  elastic  ///< `edge_stress_utilisation`
+};
+[[nodiscard]] inline const char* to_string(SectionMethod method) {
+  return method == SectionMethod::en1992 ? "EN 1992-1-1, 6.1" : "elastic edge stresses";
+}
 
 /// A rectangular section of concrete or shotcrete: plain, with fibres, with bars.
 struct ConcreteSection {
@@ -39,28 +49,41 @@ struct ConcreteSection {
   /// Of the thrust over the thickness, |M| / (N h) [-], 0 to 0.5; 0.5: no limit. For sections
   /// without bars and fibres.
   double largest_eccentricity = 0.5;
+  SectionMethod method = SectionMethod::en1992;
+  /// f_ctk,0.05, characteristic [Pa], 1e5 to 1e7; none: of f_ck, EN 1992-1-1 table 3.1.
+  std::optional<double> tensile_strength = {};
+  double tensile_factor = 0.8;  ///< alpha_ct [-], 0.5 to 1; 0.8 is of plain concrete, 12.3.1
 
   [[nodiscard]] double design_strength() const {  ///< f_cd [Pa]
     return long_term_factor * strength / partial_factor;
+  }
+  [[nodiscard]] double characteristic_tension() const {  ///< f_ctk,0.05 [Pa]
+    const double f = 1e-6 * strength;
+    return tensile_strength.value_or(
+        0.7e6 * (f <= 50 ? 0.3 * std::cbrt(f * f) : 2.12 * std::log(1 + 0.1 * (f + 8))));
+  }
+  [[nodiscard]] double design_tension() const {  ///< f_ctd [Pa]
+    return tensile_factor * characteristic_tension() / partial_factor;
   }
 };
 
 struct SectionForces {
   double thrust = 0;  ///< N [N]
   double moment = 0;  ///< M about the middle of the section [N m]
+  double shear = 0;   ///< V, either sign [N]
 };
 
 /// Of what a section fails that is loaded beyond its capacity.
-enum class SectionMode { compression, bending, tension };
+enum class SectionMode { compression, bending, tension, pressed_edge, cracked_edge, shear };
 [[nodiscard]] inline const char* to_string(SectionMode mode) {
-  return mode == SectionMode::compression ? "compression"
-         : mode == SectionMode::bending   ? "bending"
-                                          : "tension";
+  constexpr const char* words[] = {
+      "compression", "bending", "tension", "compression of an edge", "tension of an edge", "shear"};
+  return words[static_cast<std::size_t>(mode)];
 }
 
 struct SectionUtilisation {
-  /// By how much thrust and moment together may grow is its inverse [-]; infinite: the section does
-  /// not bear any part of them.
+  /// By how much all forces together may grow is its inverse [-]; infinite: the section does not
+  /// bear any part of them.
   double value = 0;
   SectionMode mode = SectionMode::compression;
 };
@@ -112,7 +135,7 @@ class SectionCapacity {
     return all;
   }
 
-  /// Of a thrust and a moment that grow together.
+  /// Of a thrust and a moment that grow together; shear is not asked.
   /// @cost  60 points of the envelope
   [[nodiscard]] SectionUtilisation utilisation(const SectionForces& load) const {
     const double size = std::max(std::abs(load.thrust), std::abs(load.moment) / section_.thickness);
@@ -214,6 +237,10 @@ class SectionCapacity {
     within(section_.fibre_strength, "residual strength of fibres", 0, 2e7, "0 to 2e7 Pa");
     within(section_.fibre_partial_factor, "partial factor of fibres", 1, 3, "1 to 3");
     within(section_.largest_eccentricity, "largest eccentricity", 0, 0.5, "0 to 0.5");
+    within(section_.characteristic_tension(), "tensile strength of concrete", 1e5, 1e7,
+           "1e5 to 1e7 Pa");
+    within(section_.tensile_factor, "factor of the tensile strength of concrete", 0.5, 1,
+           "0.5 to 1");
     if (section_.largest_eccentricity < 0.5 &&
         (!section_.bars.empty() || section_.fibre_strength > 0))
       throw InvalidInput(message({"largest eccentricity = ", section_.largest_eccentricity,

@@ -94,6 +94,8 @@ VOUSSOIR_DESIGN_INLINE AnalysisInput with_weaker_supports(AnalysisInput input, d
   for (BoltsInput& bolts : input.bolts) {
     divide(bolts.yield_force);
     divide(bolts.rupture_force);
+    divide(bolts.bond_strength);
+    bolts.plate_strength /= factor;
   }
   for (LiningInput& lining : input.linings) {
     lining.shear_bond /= factor;

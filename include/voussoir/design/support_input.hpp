@@ -54,6 +54,10 @@ struct BoltsInput {
   double pretension = 0;       ///< [N], 0 to 1e9
   std::optional<double> yield_force = {};    ///< of one bolt [N], > 0, <= 1e9
   std::optional<double> rupture_force = {};  ///< of one bolt [N], > 0, <= 1e9
+  /// Of the grout along one bolt [N/m], > 0, <= 1e9; none: its bond is not checked. The model holds
+  /// the bolt at its anchors, whatever they carry.
+  std::optional<double> bond_strength = {};
+  double plate_strength = 0;  ///< of plate and nut at the head [N], 0 to 1e9; with a bond alone
   AnchorKind anchors = AnchorKind::lorig;
   double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0
   BoltKind law = BoltKind::axial;
@@ -103,6 +107,10 @@ struct LiningInput {
   /// By which it is checked; thickness and width are those of the lining, areas of bars per metre
   /// of it [m^2/m]. None: it is not checked.
   std::optional<ConcreteSection> concrete = {};
+  /// Of shotcrete to the rock, characteristic [Pa], 1e3 to 1e7, on a strip along the edge of a
+  /// block [m], 1e-3 to 1: single blocks are checked by it. Not the bond that the model knows.
+  std::optional<double> adhesion = {};
+  double adhesion_width = 0.03;
 
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {

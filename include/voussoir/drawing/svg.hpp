@@ -141,6 +141,26 @@ class SvgCanvas {
     text_ += "</g>\n";
     --open_layers_;
   }
+  /// Begins a layer of places that say something to a reader who points at them. Nothing of it is
+  /// drawn; `end_layer` ends it. Later places lie on top.
+  void begin_spots() {
+    text_ +=
+        "<g id=\"spots\" inkscape:groupmode=\"layer\" inkscape:label=\"spots\" fill=\"none\" "
+        "pointer-events=\"all\">\n";
+    ++open_layers_;
+  }
+  /// @param says  plain; more than one line if it has line breaks
+  void spot(std::span<const Vec2> corners, std::string_view says) {
+    SvgPath outline(1);
+    outline.add_polygon(corners);
+    write_spot(outline, says, "");
+  }
+  /// @param width  of what can be pointed at [px]
+  void spot(const Vec2& p, const Vec2& q, double width, std::string_view says) {
+    SvgPath line(1);
+    line.add_line(p, q);
+    write_spot(line, says, " stroke-width=\"" + trimmed_text(width, 1) + '"');
+  }
   /// Names a rectangle outside which a layer is cut off.
   void clip_rectangle(std::string_view id, const ViewRect& rect) {
     text_ += "<clipPath id=\"" + xml_escaped(id) + "\">";
@@ -212,6 +232,11 @@ class SvgCanvas {
     }
     if (style.opacity < 1) text_ += " opacity=\"" + trimmed_text(style.opacity, 2) + '"';
     text_ += "/>\n";
+  }
+  void write_spot(const SvgPath& outline, std::string_view says, const std::string& attributes) {
+    if (outline.empty() || says.empty()) return;
+    text_ += "<path d=\"" + outline.data() + '"' + attributes + "><title>" + xml_escaped(says) +
+             "</title></path>\n";
   }
   void write_text(const Vec2& at, std::string_view utf8, const TextStyle& style,
                   const std::string& paint) {

@@ -30,13 +30,20 @@ VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& pictu
 VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, const PageMap& map,
                                const DisplacementScale& scale, const ForceScale& forces);
 
+/// What blocks, lining and bolts say, bolts on top.
+VOUSSOIR_INLINE void draw_spots(SvgCanvas& canvas, const BlocksPicture& picture,
+                                const PageMap& map);
+
 }  // namespace detail
 
 /// The page that an engineer's report shows of one calculation: the rock around the opening with
 /// displacements, slipped joints, bolts and their forces, lining; beside it thrust and moment
 /// around the lining (or the bolts' forces where there is none) and the whole model.
 ///
-/// @return  an SVG document, 190 mm wide; about 80 bytes a block
+/// Where its parts say something, so does the picture, in a browser: to who points at them.
+///
+/// @return  an SVG document, 190 mm wide; about 80 bytes a block, and as many again for what it
+/// says
 ///
 /// Never fails on the values of a calculation gone bad: what has coordinates that are not finite is
 /// left out, and the picture says how much that is.
@@ -180,6 +187,35 @@ VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, 
   canvas.rectangle(map.page(), {.stroke = "#111"});
 }
 
+VOUSSOIR_INLINE void draw_spots(SvgCanvas& canvas, const BlocksPicture& picture,
+                                const PageMap& map) {
+  constexpr double lining_width = 10, bolt_width = 8;  // [px]
+  canvas.begin_spots();
+  for (const PictureBlock& block : picture.blocks)
+    if (!block.says.empty() && is_drawable(block))
+      canvas.spot(on_page(clip_polygon(block.corners, map.world()), map), block.says);
+  for (const PictureLining& lining : picture.linings) {
+    const std::size_t n = lining.nodes.size();
+    const auto is_sound = [&](std::size_t k) { return lining.nodes[k].point.allFinite(); };
+    for (std::size_t k = 0; k < n; ++k) {
+      // From half way to the node before to half way to the one behind.
+      const std::size_t before = k > 0 ? k - 1 : (lining.is_ring ? n - 1 : k),
+                        behind = k + 1 < n ? k + 1 : (lining.is_ring ? 0 : k);
+      if (!is_sound(before) || !is_sound(k) || !is_sound(behind)) continue;
+      const auto half_way = [&](std::size_t other) {
+        return Vec2(0.5 * (lining.nodes[k].point + lining.nodes[other].point));
+      };
+      if (const auto seen = clip_segment(half_way(before), half_way(behind), map.world()))
+        canvas.spot(map(seen->first), map(seen->second), lining_width, lining.nodes[k].says);
+    }
+  }
+  for (const PictureBolt& bolt : picture.bolts)
+    if (is_drawable(bolt))
+      if (const auto seen = clip_segment(bolt.head, bolt.tip, map.world()))
+        canvas.spot(map(seen->first), map(seen->second), bolt_width, bolt.says);
+  canvas.end_layer();
+}
+
 }  // namespace detail
 
 VOUSSOIR_INLINE std::string draw_blocks_picture(const BlocksPicture& picture) {
@@ -208,6 +244,7 @@ VOUSSOIR_INLINE std::string draw_blocks_picture(const BlocksPicture& picture) {
   canvas.hatch_pattern("hatch", fallen_colour, 6, 1.6);
   picture.header.draw(canvas);
   draw_rock(canvas, picture, map, scale, forces);
+  draw_spots(canvas, picture, map);
   if (picture.banner) picture.banner->draw(canvas, rock, rock.low.y());
   if (!scale.is_empty())
     draw_displacement_bar(

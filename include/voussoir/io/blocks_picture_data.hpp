@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct PictureBlock {
   std::vector<Vec2> corners;  ///< of a convex polygon [m]
   double displacement = 0;    ///< magnitude [m]; NaN: unknown, drawn grey
   bool is_fallen = false;     ///< left the rock: hatched, and outside the scale of colours
+  std::string says = {};      ///< to who points at it; empty: nothing
 };
 
 /// A stretch of joint between two blocks.
@@ -41,6 +43,7 @@ struct PictureBolt {
   Vec2 head = zeros<Vec2>(), tip = zeros<Vec2>();  ///< at the opening, in the rock [m]
   std::vector<PictureCrossing> crossings;          ///< from head to tip
   bool is_elsewhere = false;  ///< in another opening: in no diagram, whose directions are of one
+  std::string says = {};      ///< as of blocks
 };
 
 struct PictureLiningNode {
@@ -48,6 +51,8 @@ struct PictureLiningNode {
   Vec2 outward_normal = zeros<Vec2>();  ///< towards the rock, unit length
   double thrust = 0;                    ///< N [N/m], compression positive
   double moment = 0;                    ///< M [N m/m], positive: outer fibre in tension
+  std::size_t number = 0;               ///< of the node, among those of all linings
+  std::string says = {};                ///< as of blocks
 };
 
 /// An end of a lining that bears on rock.
@@ -85,6 +90,7 @@ struct BlocksPicture {
   double reference_thrust = 0;
   /// What is seen [m]; none: `view_around_opening`. Made wider or higher to fill its frame.
   std::optional<ViewRect> view;
+  bool shows_whole_model = true;             ///< small, beside what is seen
   std::optional<PictureBanner> banner = {};  ///< over the rock; none: a tunnel that stands
 };
 

@@ -192,6 +192,12 @@ VOUSSOIR_INLINE std::string draw_interaction_picture(const InteractionPicture& p
   for (const InteractionPanel& panel : panels)
     draw_interaction_panel(canvas, picture, panel, bands);
   draw_thickness_axes(canvas, picture, panels[0], top, bottom);
+  canvas.begin_spots();
+  for (const InteractionPanel& panel : panels)
+    for (const InteractionPanel::Point& point : panel.points())
+      canvas.spot(point.at - Vec2(9, 0), point.at + Vec2(9, 0), 18,
+                  words_of(picture, point.i, point.j));
+  canvas.end_layer();
   if (has_row_without)
     for (const double x : {left, right}) draw_axis_break(canvas, {x, main_top - gap / 2}, false);
   if (has_column_without) {

@@ -43,8 +43,10 @@ __declspec(dllimport) int __stdcall SetConsoleOutputCP(unsigned);
 #else
 #include <fcntl.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill is of POSIX, not of C++
+#include <spawn.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #endif
 #endif
@@ -82,6 +84,10 @@ namespace voussoir {
 VOUSSOIR_INLINE void let_writes_beyond_limit_fail();
 /// Whether a program of this name lies in a folder of PATH.
 [[nodiscard]] VOUSSOIR_INLINE bool finds_program(const std::string& name);
+/// Runs a program of PATH to its end; what it prints is not shown.
+/// @param words  its name, then what it is given
+/// @return  its exit status; -1: it could not be started, or something killed it
+[[nodiscard]] VOUSSOIR_INLINE int run_to_its_end(const std::vector<std::string>& words);
 /// What `main` was given, the name of the program first, in UTF-8.
 [[nodiscard]] VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv);
 
@@ -273,6 +279,15 @@ VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
   return _wfopen(path.c_str(), L"wb");
 }
 VOUSSOIR_INLINE void let_writes_beyond_limit_fail() {}  // there is no such limit
+VOUSSOIR_INLINE int run_to_its_end(const std::vector<std::string>& words) {
+  std::vector<std::wstring> quoted;  // Windows joins them with blanks, and parts them there again
+  for (const std::string& word : words) quoted.push_back(L"\"" + utf8_path(word).wstring() + L"\"");
+  std::vector<const wchar_t*> arguments;
+  for (const std::wstring& word : quoted) arguments.push_back(word.c_str());
+  arguments.push_back(nullptr);
+  return static_cast<int>(
+      _wspawnvp(_P_WAIT, utf8_path(words.at(0)).wstring().c_str(), arguments.data()));
+}
 VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
   int count = 0;
   wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &count);
@@ -314,6 +329,25 @@ VOUSSOIR_INLINE std::FILE* open_to_write(const std::filesystem::path& path) {
   return std::fopen(path.c_str(), "wb");
 }
 VOUSSOIR_INLINE void let_writes_beyond_limit_fail() { (void)signal(SIGXFSZ, SIG_IGN); }
+VOUSSOIR_INLINE int run_to_its_end(const std::vector<std::string>& words) {
+  std::vector<std::string> copies = words;
+  std::vector<char*> arguments;
+  for (std::string& word : copies) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+  pid_t process = -1;
+  const int failed =
+      posix_spawnp(&process, arguments.at(0), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  if (failed != 0) return -1;
+  while (waitpid(process, &status, 0) != process)
+    if (errno != EINTR) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
 VOUSSOIR_INLINE std::vector<std::string> program_arguments(int argc, char** argv) {
   return {argv, argv + argc};
 }

@@ -44,6 +44,11 @@ struct TunnelPictureText {
   std::string crown_name = "crown convergence";
   double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
   ViewFrom from = ViewFrom::axis;  ///< in 3-D
+  bool shows_whole_model = true;   ///< in 2-D, small, beside the rock around the opening
+  /// In tension, of every bolt [N]; infinite: it has none. Empty: nothing is said of it.
+  std::vector<double> bolt_strengths = {};
+  /// In 2-D: what every node of the linings has of its strength [-]; not a number: not checked.
+  std::vector<double> node_utilisations = {};
 };
 
 /// The verdict in a sentence, with the error and the out-of-balance force that it rests on, or the
@@ -130,6 +135,20 @@ template <class Solver>
   return numbers;
 }
 
+/// What a part of the picture says of its strength.
+[[nodiscard]] inline std::string words_of_strength(double utilisation) {
+  if (std::isnan(utilisation)) return "";
+  if (std::isinf(utilisation)) return "\nbeyond its strength";
+  return "\n" + readable_text(100 * utilisation, 2) + " % of its strength";
+}
+/// @param force      [N]
+/// @param strengths  see `TunnelPictureText`
+[[nodiscard]] inline std::string words_of_strength(double force, std::size_t bolt,
+                                                   const std::vector<double>& strengths) {
+  if (bolt >= strengths.size() || !std::isfinite(strengths[bolt])) return "";
+  return words_of_strength(force / strengths[bolt]);
+}
+
 /// In-situ stress at the middle of the opening times half its width, see `BlocksPicture`.
 template <class Solver>
 [[nodiscard]] double reference_thrust_of(const Solver& solver, const ViewRect& opening) {
@@ -198,10 +217,18 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
   BlocksPicture picture =
       picture_of(state_of(solver), solver.mass(), bars_of(solver), text.lining_thickness);
   picture.header.title = text.title;
+  picture.shows_whole_model = text.shows_whole_model;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};
   picture.header.lines.insert(picture.header.lines.end(), text.remarks.begin(), text.remarks.end());
   picture.header.key_numbers = detail::key_numbers_of(solver, result, text);
   picture.banner = banner_of(result.verdict(), fallen, "m²", result.has_lost_lining());
+  for (std::size_t k = 0; k < picture.bolts.size(); ++k)
+    picture.bolts[k].says +=
+        detail::words_of_strength(detail::max_force(picture.bolts[k]), k, text.bolt_strengths);
+  for (PictureLining& lining : picture.linings)
+    for (PictureLiningNode& node : lining.nodes)
+      if (node.number < text.node_utilisations.size())
+        node.says += detail::words_of_strength(text.node_utilisations[node.number]);
   if (result.measured) detail::look_at(picture, *result.measured);
   if (const auto tunnel = result.measured ? bounding_rect(result.measured->vertices())
                                           : detail::rect_of_tunnel(solver.mass()))
@@ -253,6 +280,8 @@ requires(Solver::dim == 3) [[nodiscard]] std::string
                 const TunnelPictureText& text = {}) {
   const double fallen = result.fallen_measure();
   TunnelView view = picture_of(state_of(solver), bars_of(solver));
+  for (std::size_t k = 0; k < view.bolts.size(); ++k)
+    view.bolts[k].says += detail::words_of_strength(view.bolts[k].force, k, text.bolt_strengths);
   view.axes = text.axes;
   view.header.title = text.title;
   view.header.lines = {verdict_sentence(result.last(), fallen, "m³", result.has_lost_lining())};

@@ -85,6 +85,35 @@ template <class Thickness>
   return chains;
 }
 
+// What the parts of a picture say to who points at them.
+
+/// @param measure  of the block [m^2], [m^3]
+template <int Dim>
+[[nodiscard]] std::string words_of(std::size_t block, const BlockState<Dim>& state,
+                                   double measure) {
+  return "block " + std::to_string(block) + "\n" +
+         (state.is_gone ? "came off"
+                        : "moved " + readable_text(1e3 * state.displacement.norm()) + " mm") +
+         "\n" + readable_text(measure) + (Dim == 2 ? " m²" : " m³");
+}
+[[nodiscard]] inline std::string words_of(const LiningForce& at) {
+  return "lining " + std::to_string(at.lining + 1) + "\nthrust " + printed_text(1e-3 * at.thrust) +
+         " kN/m\nmoment " + printed_text(1e-3 * at.moment) + " kN m/m";
+}
+/// @param bolt  its number, from 0
+[[nodiscard]] inline std::string words_of(std::size_t bolt, const PictureBolt& drawn) {
+  std::string words = "bolt " + std::to_string(bolt + 1);
+  const PictureCrossing* most = nullptr;
+  for (const PictureCrossing& crossing : drawn.crossings)
+    if (most == nullptr || crossing.force > most->force) most = &crossing;
+  if (most == nullptr) return words + "\ncrosses no joint";
+  words += "\n" + printed_text(1e-3 * most->force) + " kN, " +
+           readable_text((most->point - drawn.head).norm(), 2) + " m from its head";
+  if (most->state == PictureCrossing::State::yielded) words += ", yielded";
+  if (most->state == PictureCrossing::State::ruptured) words += ", ruptured";
+  return words;
+}
+
 /// @param lining_thickness  of all of them [m]; 0: what the state knows
 [[nodiscard]] inline std::vector<PictureLining> picture_linings(const TunnelState<Planar>& state,
                                                                 double lining_thickness) {
@@ -111,8 +140,8 @@ template <class Thickness>
       // Across the line through the neighbours: right for corners as for circles.
       const Vec2& back = at(drawn.is_ring ? (k + n - 1) % n : (k > 0 ? k - 1 : 0)).position;
       const Vec2& front = at(drawn.is_ring ? (k + 1) % n : std::min(k + 1, n - 1)).position;
-      drawn.nodes.push_back(
-          {at(k).position, -perpendicular(front - back).normalized(), at(k).thrust, at(k).moment});
+      drawn.nodes.push_back({at(k).position, -perpendicular(front - back).normalized(),
+                             at(k).thrust, at(k).moment, chain.nodes[k], words_of(at(k))});
     }
   }
   // A foot is drawn with the end that it is under.
@@ -148,7 +177,8 @@ template <class Thickness>
     for (const ConvexPolygon& part : mass.bodies[b].parts) {
       std::vector<Vec2> corners;
       for (const Vec2& v : part.vertices()) corners.push_back(block.motion(v));
-      picture.blocks.push_back({std::move(corners), block.displacement.norm(), block.is_gone});
+      picture.blocks.push_back({std::move(corners), block.displacement.norm(), block.is_gone,
+                                detail::words_of(b, block, mass.bodies[b].properties.measure)});
     }
   }
   for (const JointState<2>& joint : state.joints) {
@@ -173,6 +203,8 @@ template <class Thickness>
     bolt.crossings.push_back(
         {bar.at(at.position / bar.length()), at.report.axial, detail::picture_state(at.report)});
   }
+  for (std::size_t k = 0; k < picture.bolts.size(); ++k)
+    picture.bolts[k].says = detail::words_of(k, picture.bolts[k]);
   picture.linings = detail::picture_linings(state, lining_thickness);
   for (const ConvexPolygon& fill : state.fills) picture.fills.push_back(fill.vertices());
   return picture;
@@ -189,8 +221,12 @@ template <class Thickness>
   }
   const auto pull = largest_bolt_forces(state.bolts, static_cast<int>(bars.size()));
   for (std::size_t k = 0; k < bars.size(); ++k)
-    view.bolts.push_back({bars[k].start, bars[k].end, pull[k]});
-  for (const MemberForces<3>& m : state.members) view.lining.push_back({m.from, m.to, m.thrust});
+    view.bolts.push_back(
+        {bars[k].start, bars[k].end, pull[k],
+         "bolt " + std::to_string(k + 1) + "\n" + printed_text(1e-3 * pull[k]) + " kN"});
+  for (const MemberForces<3>& m : state.members)
+    view.lining.push_back(
+        {m.from, m.to, m.thrust, "lining\nthrust " + printed_text(1e-3 * m.thrust) + " kN"});
   view.fills = state.fills;
   return view;
 }

@@ -28,9 +28,14 @@ namespace voussoir {
 
 namespace detail {
 
-/// What is carried as part of a strength; "-" where none was given: not checked.
-[[nodiscard]] inline std::string of_strength(double force, double strength) {
-  return std::isfinite(strength) ? significant_text(force / strength, 8) : std::string("-");
+/// "-" where no strength was given: not checked.
+[[nodiscard]] inline std::string strength_text(double value, double strength) {
+  return std::isfinite(strength) ? significant_text(value, 8) : std::string("-");
+}
+
+/// "-": not checked; "beyond": no part of it is borne.
+[[nodiscard]] inline std::string use_text(double use) {
+  return std::isnan(use) ? "-" : std::isinf(use) ? "beyond" : significant_text(use, 4);
 }
 
 /// Anticlockwise from the right-hand springing [degrees], 0 to 360.
@@ -60,63 +65,76 @@ template <class Bar>
 
 }  // namespace detail
 
-/// Strength of bolts in tension: one for all, or that of each.
+/// Of a bolt at a joint.
+struct CrossingStrength {
+  double strength = std::numeric_limits<double>::infinity();  ///< [N]; infinite: none was given
+  std::string mode = "-";                                     ///< what it would fail of
+};
+
+/// Strength of bolts in tension: one for all, or that at each joint.
 class BoltStrengths {
  public:
   BoltStrengths() = default;
   /// @param of_all  [N]
   BoltStrengths(double of_all) : of_all_(of_all) {}  // NOLINT(google-explicit-constructor)
-  /// @param of_each  in the order of their installation [N]
-  BoltStrengths(std::vector<double> of_each)  // NOLINT(google-explicit-constructor)
-      : of_each_(std::move(of_each)) {}
+  /// @param at_joints  in the order of `bolt_forces`
+  BoltStrengths(std::vector<CrossingStrength> at_joints)  // NOLINT(google-explicit-constructor)
+      : at_joints_(std::move(at_joints)) {}
 
-  /// [N]; infinite: none was given
-  [[nodiscard]] double of(int bolt) const {
-    const auto k = static_cast<std::size_t>(bolt);
-    return k < of_each_.size() ? of_each_[k] : of_all_;
+  /// @param crossing  index
+  [[nodiscard]] CrossingStrength at(std::size_t crossing) const {
+    return crossing < at_joints_.size() ? at_joints_[crossing] : CrossingStrength{of_all_};
   }
 
  private:
   double of_all_ = std::numeric_limits<double>::infinity();
-  std::vector<double> of_each_;
+  std::vector<CrossingStrength> at_joints_;
 };
 
 /// One row for every bolt and joint crossed.
 /// @param bars      in the order in which they were installed
 /// @param strength  in tension, of one bolt [N]; infinite: none was given, nothing is checked; or
-///                  those of all bolts, in their order
+///                  those at all crossings
 /// @throws InvalidInput  a bar is missing
 [[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
                                             const std::vector<Segment>& bars,
                                             const BoltStrengths& strength = {}) {
-  CsvTable table({"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m",
-                  "axial_force_kN", "extension_mm", "state", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"bolt", "angle_deg", "joint", "distance_from_head_m", "x_m", "y_m", "axial_force_kN",
+       "extension_mm", "state", "of_its_strength", "strength_kN", "mode"},
+      8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
     const CrossingForce& c = crossings[k];
+    const CrossingStrength borne = strength.at(k);
     const Segment& bar = *places[k].bar;
     const Vec2 p = bar.at(c.position / bar.length());
     table.add_row(c.bolt + 1, detail::angle_in_degrees(bar.end - bar.start), places[k].joint,
                   c.position, p.x(), p.y(), 1e-3 * c.report.axial, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
+                  to_string(c.report),
+                  detail::strength_text(c.report.axial / borne.strength, borne.strength),
+                  detail::strength_text(1e-3 * borne.strength, borne.strength), borne.mode);
   }
   return table.text();
 }
 [[nodiscard]] inline std::string bolt_table(const std::vector<CrossingForce>& crossings,
                                             const std::vector<SpatialLine>& bars,
                                             const BoltStrengths& strength = {}) {
-  CsvTable table({"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
-                  "shear_force_kN", "extension_mm", "state", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"bolt", "joint", "distance_from_head_m", "x_m", "y_m", "z_m", "axial_force_kN",
+       "shear_force_kN", "extension_mm", "state", "of_its_strength", "strength_kN", "mode"},
+      8);
   const auto places = detail::places_on_bars(crossings, bars);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
     const CrossingForce& c = crossings[k];
+    const CrossingStrength borne = strength.at(k);
     const SpatialLine& bar = *places[k].bar;
     const Vec3 p = bar.start + c.position / bar.length() * (bar.end - bar.start);
     table.add_row(c.bolt + 1, places[k].joint, c.position, p.x(), p.y(), p.z(),
                   1e-3 * c.report.axial, 1e-3 * c.report.shear, 1e3 * c.extension,
-                  to_string(c.report), detail::of_strength(c.report.axial, strength.of(c.bolt)));
+                  to_string(c.report),
+                  detail::strength_text(c.report.axial / borne.strength, borne.strength),
+                  detail::strength_text(1e-3 * borne.strength, borne.strength), borne.mode);
   }
   return table.text();
 }
@@ -128,9 +146,10 @@ class BoltStrengths {
 ///                     not checked; infinite: it bears no part of it
 [[nodiscard]] inline std::string lining_table(const std::vector<LiningForce>& lining,
                                               const std::vector<double>& of_strength = {}) {
-  CsvTable table({"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
-                  "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength"},
-                 8);
+  CsvTable table(
+      {"lining", "node", "angle_deg", "x_m", "y_m", "thrust_kN_per_m", "shear_kN_per_m",
+       "moment_kNm_per_m", "convergence_mm", "lost", "of_its_strength", "largest_shear_kN_per_m"},
+      8);
   int node = 0, of = -1;
   for (std::size_t k = 0; k < lining.size(); ++k) {
     const LiningForce& at = lining[k];
@@ -140,24 +159,26 @@ class BoltStrengths {
         k < of_strength.size() ? of_strength[k] : std::numeric_limits<double>::quiet_NaN();
     table.add_row(of + 1, node, detail::angle_in_degrees(at.position - at.centre), at.position.x(),
                   at.position.y(), 1e-3 * at.thrust, 1e-3 * at.shear, 1e-3 * at.moment,
-                  1e3 * at.convergence, at.is_lost,
-                  std::isnan(use)   ? std::string("-")
-                  : std::isinf(use) ? std::string("beyond")
-                                    : significant_text(use, 4));
+                  1e3 * at.convergence, at.is_lost, detail::use_text(use), 1e-3 * at.largest_shear);
   }
   return table.text();
 }
-/// One row for every member of all linings in 3-D, without strength, too; what joins two linings is
-/// of the later one.
-[[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members) {
+/// One row for every member of all linings in 3-D; what joins two linings is of the later one.
+/// @param of_strength  what each member carries of what it can, as of nodes above
+[[nodiscard]] inline std::string lining_table(const std::vector<MemberForces<3>>& members,
+                                              const std::vector<double>& of_strength = {}) {
   CsvTable table({"lining", "member", "x_m", "y_m", "z_m", "thrust_kN", "shear_kN", "moment_kNm",
                   "of_its_strength"},
                  8);
   int number = 0;
   for (const MemberForces<3>& m : members) {
     const Vec3 p = 0.5 * (m.from + m.to);
-    table.add_row(m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
-                  1e-3 * m.moment, "-");
+    const auto k = static_cast<std::size_t>(number);
+    table.add_row(
+        m.lining + 1, ++number, p.x(), p.y(), p.z(), 1e-3 * m.thrust, 1e-3 * m.shear,
+        1e-3 * m.moment,
+        detail::use_text(k < of_strength.size() ? of_strength[k]
+                                                : std::numeric_limits<double>::quiet_NaN()));
   }
   return table.text();
 }

@@ -28,8 +28,9 @@ namespace voussoir {
 
 /// A line of the support: a bolt, a member of the lining.
 struct SupportLine {
-  Vec3 from, to;  ///< [m]
-  double force;   ///< [N]; decides the width
+  Vec3 from, to;          ///< [m]
+  double force;           ///< [N]; decides the width
+  std::string says = {};  ///< to who points at it; empty: nothing
 };
 
 /// A tunnel in 3-D, cut open, as it is to be drawn. `look_from` chooses section and viewer.
@@ -118,7 +119,8 @@ VOUSSOIR_INLINE PartedLine parted_line(const SupportLine& line, const HalfSpace<
   if (near > tolerance) return {std::nullopt, line};
   if (far <= tolerance) return {line, std::nullopt};
   const Vec3 met = inner.from - near / (far - near) * (inner.to - inner.from);
-  return {SupportLine{inner.from, met, line.force}, SupportLine{met, inner.to, line.force}};
+  return {SupportLine{inner.from, met, line.force, line.says},
+          SupportLine{met, inner.to, line.force, line.says}};
 }
 
 /// How far arrows of one px along the axes reach on the page, from their origin.
@@ -202,7 +204,8 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   for (const Body<Spatial>& body : mass.dropped) lay_bare(body);
   std::vector<std::pair<double, VisibleFace>> faces;
   std::vector<SeenLine> wall;
-  const auto add_faces = [&](const ConvexPolyhedron& whole, const Colour& colour, bool is_rock) {
+  const auto add_faces = [&](const ConvexPolyhedron& whole, const Colour& colour, bool is_rock,
+                             const std::string& says) {
     ConvexPolyhedron part = whole;
     if (auto halves = whole.split(section, -1, tolerance))
       part = std::move(halves->first);
@@ -216,6 +219,7 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
         continue;
       if (is_section && is_rock) add_wall_lines(part, k, mass.openings, 1e3 * tolerance, wall);
       VisibleFace face{{}, is_section ? colour : shaded(colour, normal, view)};
+      face.says = says;
       double depth = 0;
       for (const int v : part.loop(k)) {
         const Vec3& p = part.vertex(static_cast<std::size_t>(v));
@@ -228,9 +232,13 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     if (is_gone(b)) continue;
     const Colour colour = colours(scene.displacement[b] / scale.top());
-    for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour, true);
+    const std::string says = "block " + std::to_string(b) + "\nmoved " +
+                             readable_text(1e3 * scene.displacement[b]) + " mm\n" +
+                             readable_text(mass.bodies[b].properties.measure) + " m³";
+    for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour, true, says);
   }
-  for (const ConvexPolyhedron& fill : scene.fills) add_faces(fill, filled, false);
+  for (const ConvexPolyhedron& fill : scene.fills)
+    add_faces(fill, filled, false, "hole filled with lining");
   if (faces.empty()) throw InvalidInput("draw_tunnel_view: no rock lies behind the section");
   std::stable_sort(faces.begin(), faces.end(),
                    [](const auto& p, const auto& q) { return p.first < q.first; });
@@ -337,6 +345,15 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   };
   draw_lines("lining", scene.lining, lining_colour, false, scene.shows_lining_before);
   draw_lines("bolts", scene.bolts, bolt_colour, true, scene.shows_bolts_before);
+  canvas.begin_spots();
+  for (const VisibleFace& face : ordered) canvas.spot(on_page(face.corners, map), face.says);
+  constexpr double line_width = 8;  // [px]
+  for (const std::vector<SupportLine>* lines : {&scene.lining, &scene.bolts})
+    for (const SupportLine& line : *lines)
+      if (const PartedLine parted = parted_line(line, section, tolerance); parted.behind)
+        canvas.spot(map(view(parted.behind->from)), map(view(parted.behind->to)), line_width,
+                    line.says);
+  canvas.end_layer();
   draw_view_key(canvas, {frame.low.x(), foot}, key, view, scene.axes, map.scale());
   const double below = foot + key_height;
   draw_unrolled_lining(canvas, {{picture_margin, below}, {picture_margin + width, below + panels}},

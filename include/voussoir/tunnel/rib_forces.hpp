@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -18,6 +19,8 @@ struct RibForce {
   double shear;   ///< V across the rib, radial [N]
   double moment;  ///< M about the axis of the tunnel, positive: outer fibre in tension [N m]
   int lining;     ///< which it is of, in the order of installation
+  /// As in `LiningForce`: of the members that meet there, magnitude [N].
+  double largest_shear = 0;
 };
 
 /// All linings of a solver in 3-D, one entry per node that stands: the mean of the two members that
@@ -47,6 +50,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::vector<RibForce> rib_forces(const 
       RibForce& node = of_body[index(body)];
       node.thrust += thrust;
       node.shear += shear;
+      node.largest_shear = std::max(node.largest_shear, std::abs(shear));
       node.moment += moment;
       ++ends[index(body)];
     };
@@ -63,8 +67,8 @@ requires(Solver::dim == 3) [[nodiscard]] std::vector<RibForce> rib_forces(const 
     const auto& body = system.body(static_cast<int>(b));
     if (node.lining < 0 || ends[b] == 0 || body.is_gone) continue;
     const double share = 1.0 / ends[b];
-    forces.push_back(
-        {body.centre, share * node.thrust, share * node.shear, share * node.moment, node.lining});
+    forces.push_back({body.centre, share * node.thrust, share * node.shear, share * node.moment,
+                      node.lining, node.largest_shear});
   }
   return forces;
 }

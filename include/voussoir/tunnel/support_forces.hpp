@@ -196,6 +196,9 @@ struct LiningForce {
   bool is_lost = false;         ///< it came off the wall and was taken out: no forces
   int lining = 0;               ///< which it is of, in the order of installation
   Vec2 centre = zeros<Vec2>();  ///< of the lining, see `LiningFrame::centre` [m]
+  /// Of the members that meet there, magnitude [N/m]: what presses on the node makes the shear
+  /// force jump, and `shear` is the mean.
+  double largest_shear = 0;
 };
 
 /// A member from one node of a list to another, anticlockwise.
@@ -256,6 +259,7 @@ class LiningNodes {
         LiningForce& at = forces[static_cast<std::size_t>(k)];
         at.thrust += thrust;
         at.shear += shear;
+        at.largest_shear = std::max(at.largest_shear, std::abs(shear));
         at.moment += moment;
         ++ends[static_cast<std::size_t>(k)];
       };

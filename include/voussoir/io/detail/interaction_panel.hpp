@@ -27,6 +27,19 @@ struct InteractionPanel {
   [[nodiscard]] bool is_column() const { return columns.size() == 1; }
   [[nodiscard]] double row_y(std::size_t k) const { return is_row() ? 0 : grid.y[k]; }
   [[nodiscard]] double column_x(std::size_t i) const { return is_column() ? 0 : grid.x[i]; }
+  /// One of the diagram on it.
+  struct Point {
+    std::size_t i, j;  ///< thickness, spacing
+    Vec2 at;           ///< on the page
+  };
+  [[nodiscard]] std::vector<Point> points() const {
+    std::vector<Point> all;
+    const PageMap to_page = map();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        all.push_back({columns[i], rows[k], to_page({column_x(i), row_y(k)})});
+    return all;
+  }
   /// White margins about the grid, so that marks on its edge lie inside the frame.
   [[nodiscard]] PageMap map() const {
     const Vec2 low(grid.x.front(), grid.y.front()), high(grid.x.back(), grid.y.back());
@@ -85,7 +98,36 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
                                             const InteractionPanel& panel,
                                             const ContourBands& bands);
 
+/// What a design says to who points at it.
+[[nodiscard]] VOUSSOIR_INLINE std::string words_of(const InteractionPicture& picture,
+                                                   std::size_t thickness, std::size_t spacing);
+
 #if VOUSSOIR_BODIES
+
+VOUSSOIR_INLINE std::string words_of(const InteractionPicture& picture, std::size_t thickness,
+                                     std::size_t spacing) {
+  const InteractionPicture::Spacing& bolts = picture.spacings[spacing];
+  const InteractionQuantity shown = picture.shown();
+  const double value = picture.at(thickness, spacing);
+  const double lining = picture.thicknesses[thickness];
+  std::string words =
+      (bolts.value ? "bolts " : "") + bolts.label +
+      (lining > 0 ? ", lining " + trimmed_text(100 * lining, 2) + " cm" : ", no lining");
+  if (std::isfinite(value))
+    words +=
+        "\n" + shown.name + " " + printed_text(value * shown.point_scale) + " " + shown.point_unit;
+  if (picture.is_undecided(thickness, spacing))
+    words += "\nundecided: no result";
+  else if (picture.is_shedding(thickness, spacing))
+    words += "\nrock falls, the rest stands";
+  else if (picture.is_failed(thickness, spacing))
+    words += "\n" + (picture.collapsed.size() > 0 ? "it does not stand" : picture.failed_name);
+  else if (picture.is_assumed(thickness, spacing))
+    words += "\nnot computed";
+  if (picture.chosen == std::pair(thickness, spacing)) words += "\nrecommended";
+  if (picture.is_marginal(thickness, spacing)) words += "\nmarginal: limits and rates decide";
+  return words;
+}
 
 VOUSSOIR_INLINE InteractionPanel interaction_panel(const InteractionPicture& picture,
                                                    std::vector<std::size_t> columns,
@@ -123,14 +165,8 @@ VOUSSOIR_INLINE void draw_interaction_panel(SvgCanvas& canvas, const Interaction
     std::string text;
   };
   std::vector<Label> labels;
-  struct Point {
-    std::size_t i, j;  ///< thickness, spacing
-    Vec2 at;
-  };
-  std::vector<Point> points;
-  for (std::size_t k = 0; k < panel.rows.size(); ++k)
-    for (std::size_t i = 0; i < panel.columns.size(); ++i)
-      points.push_back({panel.columns[i], panel.rows[k], map({panel.column_x(i), panel.row_y(k)})});
+  using Point = InteractionPanel::Point;
+  const std::vector<Point> points = panel.points();
   for (const Point& point : points) taken.take({point.at - Vec2(9, 9), point.at + Vec2(9, 9)});
   const TextStyle beside{.size = 11.5, .bold = true, .fill = "#8a3f06", .halo = true};
   std::vector<std::pair<Vec2, std::string>> others;  // place of the mark, text beside it

@@ -48,6 +48,7 @@ struct VisibleFace {
   /// Of one of several parts of a block: its edges but the seams to the others.
   std::vector<std::pair<Vec2, Vec2>> rim = {};
   bool is_of_part = false;
+  std::string says = {};  ///< to who points at it; empty: nothing
 };
 
 /// Which blocks are drawn, and how far from their place.

@@ -57,6 +57,7 @@ VOUSSOIR_INLINE void draw_side_column(SvgCanvas& canvas, const ViewRect& column,
                                       const DisplacementScale& scale) {
   const ViewRect everything = view_of_everything(picture);
   const bool has_overview =
+      picture.shows_whole_model &&
       seen.width() * seen.height() < 0.8 * everything.width() * everything.height();
   double top = column.low.y();
   const double diagram_height = column.height() * (has_overview ? 0.36 : 0.47);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What a bolt bears at a joint, by hand: its bar, its bond on either side, its plate.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+#include <voussoir/design/bolt_strength.hpp>
+
+#include "support/near.hpp"
+
+namespace bolt_strength_test {
+namespace {
+
+using namespace voussoir::design;
+using voussoir_test::near;
+
+BoltsInput grouted() {
+  BoltsInput bolts;
+  bolts.length = 4;
+  bolts.yield_force = 150e3;
+  bolts.rupture_force = 200e3;
+  bolts.bond_strength = 100e3;
+  return bolts;
+}
+
+}  // namespace
+
+TEST_SUITE("design/bolt_strength") {
+  TEST_CASE("the shorter of the lengths to the tip and to the head governs, or the bar") {
+    const BoltsInput bolts = grouted();
+    struct Row {
+      double position, strength;
+      BoltMode mode;
+    };
+    // 100 kN/m of 4 m; the bar yields at 150 kN.
+    for (const Row& row :
+         {Row{0, 0, BoltMode::bond_at_head}, Row{0.4, 40e3, BoltMode::bond_at_head},
+          Row{1.6, 150e3, BoltMode::yield}, Row{2, 150e3, BoltMode::yield},
+          Row{2.9, 110e3, BoltMode::bond_at_tip}, Row{4, 0, BoltMode::bond_at_tip}}) {
+      CAPTURE(row.position);
+      const BoltLimit found = bolt_limit(bolts, 4, row.position);
+      CHECK(std::abs(found.strength - row.strength) < 1e-6);
+      CHECK(found.mode == row.mode);
+    }
+    // Turned end for end the other side governs, as strong.
+    for (const double position : {0.3, 1.1, 1.9})
+      CHECK(bolt_limit(bolts, 4, position).strength ==
+            near(bolt_limit(bolts, 4, 4 - position).strength).epsilon(1e-12));
+  }
+
+  TEST_CASE("a plate adds to the head alone") {
+    BoltsInput bolts = grouted();
+    bolts.plate_strength = 60e3;
+    CHECK(bolt_limit(bolts, 4, 0.4).strength == near(100e3));
+    CHECK(bolt_limit(bolts, 4, 0.4).mode == BoltMode::plate);
+    CHECK(bolt_limit(bolts, 4, 0.8).strength == near(140e3));
+    CHECK(bolt_limit(bolts, 4, 0.8).mode == BoltMode::bond_at_head);  // 80 of 140 kN
+    CHECK(bolt_limit(bolts, 4, 3.6).strength == near(40e3));
+    CHECK(bolt_limit(bolts, 4, 3.6).mode == BoltMode::bond_at_tip);
+    bolts.plate_strength = 200e3;  // 240 kN with the grout before it: more than the bar
+    CHECK(bolt_limit(bolts, 4, 0.4).strength == 150e3);
+    CHECK(bolt_limit(bolts, 4, 0.4).mode == BoltMode::yield);
+  }
+
+  TEST_CASE("without a bond the bar alone, without that nothing") {
+    BoltsInput bolts = grouted();
+    bolts.bond_strength.reset();
+    CHECK(bolt_limit(bolts, 4, 0.01).strength == 150e3);
+    bolts.yield_force.reset();
+    CHECK(bolt_limit(bolts, 4, 3.99).strength == 200e3);
+    CHECK(bolt_limit(bolts, 4, 3.99).mode == BoltMode::rupture);
+    bolts.rupture_force.reset();
+    CHECK(std::isinf(bolt_limit(bolts, 4, 1).strength));
+    bolts.bond_strength = 100e3;
+    CHECK(bolt_limit(bolts, 4, 1).strength == near(100e3));
+  }
+
+  TEST_CASE("the joint that takes most of its strength governs, not the largest force") {
+    const BoltsInput bolts = grouted();
+    std::vector<BoltUtilisation> joints{{2, 1, 2.0, 120e3, bolt_limit(bolts, 4, 2.0)},
+                                        {6, 2, 2.9, 99e3, bolt_limit(bolts, 4, 2.9)},
+                                        {7, 1, 0.5, -80e3, bolt_limit(bolts, 4, 0.5)}};
+    const BoltUtilisation* const most = governing(joints);
+    REQUIRE(most != nullptr);
+    CHECK(most->value() == near(0.9).epsilon(1e-12));  // 120 of 150 kN is less
+    CHECK(governed_by(*most) == "bolt 7: bond beyond its joint at 2.9 m");
+    CHECK(joints[2].value() == 0);  // pressed
+    joints[1].force = 0;
+    CHECK(governed_by(*governing(joints)) == "bolt 3: yield at its joint at 2 m");
+    joints = {{0, 1, 0, 1e3, bolt_limit(bolts, 4, 0)}};
+    CHECK(std::isinf(governing(joints)->value()));
+    joints = {{0, 1, 1, 1e3, {}}};
+    CHECK(governing(joints) == nullptr);
+    CHECK(joints.front().value() == 0);
+    CHECK(governing(std::vector<BoltUtilisation>()) == nullptr);
+  }
+}
+
+}  // namespace bolt_strength_test
