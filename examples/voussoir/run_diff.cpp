@@ -48,7 +48,9 @@ std::map<std::string, Json> leaves_of(const std::string& place) {
       key += is_index ? "[" + part + "]" : (key.empty() ? "" : ".") + part;
       k = end;
     }
-    if (key != "run_id" && !key.starts_with("time_s")) leaves[key] = value;
+    if (key != "run_id" && key != "result_hash" && !key.starts_with("build.") &&
+        !key.starts_with("time_s"))
+      leaves[key] = value;
   }
   return leaves;
 }

@@ -185,7 +185,7 @@ TEST_SUITE("design/limit_load") {
     CHECK_FALSE(limit_factor(arch, 0.6 / (bound.fails * (1 + 1e-6)), arch.pushed(Vec2(0, -1))));
   }
 
-  TEST_CASE("Goodman and Bray's slope topples at less than half of the limit load") {
+  TEST_CASE("Goodman and Bray's slope topples below its limit load") {
     // Associated slip lifts the blocks that topple: limit analysis is no safe bound there.
     const LimitBound bound = bound_of(toppling_slope(), {1, 0, 0});
     REQUIRE(bound.is_closed());

@@ -176,7 +176,10 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   const Report quiet = [](const std::string&, double) { return true; };
   const RunResult run = run_of(input, quiet);
   Answer made{{}, run.last().is_from_motion || run.fallen_measure() > 0};
-  add_tables("run.json", Json::parse(run_json(input, run)), given.is_mirrored(), made.tables);
+  Json results = Json::parse(run_json(input, run));
+  results.erase("result_hash");  // another for every last digit
+  results.erase("input");        // says where traces were given, not what came of them
+  add_tables("run.json", results, given.is_mirrored(), made.tables);
   made.tables["bolts.csv"] = bolts_csv(input, run);
   made.tables["lining.csv"] = lining_csv(input, run);
   // With all digits, as the journal of a sweep has it.

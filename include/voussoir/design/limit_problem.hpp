@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -14,6 +17,7 @@
 #include <voussoir/design/limit_load.hpp>
 #include <voussoir/design/models.hpp>
 #include <voussoir/farfield/far_field.hpp>
+#include <voussoir/model/reference_contact.hpp>
 #include <voussoir/rockmass/cut_contacts.hpp>
 
 /// The blocks of a tunnel, or laid ones, as limit analysis sees them.
@@ -35,8 +39,9 @@ enum class SideForces {
   in_situ
 };
 
-/// Blocks, their contacts in the in-situ state and what acts on them now: weight, surcharge, loads,
-/// the residual wall traction. Blocks that have fallen are left out; fixed ones bear any force.
+/// Blocks, their contacts where they were last updated and what acts on them now: weight,
+/// surcharge, loads, the residual wall traction: the equilibrium that the solver has found is one
+/// of its states. Blocks that have fallen are left out; fixed ones bear any force.
 /// @param joint_laws  whose strength is to be divided, in the place of those of the tunnel
 /// @throws InvalidInput  it has bolts or linings; a law has no such strength
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE LimitProblem
@@ -65,28 +70,58 @@ VOUSSOIR_DESIGN_INLINE JointStrength strength_of(const AnyJoint& joint) {
 
 namespace detail {
 
+/// The ends of a contact, from its two points: those of Gauss, or its corners where blocks have
+/// turned against each other.
+/// @param centre  of its area
+template <class Group>
+[[nodiscard]] std::array<Vec2, 2> ends_of(const Group& group, const ReferenceContact<2>& contact,
+                                          const Vec2& centre) {
+  ReferencePoint<2> low, high;
+  double length = 0;
+  for (int k = contact.first; k < contact.last(); ++k) {
+    const ReferencePoint<2> point = group.points().place(static_cast<std::size_t>(k));
+    if (k == contact.first || point.offset[1] < low.offset[1]) low = point;
+    if (k == contact.first || point.offset[1] > high.offset[1]) high = point;
+    length += point.weight;
+  }
+  const bool is_corners = high.offset[1] - low.offset[1] >= length * (1 - 1e-9);
+  const Vec2 from = contact.offset_of(low), to = contact.offset_of(high),
+             middle = centre + 0.5 * (from + to),
+             half = (is_corners ? 0.5 : 0.5 * std::sqrt(3.0)) * (to - from);
+  return {middle - half, middle + half};
+}
+
 /// What the edges of the domain do to the blocks there.
 inline void add_edges(const Tunnel& tunnel, SideForces sides, LimitProblem& problem) {
   const auto& mass = tunnel.mass();
+  const auto& system = tunnel.system();
+  const auto is_base = [](const Vec2& outward) { return outward.y() < -0.5; };
+  for (const ReferenceContact<2>& c : system.boundary.contacts()) {
+    // The ground is the other body, on either side once contacts have been updated.
+    const bool is_a = c.b == tunnel.ground();
+    const int body = is_a ? c.a : c.b;
+    const Vec2 outward = is_a ? c.normal : Vec2(-c.normal);
+    if (sides == SideForces::in_situ && !is_base(outward)) continue;
+    const Vec2 centre =
+        problem.blocks[static_cast<std::size_t>(body)].centre + (is_a ? c.arm_a : c.arm_b);
+    const auto ends = ends_of(system.boundary, c, centre);
+    problem.edges.push_back({body, ends[0], ends[1], outward});
+  }
   for (const auto& [body, facet, side] : boundary_facets(mass)) {
     LimitProblem::Block& block = problem.blocks[static_cast<std::size_t>(body)];
     const Boundary meets = tunnel.far_field().at(side);
+    const bool is_any = sides == SideForces::any || side == Side::bottom;
+    if (!block.is_free) continue;
     // The load on a block has the in-situ stress of its edges but for that across rollers.
-    if (!block.is_free || meets == Boundary::stress) continue;
+    if (meets == Boundary::elastic && is_any) block.is_free = false;
+    if (meets != Boundary::rollers || is_any) continue;
     const Vec2 outward = facet.area_vector().normalized();
-    if (sides == SideForces::any || side == Side::bottom) {
-      if (meets == Boundary::rollers)
-        problem.edges.push_back({body, facet.start, facet.end, outward});
-      else
-        block.is_free = false;
-    } else if (meets == Boundary::rollers) {
-      for (const FacetPoint<2>& p : facet.gauss_points()) {
-        const Vec2 place = facet.centre() + p.offset;
-        const Stress<2> stress = tunnel.in_situ().stress<2>(mass.domain.depth(place));
-        const Vec2 force = -p.weight * outward.dot(stress * outward) * outward;
-        block.load.force += force;
-        block.load.moment += moment_of(Vec2(place - block.centre), force);
-      }
+    for (const FacetPoint<2>& p : facet.gauss_points()) {
+      const Vec2 place = facet.centre() + p.offset;
+      const Stress<2> stress = tunnel.in_situ().stress<2>(mass.domain.depth(place));
+      const Vec2 force = -p.weight * outward.dot(stress * outward) * outward;
+      block.load.force += force;
+      block.load.moment += moment_of(Vec2(place - system.body(body).centre), force);
     }
   }
 }
@@ -101,26 +136,21 @@ VOUSSOIR_DESIGN_INLINE LimitProblem limit_problem_of(const Tunnel& tunnel,
         "limit load: must be of rock without bolts and linings, whose strength it does not know");
   LimitProblem problem;
   const auto& system = tunnel.system();
-  const auto& mass = tunnel.mass();
   std::vector<JointStrength> strengths;
   for (const AnyJoint& law : joint_laws.all()) strengths.push_back(strength_of(law));
-  const std::vector<int> law_of_cut = joint_laws.of_cuts(mass);
   for (int b = 0; b < tunnel.ground(); ++b) {
     const auto& body = system.body(b);
     const auto load = system.load_on(b);
-    problem.blocks.push_back({body.centre,
+    problem.blocks.push_back({system.pose_at_update(b).position,
                               body.weight,
                               body.gyration,
                               {Vec2(load[0], load[1]), Spin<2>(load[2])},
                               body.movable});
   }
-  const auto is_gone = [&](int b) { return system.body(b).is_gone; };
-  for (const auto& contact : CutContacts::find(mass)) {
-    if (is_gone(contact.a) || is_gone(contact.b)) continue;
-    const int law = contact.cut >= 0 ? law_of_cut[static_cast<std::size_t>(contact.cut)] : 0;
-    problem.contacts.push_back({contact.a, contact.b, contact.facet.start, contact.facet.end,
-                                contact.facet.area_vector().normalized(),
-                                strengths[static_cast<std::size_t>(law)]});
+  for (const ReferenceContact<2>& c : system.joints.contacts()) {
+    const Vec2 centre = problem.blocks[static_cast<std::size_t>(c.a)].centre + c.arm_a;
+    const auto ends = detail::ends_of(system.joints, c, centre);
+    problem.contacts.push_back({c.a, c.b, ends[0], ends[1], c.normal, strengths[c.law]});
   }
   detail::add_edges(tunnel, sides, problem);
   return problem;

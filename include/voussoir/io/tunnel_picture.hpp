@@ -92,9 +92,8 @@ template <int Dim>
 [[nodiscard]] std::string words_of(std::size_t block, const BlockState<Dim>& state,
                                    double measure) {
   return "block " + std::to_string(block) + "\n" +
-         (state.is_gone ? "came off"
-                        : "moved " + readable_text(1e3 * state.displacement.norm()) + " mm") +
-         "\n" + readable_text(measure) + (Dim == 2 ? " m²" : " m³");
+         (state.is_gone ? "came off" : moved_text(state.displacement.norm())) + "\n" +
+         readable_text(measure) + (Dim == 2 ? " m²" : " m³");
 }
 [[nodiscard]] inline std::string words_of(const LiningForce& at) {
   return "lining " + std::to_string(at.lining + 1) + "\nthrust " + printed_text(1e-3 * at.thrust) +
