@@ -456,6 +456,46 @@ TEST_SUITE("program/report") {
     CHECK(mixed.status == 2);
     CHECK(has(mixed.err, "realisations.json is of another run"));
   }
+
+  TEST_CASE("what safety and design have found of a tunnel is in its report") {
+    const Folder folder;
+    const std::string file = write_file(
+        folder / "case.toml",
+        InputText{}.text() +
+            "[diagram]\nspacing = [\"30 deg\", \"none\"]\nthickness = [\"8 cm\", \"12 cm\"]\n"
+            "[criteria]\nconvergence = \"1 m\"\n[costs]\nbolt_per_metre = 20\n"
+            "concrete_per_m3 = 400\n");
+    const std::string out = folder / "out";
+    for (const std::vector<std::string>& verb : {std::vector<std::string>{"run"},
+                                                 {"safety", "--largest", "1.5"},
+                                                 {"design", "-n", "2"},
+                                                 {"diagram", "-n", "2"}}) {
+      std::vector<std::string> arguments{verb.front(), file, "--out", out, "-q"};
+      arguments.insert(arguments.end(), verb.begin() + 1, verb.end());
+      const Outcome outcome = run_program(arguments);
+      CAPTURE(outcome.err);
+      REQUIRE(outcome.status != 2);
+    }
+    const Outcome outcome = run_program({"report", out, "-q"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const std::string html = read_file(out + "/report.html");
+    const Page page = sound_page(html);
+    const Json safety = Json::parse(read_file(out + "/safety.json")),
+               design = Json::parse(read_file(out + "/design.json"));
+    CHECK(has(page.text, "Factor of safety"));
+    CHECK(has(page.text, safety.at("text").get<std::string>()));
+    CHECK(has(page.text, "Cheapest support that holds"));
+    CHECK(has(page.text, design.at("text").get<std::string>()));
+    CHECK(has(page.text, "Interaction diagram"));
+    // Of other joints it is of another tunnel.
+    REQUIRE(run_program(
+                {"safety", file, "--largest", "1.5", "--set", "model.seed=4", "--out", out, "-q"})
+                .status != 2);
+    const Outcome mixed = run_program({"report", out, "-q"});
+    CHECK(mixed.status == 2);
+    CHECK(has(mixed.err, "safety.json is of another run"));
+  }
 }
 
 }  // namespace program_report_test
