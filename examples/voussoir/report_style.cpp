@@ -121,6 +121,7 @@ footer { margin-top: 1.5rem; font-size: .85rem; color: var(--soft); overflow-wra
   h2 { border-bottom: 1px solid var(--rule); padding-bottom: .2rem; }
   .word { border: 0; }
   figure, tr, .card { break-inside: avoid; }
+  tr.group { break-after: avoid; }
   figure .sheet { border: 0; padding: 0; }
   figure svg { max-height: 235mm; }
   .wide { overflow: visible; }

@@ -22,7 +22,8 @@ void set_measured(const Input& input, ConstructionResult<Spatial>& built) {
 
 template <class Solver>
 void StagePictures::add_picture(const Solver& tunnel, const StageResult& stage) {
-  if (!input_->picture.history || input_->stages.size() + input_->round_count() < 3) return;
+  const bool has_one_stage = input_->stages.size() < 2 && input_->round_count() < 2;
+  if (!input_->picture.history || has_one_stage) return;
   stages_.push_back(stage);
   const std::size_t number = stages_.size();
   if (number % stride_ != 0) return;

@@ -303,7 +303,8 @@ TEST_SUITE("program/report") {
         changed[key] = Ordered::parse(other);
         write_file(out + "/run.json", changed.dump(2));
         const Outcome outcome = run_program({"report", out, "-q"});
-        CAPTURE(key);
+        const std::string& changed_key = key;
+        CAPTURE(changed_key);
         CAPTURE(outcome.err);
         CHECK(outcome.status == 0);
         CHECK(taken_apart(read_file(out + "/report.html")).fault == "");
