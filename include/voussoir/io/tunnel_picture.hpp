@@ -95,9 +95,13 @@ template <int Dim>
          (state.is_gone ? "came off" : moved_text(state.displacement.norm())) + "\n" +
          readable_text(measure) + (Dim == 2 ? " m²" : " m³");
 }
+/// In thousands; less than a newton is nothing.
+[[nodiscard]] inline std::string force_text(double newtons) {
+  return std::abs(newtons) < 1 ? "0" : printed_text(1e-3 * newtons);
+}
 [[nodiscard]] inline std::string words_of(const LiningForce& at) {
-  return "lining " + std::to_string(at.lining + 1) + "\nthrust " + printed_text(1e-3 * at.thrust) +
-         " kN/m\nmoment " + printed_text(1e-3 * at.moment) + " kN m/m";
+  return "lining " + std::to_string(at.lining + 1) + "\nthrust " + force_text(at.thrust) +
+         " kN/m\nmoment " + force_text(at.moment) + " kN m/m";
 }
 /// @param bolt  its number, from 0
 [[nodiscard]] inline std::string words_of(std::size_t bolt, const PictureBolt& drawn) {
@@ -225,7 +229,7 @@ template <int Dim>
          "bolt " + std::to_string(k + 1) + "\n" + printed_text(1e-3 * pull[k]) + " kN"});
   for (const MemberForces<3>& m : state.members)
     view.lining.push_back(
-        {m.from, m.to, m.thrust, "lining\nthrust " + printed_text(1e-3 * m.thrust) + " kN"});
+        {m.from, m.to, m.thrust, "lining\nthrust " + detail::force_text(m.thrust) + " kN"});
   view.fills = state.fills;
   return view;
 }
