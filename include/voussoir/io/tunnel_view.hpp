@@ -232,9 +232,10 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     if (is_gone(b)) continue;
     const Colour colour = colours(scene.displacement[b] / scale.top());
-    const std::string says = "block " + std::to_string(b) + "\nmoved " +
-                             readable_text(1e3 * scene.displacement[b]) + " mm\n" +
-                             readable_text(mass.bodies[b].properties.measure) + " m³";
+    const std::string says =
+        "block " + std::to_string(b) + "\nmoved " +
+        (scene.displacement[b] < 5e-6 ? "0" : readable_text(1e3 * scene.displacement[b])) +
+        " mm\n" + readable_text(mass.bodies[b].properties.measure) + " m³";
     for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour, true, says);
   }
   for (const ConvexPolyhedron& fill : scene.fills)
