@@ -53,6 +53,7 @@ bool holds_at(const Json& json, const std::string& pointer) {
 
 std::string shown(double value, int digits) {
   if (!std::isfinite(value)) return dash;
+  if (std::abs(value) < 5e-7) value = 0;  // left of rounding, as the moment of a hinge
   const bool is_whole = value == std::round(value) && std::abs(value) < 1e15;
   if (is_whole) return shown_fixed(value, 0);
   return grouped(printed_text(value, digits));

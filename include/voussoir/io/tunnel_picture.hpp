@@ -87,21 +87,23 @@ template <class Thickness>
 
 // What the parts of a picture say to who points at them.
 
+/// In mm, kN or kN m; what is left of rounding, as in the moment of a hinge, is nothing.
+[[nodiscard]] inline std::string told(double value) {
+  if (!std::isfinite(value)) return "–";
+  return std::abs(value) < 0.005 ? "0" : printed_text(value);
+}
+
 /// @param measure  of the block [m^2], [m^3]
 template <int Dim>
 [[nodiscard]] std::string words_of(std::size_t block, const BlockState<Dim>& state,
                                    double measure) {
   return "block " + std::to_string(block) + "\n" +
-         (state.is_gone ? "came off" : moved_text(state.displacement.norm())) + "\n" +
-         readable_text(measure) + (Dim == 2 ? " m²" : " m³");
-}
-/// In thousands; less than a newton is nothing.
-[[nodiscard]] inline std::string force_text(double newtons) {
-  return std::abs(newtons) < 1 ? "0" : printed_text(1e-3 * newtons);
+         (state.is_gone ? "came off" : "moved " + told(1e3 * state.displacement.norm()) + " mm") +
+         "\n" + readable_text(measure) + (Dim == 2 ? " m²" : " m³");
 }
 [[nodiscard]] inline std::string words_of(const LiningForce& at) {
-  return "lining " + std::to_string(at.lining + 1) + "\nthrust " + force_text(at.thrust) +
-         " kN/m\nmoment " + force_text(at.moment) + " kN m/m";
+  return "lining " + std::to_string(at.lining + 1) + "\nthrust " + told(1e-3 * at.thrust) +
+         " kN/m\nmoment " + told(1e-3 * at.moment) + " kN m/m";
 }
 /// @param bolt  its number, from 0
 [[nodiscard]] inline std::string words_of(std::size_t bolt, const PictureBolt& drawn) {
@@ -110,7 +112,7 @@ template <int Dim>
   for (const PictureCrossing& crossing : drawn.crossings)
     if (most == nullptr || crossing.force > most->force) most = &crossing;
   if (most == nullptr) return words + "\ncrosses no joint";
-  words += "\n" + printed_text(1e-3 * most->force) + " kN, " +
+  words += "\n" + told(1e-3 * most->force) + " kN, " +
            readable_text((most->point - drawn.head).norm(), 2) + " m from its head";
   if (most->state == PictureCrossing::State::yielded) words += ", yielded";
   if (most->state == PictureCrossing::State::ruptured) words += ", ruptured";
@@ -226,10 +228,10 @@ template <int Dim>
   for (std::size_t k = 0; k < bars.size(); ++k)
     view.bolts.push_back(
         {bars[k].start, bars[k].end, pull[k],
-         "bolt " + std::to_string(k + 1) + "\n" + printed_text(1e-3 * pull[k]) + " kN"});
+         "bolt " + std::to_string(k + 1) + "\n" + detail::told(1e-3 * pull[k]) + " kN"});
   for (const MemberForces<3>& m : state.members)
     view.lining.push_back(
-        {m.from, m.to, m.thrust, "lining\nthrust " + detail::force_text(m.thrust) + " kN"});
+        {m.from, m.to, m.thrust, "lining\nthrust " + detail::told(1e-3 * m.thrust) + " kN"});
   view.fills = state.fills;
   return view;
 }

@@ -65,11 +65,6 @@ struct PartedLine {
 [[nodiscard]] VOUSSOIR_INLINE PartedLine parted_line(const SupportLine& line,
                                                      const HalfSpace<3>& section, double tolerance);
 
-/// "moved 1.23 mm"; less than a micrometre is nothing.
-[[nodiscard]] inline std::string moved_text(double metres) {
-  return "moved " + (metres < 1e-6 ? "0" : readable_text(1e3 * metres)) + " mm";
-}
-
 // Black and grey as in a section, where red is slip.
 inline constexpr const char* bolt_colour = "#111";
 inline constexpr const char* lining_colour = "#4a5a68";
@@ -237,9 +232,10 @@ VOUSSOIR_INLINE std::string draw_tunnel_view(const RockMass<Spatial>& mass,
   for (std::size_t b = 0; b < mass.bodies.size(); ++b) {
     if (is_gone(b)) continue;
     const Colour colour = colours(scene.displacement[b] / scale.top());
-    const std::string says = "block " + std::to_string(b) + "\n" +
-                             moved_text(scene.displacement[b]) + "\n" +
-                             readable_text(mass.bodies[b].properties.measure) + " m³";
+    const std::string says =
+        "block " + std::to_string(b) + "\nmoved " +
+        (scene.displacement[b] < 5e-6 ? "0" : readable_text(1e3 * scene.displacement[b])) +
+        " mm\n" + readable_text(mass.bodies[b].properties.measure) + " m³";
     for (const ConvexPolyhedron& whole : mass.bodies[b].parts) add_faces(whole, colour, true, says);
   }
   for (const ConvexPolyhedron& fill : scene.fills)
