@@ -117,6 +117,24 @@ TEST_SUITE("design/limit_load") {
     CHECK(loose.fails == near(0.01));
   }
 
+  TEST_CASE("a bond in tension has less left for shear, and a moment has a sign") {
+    LaidProblem pulled{.blocks = {rectangle({0, 0.5}, 8, 1), rectangle({0, -0.2}, 2, 0.4)},
+                       .fixed = {0}};
+    const double weight = pulled.weight(1);
+    pulled.dead.resize(2);
+    pulled.dead[1].force = Vec2(weight, 0);
+    check_limit(bound_of(pulled, {0.5, 20e3, 40e3}), (20e3 * 2 - 0.5 * weight) / weight);
+    // On a base that reaches from 1 m left of its middle to 0.2 m right of it.
+    LaidProblem turned{.blocks = {rectangle({-2, -0.5}, 4.4, 1), rectangle({0, 0.5}, 2, 1)},
+                       .fixed = {0}};
+    for (const double moment : {0.99, -0.19, 1.01, -0.21}) {
+      turned.dead.assign(2, {});
+      turned.dead[1].moment = Spin<2>(moment * turned.weight(1));
+      CAPTURE(moment);
+      CHECK(is_held(turned, 0.5) == (moment > -0.2 && moment < 1));
+    }
+  }
+
   TEST_CASE("a block topples whatever its friction, or is held without any") {
     const LaidProblem slim{.blocks = {rectangle({0, -0.5}, 8, 1), rectangle({0, 1}, 0.5, 2)},
                            .fixed = {0}};

@@ -89,6 +89,13 @@ TEST_SUITE("program/safety") {
       CHECK(rough.falls() == near(by_friction).epsilon(0.01));
       CHECK(rough.falls() <= rough.stands() * 1.005 * (1 + 1e-9));
       CHECK(rough.json.at("mechanism").at("detached_m2").get<double>() == near(0.8).epsilon(1e-6));
+      // The limit load is the same closed form, within its own gap of half a percent.
+      const Json& limit = rough.json.at("limit_load");
+      CHECK(limit.at("holds_over").get<double>() <= by_friction * (1 + 1e-4));
+      CHECK(limit.at("fails_over").get<double>() >= by_friction * (1 - 1e-4));
+      CHECK(limit.at("gap_percent").get<double>() <= 0.5);
+      CHECK(limit.at("mechanism_m2").get<double>() == near(0.8).epsilon(1e-6));
+      CHECK(limit.at("in_situ_sides").is_null());
       const Safety glued = safety_of(blocks_text(block_on_plane(), slope,
                                                  "law = \"mohr-coulomb\"\n" + stiff +
                                                      "friction = \"25 deg\"\ncohesion = \"4 kPa\"\n"
@@ -96,7 +103,26 @@ TEST_SUITE("program/safety") {
                                      set);
       CHECK(glued.stands() == near(by_cohesion).epsilon(0.01));
       CHECK(glued.falls() == near(by_cohesion).epsilon(0.01));
+      CHECK(glued.json.at("limit_load").at("bound").get<double>() ==
+            near(by_cohesion).epsilon(5.1e-3));
     }
+  }
+
+  TEST_CASE("the bound is left out when asked, and of what it does not know") {
+    const std::string text =
+        blocks_text(block_on_plane(), 30 * degree,
+                    "kn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"50 deg\"\n");
+    const Safety without = safety_of(text, {"--no-limit", "--width", "20"});
+    CHECK(without.json.at("limit_load").at("bound").is_null());
+    CHECK(without.json.at("limit_load").at("reason") == "not asked for");
+    // Nothing stands: a slim block on a steep plane.
+    const LaidProblem slim{.blocks = {rectangle({1, -0.5}, 8, 1), rectangle({0, 1}, 0.5, 2)},
+                           .fixed = {0}};
+    const Safety none =
+        safety_of(blocks_text(slim, 30 * degree,
+                              "kn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"50 deg\"\n"),
+                  {"--width", "20"});
+    CHECK(none.outcome.out.find("limit    not sought: nothing stands") != std::string::npos);
   }
 
   TEST_CASE("Goodman and Bray's slope topples at their friction") {
@@ -111,6 +137,10 @@ TEST_SUITE("program/safety") {
       // Joints of 100 GPa/m give: half a percent beside the bracket's one.
       CHECK(slope.stands() == near(expected).epsilon(0.015));
       CHECK(slope.falls() == near(expected).epsilon(0.015));
+      // Limit analysis is no safe bound here: blocks that topple would have to lift one another.
+      const double bound = slope.json.at("limit_load").at("bound").get<double>();
+      CHECK(bound > 1.15 * slope.falls());
+      CHECK(bound < 1.25 * slope.falls());
       CHECK(slope.files.at("safety.svg").find("<svg") != std::string::npos);
     }
   }
@@ -147,6 +177,15 @@ TEST_SUITE("program/safety") {
           whole.json.at("trials").size() + 1);
     CHECK(whole.outcome.out.find("safety   " + whole.json.at("text").get<std::string>()) !=
           std::string::npos);
+    // Both sides of the truth: whatever stands, stands within the limit load. Rollers push as hard
+    // as they must, which is more than they do in situ.
+    const Json& limit = further.json.at("limit_load");
+    if (!limit.at("is_infinite").get<bool>()) {
+      CHECK(limit.at("bound").get<double>() >= 0.99 * further.stands());
+      CHECK(limit.at("bound").get<double>() >=
+            limit.at("in_situ_sides").at("holds_over").get<double>());
+    }
+    CHECK(further.outcome.out.find("\nlimit    ") != std::string::npos);
     // More of a mechanism than the first block that came off.
     CHECK(whole.json.at("mechanism").at("detached_m2").get<double>() > 0);
     CHECK(whole.files.at("safety.svg").find("strength of joints over") != std::string::npos);

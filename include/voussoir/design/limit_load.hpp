@@ -202,19 +202,19 @@ VOUSSOIR_DESIGN_INLINE LinearProgramme balance_programme(const LimitProblem& pro
   for (const LimitProblem::Contact& c : problem.contacts) {
     if (!columns.touches_free(c.a, c.b)) continue;
     const Vec2 along = perpendicular(c.normal);
+    // Over the factor, as `weakened` has them: no more tension than friction and cohesion let be.
     const double half = 0.5 * length_of(c.end - c.start),
-                 friction = c.strength.friction_coefficient,
-                 tension = half * c.strength.tensile_strength,
-                 // Of the shear at the largest tension: what friction leaves of the cohesion.
-        shear = std::max(0.0, half * c.strength.cohesion - friction * tension);
+                 friction = strength_left * c.strength.friction_coefficient,
+                 cohesion = half * strength_left * c.strength.cohesion;
+    double tension = half * strength_left * c.strength.tensile_strength;
+    if (friction > 0) tension = std::min(tension, cohesion / friction);
+    const double shear = std::max(0.0, cohesion - friction * tension);  // left at that tension
     for (const Vec2& place : {c.start, c.end}) {
-      columns.add(c.a, c.b, place, Vec2(c.normal + strength_left * friction * along), 0, most);
-      columns.add(c.a, c.b, place, Vec2(c.normal - strength_left * friction * along), 0, most);
-      if (tension > 0) columns.load(c.a, c.b, place, Vec2(-strength_left * tension * c.normal));
-      if (shear * strength_left > 0) {
-        const double limit = strength_left * shear / columns.unit();
-        columns.add(c.a, c.b, place, along, -limit, limit);
-      }
+      columns.add(c.a, c.b, place, Vec2(c.normal + friction * along), 0, most);
+      columns.add(c.a, c.b, place, Vec2(c.normal - friction * along), 0, most);
+      if (tension > 0) columns.load(c.a, c.b, place, Vec2(-tension * c.normal));
+      if (shear > 0)
+        columns.add(c.a, c.b, place, along, -shear / columns.unit(), shear / columns.unit());
     }
   }
   for (const LimitProblem::Edge& e : problem.edges) {
