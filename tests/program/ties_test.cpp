@@ -179,7 +179,7 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   Json results = Json::parse(run_json(input, run));
   results.erase("result_hash");  // another for every last digit
   results.erase("input");        // says where traces were given, not what came of them
-  if (given.is_mirrored() && results.contains("bolts") && results["bolts"].is_object())
+  if (results.contains("bolts") && results["bolts"].is_object())
     results["bolts"].erase("governing");  // which bolt, counted from the right
   add_tables("run.json", results, given.is_mirrored(), made.tables);
   made.tables["bolts.csv"] = bolts_csv(input, run);
@@ -188,8 +188,8 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   const TunnelResult row =
       tunnel_in(input, rock_in_situ(input, false, quiet), supports_of(input), quiet);
   Json result = Json::parse(result_json(row));
-  if (given.is_mirrored())  // words that say on which side
-    for (const char* const key : {"bolts_governed_by", "lining_governed_by"}) result.erase(key);
+  // Words that say on which side, and which bolt, counted from the right.
+  for (const char* const key : {"bolts_governed_by", "lining_governed_by"}) result.erase(key);
   add_tables("sweep", result, given.is_mirrored(), made.tables);
   return made;
 }
