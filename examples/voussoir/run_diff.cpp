@@ -48,7 +48,10 @@ std::map<std::string, Json> leaves_of(const std::string& place) {
       key += is_index ? "[" + part + "]" : (key.empty() ? "" : ".") + part;
       k = end;
     }
-    if (key != "run_id" && !key.starts_with("time_s")) leaves[key] = value;
+    // A hash differs where anything does, and says no more; what was read is shown key by key.
+    if (key != "run_id" && key != "result_hash" && key != "input.hash" && key != "input.file" &&
+        !key.starts_with("time_s"))
+      leaves[key] = value;
   }
   return leaves;
 }

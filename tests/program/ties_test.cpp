@@ -93,11 +93,12 @@ std::string input_text(const tied::Drawn& d, const Given& given) {
 using Tables = std::map<std::string, std::string>;
 
 /// What is no figure of the tunnel: times, how the search went and what it left, where and how
-/// traces were read, the number of a block.
+/// traces were read, the number of a block; what was read, by which build, and a hash of all bits.
 bool is_left_out(const std::string& key) {
-  for (const char* name : {"time_s", "force_evaluations", "elastic_solves", "factorisations",
-                           "linear_solver", "error_estimate", "out_of_balance_force_ratio",
-                           "in_situ_out_of_balance_force_ratio", "joints_read", "block"})
+  for (const char* name :
+       {"time_s", "force_evaluations", "elastic_solves", "factorisations", "linear_solver",
+        "error_estimate", "out_of_balance_force_ratio", "in_situ_out_of_balance_force_ratio",
+        "joints_read", "block", "input", "build", "result_hash"})
     if (key == name) return true;
   return false;
 }
