@@ -48,8 +48,9 @@ std::map<std::string, Json> leaves_of(const std::string& place) {
       key += is_index ? "[" + part + "]" : (key.empty() ? "" : ".") + part;
       k = end;
     }
-    if (key != "run_id" && key != "result_hash" && !key.starts_with("build.") &&
-        !key.starts_with("time_s"))
+    // A hash differs where anything does, and says no more; what was read is shown key by key.
+    if (key != "run_id" && key != "result_hash" && key != "input.hash" && key != "input.file" &&
+        !key.starts_with("build.") && !key.starts_with("time_s"))
       leaves[key] = value;
   }
   return leaves;

@@ -93,11 +93,13 @@ std::string input_text(const tied::Drawn& d, const Given& given) {
 using Tables = std::map<std::string, std::string>;
 
 /// What is no figure of the tunnel: times, how the search went and what it left, where and how
-/// traces were read, the number of a block.
+/// traces were read, the number of a block; what was read, by which build, and a hash of all bits;
+/// the words for where a support is nearest to its strength, which name a side.
 bool is_left_out(const std::string& key) {
   for (const char* name : {"time_s", "force_evaluations", "elastic_solves", "factorisations",
                            "linear_solver", "error_estimate", "out_of_balance_force_ratio",
-                           "in_situ_out_of_balance_force_ratio", "joints_read", "block"})
+                           "in_situ_out_of_balance_force_ratio", "joints_read", "block", "input",
+                           "build", "result_hash", "bolts_governed_by", "lining_governed_by"})
     if (key == name) return true;
   return false;
 }
@@ -177,8 +179,6 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   const RunResult run = run_of(input, quiet);
   Answer made{{}, run.last().is_from_motion || run.fallen_measure() > 0};
   Json results = Json::parse(run_json(input, run));
-  results.erase("result_hash");  // another for every last digit
-  results.erase("input");        // says where traces were given, not what came of them
   if (results.contains("bolts") && results["bolts"].is_object())
     results["bolts"].erase("governing");  // which bolt, counted from the right
   add_tables("run.json", results, given.is_mirrored(), made.tables);
@@ -187,10 +187,7 @@ Answer answer(const tied::Drawn& d, const Given& given) {
   // With all digits, as the journal of a sweep has it.
   const TunnelResult row =
       tunnel_in(input, rock_in_situ(input, false, quiet), supports_of(input), quiet);
-  Json result = Json::parse(result_json(row));
-  // Words that say on which side, and which bolt, counted from the right.
-  for (const char* const key : {"bolts_governed_by", "lining_governed_by"}) result.erase(key);
-  add_tables("sweep", result, given.is_mirrored(), made.tables);
+  add_tables("sweep", Json::parse(result_json(row)), given.is_mirrored(), made.tables);
   return made;
 }
 
