@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -52,21 +51,19 @@ VOUSSOIR_DESIGN_INLINE double length_within(const SimplePolygon& outline, const 
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 from = outline.vertices()[k],
                way = outline.vertices()[(k + 1) % outline.size()] - from;
-    // The rays of the two angles cut an edge into three parts at most.
-    std::array<double, 4> cuts{0, 1, 1, 1};
-    std::size_t count = 1;
-    for (const double angle : {arc.from, arc.to}) {
+    // Where the ray of an angle cuts the edge; 1: it does not.
+    const auto cut = [&](double angle) {
       const Vec2 ray(elementary::cosine(angle), elementary::sine(angle));
       const double across = cross(way, ray);
-      if (across == 0) continue;
+      if (across == 0) return 1.0;
       const double at = -cross(from, ray) / across;
-      if (at > 0 && at < 1 && (from + at * way).dot(ray) > 0) cuts[count++] = at;
-    }
-    cuts[count++] = 1;
-    std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::size_t part = 0; part + 1 < count; ++part)
-      if (is_within(from + 0.5 * (cuts[part] + cuts[part + 1]) * way))
-        sum += (cuts[part + 1] - cuts[part]) * way.norm();
+      return at > 0 && at < 1 && (from + at * way).dot(ray) > 0 ? at : 1.0;
+    };
+    const double one = cut(arc.from), other = cut(arc.to);
+    const double ends[] = {0, std::min(one, other), std::max(one, other), 1};
+    for (std::size_t part = 0; part < 3; ++part)
+      if (is_within(from + 0.5 * (ends[part] + ends[part + 1]) * way))
+        sum += (ends[part + 1] - ends[part]) * way.norm();
   }
   return sum;
 }
