@@ -180,9 +180,9 @@ int run_program(int argc, char** argv) {
       "and realisations: one of their tunnels), 4 numerical fault, " +
       std::string(has_paper ? "5 a check of verify fails, " : "") +
       "6 the\n"
-      "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 9\n"
-      "design: no support on the axes holds, 130\n"
-      "interrupted (results are not written; finished cases are kept).");
+      "tunnel of run is stable after rockfall, 7 it collapses, 8 merge: cases are missing, 9 design:\n"
+      "no support on the axes holds, 130 interrupted (results are not written; finished cases are\n"
+      "kept).");
   Ranks ranks(argc, argv);
   Options options;
   options.ranks = &ranks;
@@ -281,7 +281,8 @@ int run_program(int argc, char** argv) {
   add_input(diagram);
   add_threads(diagram);
   CLI::App* realisations = app.add_subcommand(
-      "realisations", "one design in many realisations of the rock: shares, means, histograms");
+      "realisations",
+      "one design in many realisations of the rock: probabilities, distributions, what decides");
   add_input(realisations);
   add_threads(realisations);
   CLI::App* sweep = app.add_subcommand(
