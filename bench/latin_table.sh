@@ -41,7 +41,8 @@ thickness = "10 cm"
 E = "25 GPa"
 interface = { kn = "1 GPa/m", friction = "30 deg" }
 '
-beds='[[joint_set]]
+declare -A joints
+joints[beds]='[[joint_set]]
 dip = "20 deg"
 dip_direction = "E"
 spacing = "1 m"
@@ -52,7 +53,7 @@ dip_direction = "W"
 spacing = "1 m"
 spacing_law = "fixed"
 '
-random='[[joint_set]]
+joints[random]='[[joint_set]]
 dip = "75 deg"
 dip_direction = "E"
 sd = "5 deg"
@@ -84,7 +85,7 @@ figures() {
     END { print s / n, b / n, n, (v[int((n + 1) / 2)] + v[int(n / 2) + 1]) / 2, v[n] }' "$1"
 }
 for rock in beds random; do
-  printf '%s%s' "$head" "${!rock}" > "$scratch/$rock.toml"
+  printf '%s%s' "$head" "${joints[$rock]}" > "$scratch/$rock.toml"
   for ((k = 0; k < designs; ++k)); do
     for sampling in latin random; do
       n=$([ $sampling = latin ] && echo 50 || echo 150)
