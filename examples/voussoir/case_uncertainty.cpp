@@ -18,9 +18,10 @@ namespace {
 /// "5", "12.5", "0.31"
 std::string percent(double share) { return significant_text(100 * share, 3); }
 
-std::string padded(std::string text, std::size_t width) {
-  if (text.size() < width) text.append(width - text.size(), ' ');
-  return text;
+std::string padded(const std::string& text, std::size_t width) {
+  std::string cell(std::max(width, text.size()), ' ');
+  std::copy(text.begin(), text.end(), cell.begin());
+  return cell;
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ std::string probability_text(const CriteriaInput& criteria, std::span<const Unwa
   const std::string asked = "criteria.probability = " + percent(most) + " % ";
   if (share.trials == 0) return asked + "is not known to be kept: no realisation is decided\n";
   const Interval between = share.interval();
-  const std::string said = " " + percent(between.low) + " to " + percent(between.high) + " %";
+  std::string said(1, ' ');
+  said.append(percent(between.low)).append(" to ").append(percent(between.high)).append(" %");
   if (between.high <= most) return asked + "is kept with 95 % confidence:" + said + "\n";
   if (between.low > most) return asked + "is not kept, with 95 % confidence:" + said + "\n";
   return asked + "is not known to be kept:" + said + "; more realisations, or a better design\n";
@@ -155,11 +157,11 @@ std::string Influences::text() const {
   out += "\n";
   for (const KeyInfluence& key : keys) {
     std::string line = padded(key.key, width);
-    for (const double c : key.correlations)
-      line += padded(!std::isfinite(c) ? "-"
-                                       : (c < 0 ? "" : "+") + fixed_text(c, 2) +
-                                             (std::abs(c) > limit ? " *" : ""),
-                     20);
+    for (const double c : key.correlations) {
+      std::string cell = !std::isfinite(c) ? "-" : c < 0 ? "" : "+";
+      if (std::isfinite(c)) cell.append(fixed_text(c, 2)).append(std::abs(c) > limit ? " *" : "");
+      line += padded(cell, 20);
+    }
     while (line.ends_with(' ')) line.pop_back();
     out += line + "\n";
   }

@@ -27,8 +27,8 @@ std::string key_words() {
     const Kind kind = key.form.kind;
     if (kind == Kind::table || kind == Kind::tables || kind == Kind::one_or_more) continue;
     std::string name = key.key;
-    for (std::size_t at; (at = name.find("[]")) != std::string::npos;) name.insert(at + 1, "0");
-    words += " " + name + "=";
+    for (std::size_t at; (at = name.find("[]")) != std::string::npos;) name.insert(at + 1, 1, '0');
+    words.append(1, ' ').append(name).append(1, '=');
   }
   return words;
 }

@@ -50,7 +50,10 @@ struct Parts {
   /// A value as it stands in the file, or as it was read from an override.
   [[nodiscard]] static std::string written(const Node& part) {
     if (!part.written.empty()) return printable(part.written);
-    if (part.kind == Node::Kind::text) return "\"" + printable(part.text) + "\"";
+    if (part.kind == Node::Kind::text) {
+      std::string quoted(1, '"');
+      return quoted.append(printable(part.text)).append(1, '"');
+    }
     const bool is_number = part.kind == Node::Kind::integer || part.kind == Node::Kind::real;
     return is_number ? shortest_text(part.real) : "...";
   }

@@ -12,7 +12,8 @@ namespace {
 
 /// The value of an attribute of a tag, as it is written; empty: it has none.
 std::string_view attribute(std::string_view tag, std::string_view name) {
-  const std::string before = " " + std::string(name) + "=\"";
+  std::string before(1, ' ');
+  before.append(name).append("=\"");
   const std::size_t at = tag.find(before);
   if (at == std::string_view::npos) return {};
   const std::size_t from = at + before.size(), to = tag.find('"', from);

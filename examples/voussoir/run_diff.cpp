@@ -72,7 +72,8 @@ std::string change(const Json* from, const Json* to) {
   const double a = from->get<double>(), b = to->get<double>();
   if (a == 0) return "";
   const double percent = 100 * (b - a) / std::abs(a);
-  return (percent > 0 ? "+" : "") + significant_text(percent, 3) + " %";
+  std::string text = percent > 0 ? "+" : "";
+  return text.append(significant_text(percent, 3)).append(" %");
 }
 
 bool is_same(const Json& a, const Json& b) {

@@ -139,7 +139,8 @@ template <class Solver>
 [[nodiscard]] inline std::string words_of_strength(double utilisation) {
   if (std::isnan(utilisation)) return "";
   if (std::isinf(utilisation)) return "\nbeyond its strength";
-  return "\n" + readable_text(100 * utilisation, 2) + " % of its strength";
+  std::string words(1, '\n');
+  return words.append(readable_text(100 * utilisation, 2)).append(" % of its strength");
 }
 /// @param force      [N]
 /// @param strengths  see `TunnelPictureText`
