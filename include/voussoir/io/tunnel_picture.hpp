@@ -112,8 +112,8 @@ template <int Dim>
   for (const PictureCrossing& crossing : drawn.crossings)
     if (most == nullptr || crossing.force > most->force) most = &crossing;
   if (most == nullptr) return words + "\ncrosses no joint";
-  words += "\n" + told(1e-3 * most->force) + " kN, " +
-           readable_text((most->point - drawn.head).norm(), 2) + " m from its head";
+  words.append("\n").append(told(1e-3 * most->force)).append(" kN, ");
+  words.append(readable_text((most->point - drawn.head).norm(), 2)).append(" m from its head");
   if (most->state == PictureCrossing::State::yielded) words += ", yielded";
   if (most->state == PictureCrossing::State::ruptured) words += ", ruptured";
   return words;
