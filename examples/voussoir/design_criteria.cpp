@@ -17,7 +17,7 @@ double ranked(const TunnelResult& result, double value) {
 
 bool has_bolt_strength(const Input& input) {
   return std::any_of(input.bolts.begin(), input.bolts.end(), [](const BoltsInput& pattern) {
-    return std::isfinite(bolt_strength(pattern));
+    return std::isfinite(bolt_strength(pattern)) || pattern.bond_strength;
   });
 }
 

@@ -10,6 +10,7 @@
 #include <voussoir/io/distribution_picture.hpp>
 
 #include "case_uncertainty.hpp"
+#include "design_criteria.hpp"
 #include "run_folder.hpp"
 
 namespace voussoir::program {
@@ -37,9 +38,7 @@ std::vector<Counted> counted_in(const CasePlan& plan, const Realised& r) {
   if (!plan.input().linings.empty()) {
     all.push_back({"largest lining thrust", "kN/m", &r.largest_thrust, 1e-3});
     all.push_back({"largest lining moment", "kN m/m", &r.largest_moment, 1e-3});
-    const auto& linings = plan.input().linings;
-    if (std::any_of(linings.begin(), linings.end(),
-                    [](const LiningInput& lining) { return lining.concrete.has_value(); }))
+    if (has_lining_strength(plan.input()))
       all.push_back({"lining of its strength", "%", &r.of_lining_strength, 100,
                      criteria.utilisation.value_or(1)});
   }

@@ -109,6 +109,21 @@ TEST_SUITE("program/design") {
     CHECK(found > 0);
   }
 
+  TEST_CASE("bolts of which the bond alone is given are held to a criterion, too") {
+    const Folder folder;
+    const std::string text = tunnel(prices);
+    for (const bool is_weak : {true, false}) {
+      const std::string bond = is_weak ? "1 kN/m" : "1 GN/m";
+      const std::string bonded =
+          replaced(text, "yield_force = \"400 kN\"\n", "bond_strength = \"" + bond + "\"\n");
+      const Outcome outcome =
+          run_verb(folder, "realisations", bonded, is_weak ? "weak" : "strong", {"-n", "1"});
+      CAPTURE(outcome.out);
+      CHECK(outcome.out.find(std::string("bolt utilisation above 1 in ") +
+                             (is_weak ? "100 %" : "0 %")) != std::string::npos);
+    }
+  }
+
   TEST_CASE("where nothing holds it is said by how much") {
     const Folder folder;
     const Outcome outcome = run_verb(
