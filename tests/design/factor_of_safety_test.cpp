@@ -26,7 +26,7 @@ constexpr double degree = std::numbers::pi / 180;
 TrialOutcome by(bool stands) { return stands ? TrialOutcome::stands : TrialOutcome::falls; }
 
 /// A block 2 m long and 0.4 m high on an incline of 30 degrees, by its own weight.
-TrialOutcome incline(const AnyJoint& joint, const AnyMethod& method) {
+Tunnel block_on_incline(const AnyJoint& joint) {
   const double slope = 30 * degree;
   const Vec2 along(std::cos(slope), -std::sin(slope)), up(std::sin(slope), std::cos(slope));
   const Vec2 corner = -1.0 * along;
@@ -37,12 +37,21 @@ TrialOutcome incline(const AnyJoint& joint, const AnyMethod& method) {
   Tunnel blocks(laid_blocks<Planar>({base, block}), joint,
                 {.density = 2500, .gravity = 9.81, .is_laid = true});
   blocks.fix(0);
+  return blocks;
+}
+
+Acceptance close_acceptance() {
   Acceptance acceptance;
   acceptance.collapse_measure = 0.4;
   // At rest is what lacks less than this of its weight: 1 % unless told, which is 2 % of what pulls
   // this block down.
   acceptance.unbalance_over_weight = 1e-3;
-  const auto report = blocks.equilibrium(0.0, method, acceptance);
+  return acceptance;
+}
+
+TrialOutcome incline(const AnyJoint& joint, const AnyMethod& method) {
+  Tunnel blocks = block_on_incline(joint);
+  const auto report = blocks.equilibrium(0.0, method, close_acceptance());
   if (report.verdict == Verdict::undecided) return TrialOutcome::undecided;
   return by(report.verdict == Verdict::stable && report.fallen.empty());
 }
@@ -145,6 +154,36 @@ TEST_SUITE("design/factor_of_safety") {
                          InvalidInput);
     CHECK_THROWS_WITH_AS((void)weakened(coulomb, 0), doctest::Contains("factor of strength"),
                          InvalidInput);
+  }
+
+  TEST_CASE("joints of a model that stands get other laws, of one stiffness and type") {
+    const auto coulomb = [](double angle) -> AnyJoint {
+      return CoulombJoint({5e9, 5e8, angle * degree});
+    };
+    Tunnel block = block_on_incline(coulomb(50));
+    const auto stands = [&] {
+      const auto report = block.equilibrium(0.0, TwoLevel(), close_acceptance());
+      return report.verdict == Verdict::stable && report.fallen.empty();
+    };
+    REQUIRE(stands());
+    CHECK_THROWS_WITH_AS(block.change_joint_laws(AnyJoint(CoulombJoint({6e9, 5e8, 0.9}))),
+                         doctest::Contains("normal stiffness"), InvalidInput);
+    CHECK_THROWS_WITH_AS(block.change_joint_laws(AnyJoint(CoulombJoint({5e9, 6e8, 0.9}))),
+                         doctest::Contains("shear stiffness"), InvalidInput);
+    CHECK_THROWS_WITH_AS(
+        block.change_joint_laws(AnyJoint(MohrCoulombJoint(
+            {.joint_normal_stiffness = 5e9, .joint_shear_stiffness = 5e8, .friction_angle = 0.1}))),
+        doctest::Contains("of one type"), InvalidInput);
+    LawsBySet<AnyJoint> of_a_set(coulomb(50));
+    of_a_set.add(1, coulomb(20));
+    CHECK_THROWS_WITH_AS(block.change_joint_laws(of_a_set), doctest::Contains("of the sets"),
+                         InvalidInput);
+    // What was refused has changed nothing; 31 degrees hold it on 30, 29 do not.
+    CHECK(stands());
+    block.change_joint_laws(coulomb(31));
+    CHECK(stands());
+    block.change_joint_laws(coulomb(29));
+    CHECK_FALSE(stands());
   }
 
   TEST_CASE("a block on an incline, with friction and with cohesion, by every procedure") {

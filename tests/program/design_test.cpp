@@ -134,6 +134,13 @@ TEST_SUITE("program/design") {
     CHECK(outcome.out.find("bolts every 30 deg, lining 160 mm") != std::string::npos);
     CHECK(outcome.out.find(" % of the limit") != std::string::npos);
     CHECK(read_file(folder / "out/design.svg").find("NO SUPPORT") != std::string::npos);
+    // One realisation in which nothing breaks leaves up to 97.5 %.
+    const std::string likely =
+        tunnel(prices + "[criteria]\nconvergence = \"1 m\"\nprobability = \"50 %\"\n");
+    CHECK(run_verb(folder, "design", likely, "likely").status == 0);
+    const Outcome sure = run_verb(folder, "design", likely, "likely", {"--sure"});
+    CHECK(sure.status == 9);
+    CHECK(sure.out.find("not sure enough") != std::string::npos);
   }
 
   TEST_CASE("bad input") {
