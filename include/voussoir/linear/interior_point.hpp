@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,8 +14,10 @@
 #include <voussoir/core/progress.hpp>
 #include <voussoir/linear/block_cholesky.hpp>
 #include <voussoir/linear/block_matrix.hpp>
+#include <voussoir/linear/columns_of_bodies.hpp>
 #include <voussoir/linear/linear_programme.hpp>
 #include <voussoir/linear/pattern_store.hpp>
+#include <voussoir/linear/second_order_cone.hpp>
 
 namespace voussoir {
 
@@ -35,12 +36,13 @@ struct InteriorPointSettings {
 /// forces between blocks. Every step factors one matrix with the pattern of the stiffness of the
 /// blocks.
 ///
-/// Predictor and corrector from a start inside the bounds. Every column needs a bound below, and
-/// the rows must not depend on one another.
+/// Predictor and corrector from a start inside the bounds. Every column needs a bound below or a
+/// cone, and the rows must not depend on one another.
 ///
 /// Source: Mehrotra (1992), On the implementation of a primal-dual interior point method, SIAM J.
-/// Optim. 2; bounds from above as in Wright (1997), Primal-dual interior-point methods, ch. 11.
-/// @tparam Dof  3 in 2-D
+/// Optim. 2; bounds from above as in Wright (1997), Primal-dual interior-point methods, ch. 11;
+/// cones, see second_order_cone.hpp.
+/// @tparam Dof  3 in 2-D, 6 in 3-D
 template <int Dof>
 class InteriorPoint {
  public:
@@ -48,7 +50,9 @@ class InteriorPoint {
 
   /// @param progress  asked at every step whether to go on
   /// @return  not solved: the steps were used up, or rounding has stopped it
-  /// @throws InvalidInput  rows that are no bodies, a column of three, or one without a bound below
+  /// @throws InvalidInput  rows that are no bodies, a column of three, one without a bound below,
+  /// or
+  ///                       a cone that is no more than a line
   /// @throws Stopped
   /// @cost  20 to 50 factors: 1 s for 5 600 blocks
   [[nodiscard]] LinearSolution operator()(const LinearProgramme& programme,
@@ -61,98 +65,8 @@ class InteriorPoint {
 
 namespace detail {
 
-/// The columns of a programme by the bodies that they act on.
-template <int Dof>
-struct ColumnsOfBodies {
-  struct Column {
-    int a, b = -1;                        ///< bodies
-    int pair = -1;                        ///< of two, a > b
-    std::array<double, 2 * Dof> entry{};  ///< on a, on b
-  };
-  std::vector<Column> columns;
-  std::vector<std::pair<int, int>> pairs;  ///< each once
-  int bodies;
-
-  explicit ColumnsOfBodies(const LinearProgramme& programme) : bodies(programme.rows() / Dof) {
-    if (programme.rows() % Dof != 0)
-      throw InvalidInput(
-          "interior point: rows must be of bodies, each with its forces and moments");
-    const auto at = [](int k) { return static_cast<std::size_t>(k); };
-    std::vector<std::array<int, 3>> joined;  // a, b, column
-    for (int j = 0; j < programme.columns(); ++j) {
-      Column column{};
-      column.a = -1;
-      for (int k = programme.start[at(j)]; k < programme.start[at(j) + 1]; ++k) {
-        const int row = programme.row[at(k)], body = row / Dof;
-        if (column.a < 0) column.a = body;
-        if (body != column.a && column.b < 0) column.b = body;
-        if (body != column.a && body != column.b)
-          throw InvalidInput("interior point: a column must be of two bodies at most");
-        column.entry[at((body == column.a ? 0 : Dof) + row % Dof)] += programme.entry[at(k)];
-      }
-      if (column.b > column.a) {
-        std::swap(column.a, column.b);
-        std::swap_ranges(column.entry.begin(), column.entry.begin() + Dof,
-                         column.entry.begin() + Dof);
-      }
-      if (column.b >= 0) joined.push_back({column.a, column.b, j});
-      columns.push_back(column);
-    }
-    std::sort(joined.begin(), joined.end());
-    for (const auto& [a, b, j] : joined) {
-      if (pairs.empty() || pairs.back() != std::pair(a, b)) pairs.emplace_back(a, b);
-      columns[at(j)].pair = static_cast<int>(pairs.size()) - 1;
-    }
-  }
-
-  /// y += A x
-  void add_product(const std::vector<double>& x, Eigen::VectorXd& y) const {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      const Column& c = columns[j];
-      for (int d = 0; d < Dof; ++d) y[Dof * c.a + d] += c.entry[static_cast<std::size_t>(d)] * x[j];
-      if (c.b >= 0)
-        for (int d = 0; d < Dof; ++d)
-          y[Dof * c.b + d] += c.entry[static_cast<std::size_t>(Dof + d)] * x[j];
-    }
-  }
-  /// Entry j of A' y.
-  [[nodiscard]] double price(std::size_t j, const Eigen::VectorXd& y) const {
-    const Column& c = columns[j];
-    double sum = 0;
-    for (int d = 0; d < Dof; ++d) sum += c.entry[static_cast<std::size_t>(d)] * y[Dof * c.a + d];
-    if (c.b >= 0)
-      for (int d = 0; d < Dof; ++d)
-        sum += c.entry[static_cast<std::size_t>(Dof + d)] * y[Dof * c.b + d];
-    return sum;
-  }
-  /// A diag(weights) A'
-  [[nodiscard]] BlockMatrix<Dof> normal_matrix(const std::vector<double>& weights) const {
-    BlockMatrix<Dof> matrix(bodies);
-    std::vector<Fixed<Dof, Dof>> across(pairs.size(), zeros<Fixed<Dof, Dof>>());
-    const auto outer_at = [](const Column& c, int first, int second, double weight) {
-      Fixed<Dof, Dof> block;
-      for (int k = 0; k < Dof; ++k)
-        for (int i = 0; i < Dof; ++i)
-          block(i, k) = weight * c.entry[static_cast<std::size_t>(first + i)] *
-                        c.entry[static_cast<std::size_t>(second + k)];
-      return block;
-    };
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      const Column& c = columns[j];
-      matrix.add(c.a, outer_at(c, 0, 0, weights[j]));
-      if (c.b < 0) continue;
-      matrix.add(c.b, outer_at(c, Dof, Dof, weights[j]));
-      across[static_cast<std::size_t>(c.pair)] += outer_at(c, 0, Dof, weights[j]);
-    }
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-      matrix.add(pairs[k].first, pairs[k].second, across[k]);
-    matrix.compress();
-    return matrix;
-  }
-};
-
-/// One programme on its way. Unknowns x are counted from their lower bounds; s is what is left to
-/// the upper ones, z and w are the multipliers of both, y those of the rows.
+/// One programme on its way. Unknowns x are counted from their lower bounds, where they have one; s
+/// is what is left to the upper ones, z and w are the multipliers of both, y those of the rows.
 template <int Dof>
 class InteriorPointRun {
  public:
@@ -164,22 +78,30 @@ class InteriorPointRun {
         a_(programme),
         count_(a_.columns.size()),
         right_(zeros(programme.rows())),
-        room_(count_) {
+        low_(programme.lower),
+        room_(count_),
+        is_bounded_(count_, 1),
+        is_in_cone_(count_, 0) {
+    for (const FrictionCone& cone : programme.cones) add_cone(cone);
+    std::sort(cones_.begin(), cones_.end(),
+              [](const Cone& a, const Cone& b) { return a.first < b.first; });
     for (std::size_t j = 0; j < count_; ++j) {
-      room_[j] = programme.upper[j] - programme.lower[j];
-      if (!std::isfinite(programme.lower[j]) || !(room_[j] > 0))
-        throw InvalidInput("interior point: a column must have a bound below, and room above it");
-      bounds_ += has_end(j) ? 2 : 1;
+      room_[j] = programme.upper[j] - low_[j];
+      if (!std::isfinite(low_[j]) || !(room_[j] > 0))
+        throw InvalidInput(
+            "interior point: a column must have a bound below or a cone, and room above it");
+      if (is_bounded_[j]) bounds_ += has_end(j) ? 2 : 1;
       largest_cost_ = std::max(largest_cost_, std::abs(programme.cost[j]));
-      cost_at_low_ += programme.cost[j] * programme.lower[j];
+      cost_at_low_ += programme.cost[j] * low_[j];
     }
-    a_.add_product(programme.lower, right_);
+    bounds_ += static_cast<double>(cones_.size());
+    a_.add_product(low_, right_);
     for (Eigen::Index i = 0; i < right_.size(); ++i) {
       right_[i] = programme.right[static_cast<std::size_t>(i)] - right_[i];
       largest_right_ = std::max(largest_right_, std::abs(right_[i]));
     }
     for (Numbers* numbers :
-         {&s_, &w_, &reduced_, &weight_, &to_low_, &to_high_, &pull_, &dx_, &dz_, &dw_})
+         {&s_, &w_, &reduced_, &weight_, &to_low_, &to_high_, &pull_, &step_, &dx_, &dz_, &dw_})
       numbers->assign(count_, 0.0);
   }
 
@@ -197,9 +119,19 @@ class InteriorPointRun {
     const double shift = std::max(1.0, -1.5 * least);
     y_ = zeros(right_.size());
     z_.resize(count_);
-    for (std::size_t j = 0; j < count_; ++j) x_[j] = std::min(x_[j] + shift, 0.5 * room_[j]);
+    for (std::size_t j = 0; j < count_; ++j)
+      if (is_bounded_[j]) x_[j] = std::min(x_[j] + shift, 0.5 * room_[j]);
+    for (Cone& cone : cones_) {
+      const Vec3 s = cone.value(x_);
+      const double across = std::hypot(s[1], s[2]), inside = std::min(1.0, 0.5 * s[0] / across);
+      for (const std::size_t j : {cone.first + 1, cone.first + 2})
+        x_[j] = across > 0 ? inside * x_[j] : 0.0;
+      cone.s = cone.value(x_);
+      cone.z = 0.1 * largest_cost_ * second_order_cone::unit();
+    }
     let_single_entries_satisfy_rows();
     for (std::size_t j = 0; j < count_; ++j) {
+      if (!is_bounded_[j]) continue;
       z_[j] = std::max(programme_.cost[j], 0.0) + 0.1 * largest_cost_;
       if (!has_end(j)) continue;
       s_[j] = room_[j] - x_[j];
@@ -216,13 +148,25 @@ class InteriorPointRun {
     mean_ = 0;
     // What the multipliers of the rows prove alone, and those of the bounds with them.
     double proved = dot_product(right_, y_), bound = proved, worst_price = 0;
+    for (std::size_t j = 0; j < count_; ++j) pull_[j] = programme_.cost[j] - a_.price(j, y_);
+    reduced_ = pull_;
+    for (Cone& cone : cones_) {
+      const std::size_t j = cone.first;
+      const double across = std::hypot(pull_[j + 1], pull_[j + 2]);
+      proved -= across * cone.offset;
+      pull_[j] -= across * cone.slope;  // the cheapest that the three come to, by the first
+      pull_[j + 1] = pull_[j + 2] = 0;
+      cone.s = cone.value(x_);
+      cone.subtract_transposed(cone.z, reduced_);
+      mean_ += dot_product(cone.s, cone.z);
+      bound -= cone.offset * cone.z[0];
+    }
     for (std::size_t j = 0; j < count_; ++j) {
-      const double reduced = programme_.cost[j] - a_.price(j, y_);
-      reduced_[j] = reduced - z_[j] + w_[j];
+      reduced_[j] = reduced_[j] - z_[j] + w_[j];
       worst_price = std::max(worst_price, std::abs(reduced_[j]));
       cost_ += programme_.cost[j] * x_[j];
       mean_ += x_[j] * z_[j];
-      if (reduced < 0) proved += reduced * room_[j];
+      if (pull_[j] < 0) proved += pull_[j] * room_[j];
       if (!has_end(j)) continue;
       mean_ += s_[j] * w_[j];
       bound -= room_[j] * w_[j];
@@ -240,12 +184,14 @@ class InteriorPointRun {
 
   void advance() {
     for (std::size_t j = 0; j < count_; ++j)
-      weight_[j] = 1 / (z_[j] / x_[j] + (has_end(j) ? w_[j] / s_[j] : 0.0));
+      weight_[j] = is_bounded_[j] ? 1 / (z_[j] / x_[j] + (has_end(j) ? w_[j] / s_[j] : 0.0)) : 0.0;
+    for (Cone& cone : cones_) cone.scale(weight_[cone.first]);
     const BlockCholesky<Dof> factor = factor_of(weight_);
     for (std::size_t j = 0; j < count_; ++j) {
       to_low_[j] = -x_[j] * z_[j];
       to_high_[j] = -s_[j] * w_[j];
     }
+    for (Cone& cone : cones_) cone.aim = -cone.both;
     aim(factor);
     auto [primal, dual] = lengths();
     primal = std::min(1.0, primal);
@@ -255,6 +201,8 @@ class InteriorPointRun {
       ahead += (x_[j] + primal * dx_[j]) * (z_[j] + dual * dz_[j]);
       if (has_end(j)) ahead += (s_[j] - primal * dx_[j]) * (w_[j] + dual * dw_[j]);
     }
+    for (const Cone& cone : cones_)
+      ahead += dot_product(cone.s + primal * cone.ds, cone.z + dual * cone.dz);
     const double part = ahead / bounds_ / mean_;
     // No closer to the bounds than the gap asks for: beyond, rounding eats the rows.
     const double centre = std::max(part * part * part * mean_,
@@ -263,9 +211,12 @@ class InteriorPointRun {
       to_low_[j] = centre - x_[j] * z_[j] - dx_[j] * dz_[j];
       if (has_end(j)) to_high_[j] = centre - s_[j] * w_[j] + dx_[j] * dw_[j];
     }
+    for (Cone& cone : cones_) cone.aim_at(centre);
     aim(factor);
     std::tie(primal, dual) = lengths();
-    constexpr double keep = 0.9995;  // of the way to the nearest bound
+    // Of the way to the nearest bound. Cones want to be kept away from their edges, where digits
+    // are lost.
+    const double keep = cones_.empty() ? 0.9995 : 0.95;
     primal = std::min(1.0, keep * primal);
     dual = std::min(1.0, keep * dual);
     for (std::size_t j = 0; j < count_; ++j) {
@@ -275,23 +226,48 @@ class InteriorPointRun {
       s_[j] -= primal * dx_[j];
       w_[j] += dual * dw_[j];
     }
+    for (Cone& cone : cones_) cone.z += dual * cone.dz;
     set_to_sum(y_, Eigen::VectorXd(y_), dual, dy_);
   }
 
   [[nodiscard]] bool is_sound() const { return std::isfinite(mean_) && std::isfinite(cost_); }
   void write(LinearSolution& solution) const {
     solution.unknowns.resize(count_);
-    for (std::size_t j = 0; j < count_; ++j) solution.unknowns[j] = programme_.lower[j] + x_[j];
+    for (std::size_t j = 0; j < count_; ++j) solution.unknowns[j] = low_[j] + x_[j];
     solution.multipliers.assign(y_.data(), y_.data() + y_.size());
   }
 
  private:
   using Numbers = std::vector<double>;
 
+  using Cone = second_order_cone::Unknowns;
+
+  void add_cone(const FrictionCone& cone) {
+    const auto j = static_cast<std::size_t>(cone.first);
+    if (cone.first < 0 || j + 3 > count_ || !(cone.slope >= 0))
+      throw InvalidInput("interior point: a cone must be of three columns, with a slope >= 0");
+    for (const std::size_t across : {j + 1, j + 2}) {
+      if (std::isfinite(programme_.lower[across]) || std::isfinite(programme_.upper[across]))
+        throw InvalidInput("interior point: the last two columns of a cone must have no bounds");
+      low_[across] = 0;
+      is_bounded_[across] = 0;
+    }
+    for (const std::size_t in : {j, j + 1, j + 2}) {
+      if (is_in_cone_[in] || a_.columns[in].a != a_.columns[j].a ||
+          a_.columns[in].b != a_.columns[j].b)
+        throw InvalidInput(
+            "interior point: columns of a cone must be of the same two bodies, each in one cone");
+      is_in_cone_[in] = 1;
+    }
+    cones_.push_back({j, cone.slope, cone.offset + cone.slope * low_[j]});
+    if (!(cones_.back().offset >= 0) || !(cones_.back().offset > 0 || cone.slope > 0))
+      throw InvalidInput("interior point: a cone must be more than a line, and its axis in it");
+  }
+
   [[nodiscard]] bool has_end(std::size_t j) const { return std::isfinite(room_[j]); }
 
   [[nodiscard]] BlockCholesky<Dof> factor_of(const Numbers& weights) {
-    BlockMatrix<Dof> matrix = a_.normal_matrix(weights);
+    BlockMatrix<Dof> matrix = a_.normal_matrix(weights, cones_);
     if (!pattern_) pattern_ = patterns_.pattern(Dof, a_.bodies, matrix.pairs());
     try {
       return BlockCholesky<Dof>(matrix, pattern_, {}, settings_.threads);
@@ -314,7 +290,7 @@ class InteriorPointRun {
     a_.add_product(x_, rows_);
     for (std::size_t j = 0; j < count_; ++j) {
       const auto first = static_cast<std::size_t>(programme_.start[j]);
-      if (programme_.start[j + 1] != programme_.start[j] + 1) continue;
+      if (is_in_cone_[j] || programme_.start[j + 1] != programme_.start[j] + 1) continue;
       const double entry = programme_.entry[first];
       double& sum = rows_[programme_.row[first]];
       const double left = (right_[programme_.row[first]] - sum) / entry;
@@ -327,35 +303,62 @@ class InteriorPointRun {
 
   /// The step that brings products of unknowns and multipliers to where they shall be.
   void aim(const BlockCholesky<Dof>& factor) {
-    for (std::size_t j = 0; j < count_; ++j) {
-      pull_[j] = to_low_[j] / x_[j] - reduced_[j] - (has_end(j) ? to_high_[j] / s_[j] : 0.0);
-      dx_[j] = -weight_[j] * pull_[j];
+    for (std::size_t j = 0; j < count_; ++j)
+      pull_[j] = (is_bounded_[j] ? to_low_[j] / x_[j] : 0.0) - reduced_[j] -
+                 (has_end(j) ? to_high_[j] / s_[j] : 0.0);
+    for (const Cone& cone : cones_) cone.subtract_transposed(-cone.w.over(cone.aim), pull_);
+    dx_ = pull_;
+    multiply_by_weights(dx_);
+    dy_ = zeros(right_.size());
+    // Weights far apart cost digits of the rows, which a second solve and a third bring back.
+    for (int solve = 0; solve < 3; ++solve) {
+      for (std::size_t j = 0; j < count_; ++j) step_[j] = -dx_[j];
+      Eigen::VectorXd left = rows_;
+      a_.add_product(step_, left);
+      factor.solve_in_place(left);
+      add_to(dy_, left);
+      for (std::size_t j = 0; j < count_; ++j) step_[j] = a_.price(j, left);
+      multiply_by_weights(step_);
+      for (std::size_t j = 0; j < count_; ++j) dx_[j] += step_[j];
     }
-    dy_ = rows_;
-    a_.add_product(dx_, dy_);
-    Eigen::VectorXd left = dy_;
-    factor.solve_in_place(dy_);
-    // Weights far apart cost digits, which a second solve brings back.
-    for (std::size_t j = 0; j < count_; ++j) dx_[j] = -weight_[j] * a_.price(j, dy_);
-    a_.add_product(dx_, left);
-    factor.solve_in_place(left);
-    add_to(dy_, left);
+    // From here on what multipliers of bounds and cones must take.
+    for (std::size_t j = 0; j < count_; ++j) pull_[j] = reduced_[j] - a_.price(j, dy_);
     for (std::size_t j = 0; j < count_; ++j) {
-      dx_[j] = weight_[j] * (a_.price(j, dy_) + pull_[j]);
-      dz_[j] = (to_low_[j] - z_[j] * dx_[j]) / x_[j];
+      dz_[j] = is_bounded_[j] ? (to_low_[j] - z_[j] * dx_[j]) / x_[j] : 0.0;
       dw_[j] = has_end(j) ? (to_high_[j] + w_[j] * dx_[j]) / s_[j] : 0.0;
     }
+    for (Cone& cone : cones_) {
+      const std::size_t j = cone.first;
+      cone.ds = cone.change(dx_);
+      cone.dz = cone.w.over(cone.aim - cone.w.over(cone.ds));
+      // At its edge W has lost the digits by which prices are kept.
+      cone.dz[1] = pull_[j + 1];
+      cone.dz[2] = pull_[j + 2];
+      if (cone.slope > 0) cone.dz[0] = (pull_[j] - dz_[j] + dw_[j]) / cone.slope;
+    }
+  }
+
+  void multiply_by_weights(Numbers& v) const {
+    // Of columns in a cone they are left as they are, for the weight of all three.
+    for (std::size_t j = 0; j < count_; ++j)
+      if (!is_in_cone_[j]) v[j] *= weight_[j];
+    for (const Cone& cone : cones_) cone.multiply_by_weight(v);
   }
 
   /// How far unknowns and multipliers can go until the first is at its bound, in steps.
   [[nodiscard]] std::pair<double, double> lengths() const {
     double primal = std::numeric_limits<double>::max(), dual = primal;
     for (std::size_t j = 0; j < count_; ++j) {
+      if (!is_bounded_[j]) continue;
       if (dx_[j] < 0) primal = std::min(primal, -x_[j] / dx_[j]);
       if (dz_[j] < 0) dual = std::min(dual, -z_[j] / dz_[j]);
       if (!has_end(j)) continue;
       if (dx_[j] > 0) primal = std::min(primal, s_[j] / dx_[j]);
       if (dw_[j] < 0) dual = std::min(dual, -w_[j] / dw_[j]);
+    }
+    for (const Cone& cone : cones_) {
+      primal = std::min(primal, second_order_cone::steps_to_edge(cone.s, cone.ds));
+      dual = std::min(dual, second_order_cone::steps_to_edge(cone.z, cone.dz));
     }
     return {primal, dual};
   }
@@ -366,9 +369,11 @@ class InteriorPointRun {
   ColumnsOfBodies<Dof> a_;
   std::size_t count_;
   Eigen::VectorXd right_, y_, rows_, dy_;
-  Numbers room_;
+  Numbers low_, room_;
+  std::vector<char> is_bounded_, is_in_cone_;
+  std::vector<Cone> cones_;
   Numbers x_, s_, z_, w_;
-  Numbers reduced_, weight_, to_low_, to_high_, pull_, dx_, dz_, dw_;
+  Numbers reduced_, weight_, to_low_, to_high_, pull_, step_, dx_, dz_, dw_;
   std::shared_ptr<const CholeskyPattern> pattern_;
   double bounds_ = 0, cost_at_low_ = 0, largest_cost_ = 1, largest_right_ = 1, cost_ = 0, mean_ = 0;
 };
