@@ -22,8 +22,8 @@ using namespace voussoir_test;
 namespace {
 
 /// Its contacts are found face by face, as those of the simplex are.
-LimitProblem limit_problem(const LaidProblem& laid, const JointStrength& strength) {
-  LimitProblem problem;
+LimitProblem<2> limit_problem(const LaidProblem& laid, const JointStrength& strength) {
+  LimitProblem<2> problem;
   for (std::size_t b = 0; b < laid.blocks.size(); ++b) {
     const auto properties = mass_properties(laid.blocks[b]);
     problem.blocks.push_back({properties.centroid, laid.weight(b),
@@ -31,7 +31,7 @@ LimitProblem limit_problem(const LaidProblem& laid, const JointStrength& strengt
                               laid.dead_load(b), !laid.is_fixed(b)});
   }
   for (const FlatJoint& joint : joints_of(laid))
-    problem.contacts.push_back({joint.a, joint.b, joint.p, joint.q, joint.normal, strength});
+    problem.add_contact(joint.a, joint.b, {joint.p, joint.q}, joint.normal, strength);
   return problem;
 }
 
@@ -159,7 +159,7 @@ TEST_SUITE("design/limit_load") {
     // Sides that push as hard as they must, as rollers do: however deep, it hangs on the angle.
     constexpr double half_angle = 20 * degree, friction = 0.9;
     const double t = std::tan(half_angle);
-    LimitProblem problem;
+    LimitProblem<2> problem;
     // Wider below than above: the wedge would come down between two blocks beside it.
     const auto add = [&](const Vec2& centre, double weight) {
       problem.blocks.push_back({centre, weight, 0.5, {Vec2(0, -weight), Spin<2>(0.0)}, true});
@@ -168,14 +168,13 @@ TEST_SUITE("design/limit_load") {
     add({-2, 0.5}, 5e4);
     add({2, 0.5}, 5e4);
     const Vec2 right(std::cos(half_angle), std::sin(half_angle));
-    problem.contacts.push_back({0, 2, Vec2(0.5, 0), Vec2(0.5 - t, 1), right, {friction, 0, 0}});
-    problem.contacts.push_back(
-        {0, 1, Vec2(-0.5, 0), Vec2(-0.5 + t, 1), Vec2(-right.x(), right.y()), {friction, 0, 0}});
+    problem.add_contact(0, 2, {Vec2(0.5, 0), Vec2(0.5 - t, 1)}, right, {friction, 0, 0});
+    problem.add_contact(0, 1, {Vec2(-0.5, 0), Vec2(-0.5 + t, 1)}, Vec2(-right.x(), right.y()),
+                        {friction, 0, 0});
     for (const double side : {-1.0, 1.0}) {
-      problem.edges.push_back(
-          {side < 0 ? 1 : 2, Vec2(3 * side, 0), Vec2(3 * side, 1), Vec2(side, 0)});
-      problem.edges.push_back(
-          {side < 0 ? 1 : 2, Vec2(1 * side, 0), Vec2(3 * side, 0), Vec2(0, -1)});
+      const int beside = side < 0 ? 1 : 2;
+      problem.add_edge(beside, {Vec2(3 * side, 0), Vec2(3 * side, 1)}, Vec2(side, 0));
+      problem.add_edge(beside, {Vec2(1 * side, 0), Vec2(3 * side, 0)}, Vec2(0, -1));
     }
     check_limit(limit_load(problem, {.width = 1e-6}), friction / t);
   }
@@ -218,7 +217,7 @@ TEST_SUITE("design/limit_load") {
   }
 
   TEST_CASE("both ends prove themselves, and a solver that errs is found out") {
-    const LimitProblem problem =
+    const LimitProblem<2> problem =
         limit_problem(block_on_incline(30 * degree), {std::tan(50 * degree), 0, 0});
     const LimitBound bound = limit_load(problem);
     CHECK(bound.unbalance <= 1e-6);
@@ -250,7 +249,7 @@ TEST_SUITE("design/limit_load") {
   }
 
   TEST_CASE("bad settings are refused") {
-    const LimitProblem problem = limit_problem(block_on_incline(0.3), {1, 0, 0});
+    const LimitProblem<2> problem = limit_problem(block_on_incline(0.3), {1, 0, 0});
     CHECK_THROWS_WITH_AS((void)limit_load(problem, {.width = 0}),
                          doctest::Contains("width of a bound"), InvalidInput);
     CHECK_THROWS_WITH_AS((void)limit_load(problem, {.first = 0}), doctest::Contains("first factor"),
@@ -259,7 +258,7 @@ TEST_SUITE("design/limit_load") {
                          InvalidInput);
     CHECK_THROWS_WITH_AS((void)limit_load(problem, {.step = 1}),
                          doctest::Contains("step of factors"), InvalidInput);
-    LimitProblem fixed = problem;
+    LimitProblem<2> fixed = problem;
     for (auto& block : fixed.blocks) block.is_free = false;
     CHECK_THROWS_WITH_AS((void)limit_load(fixed), doctest::Contains("no block is free"),
                          InvalidInput);

@@ -259,7 +259,9 @@ class InteriorPointRun {
             "interior point: columns of a cone must be of the same two bodies, each in one cone");
       is_in_cone_[in] = 1;
     }
-    cones_.push_back({j, cone.slope, cone.offset + cone.slope * low_[j]});
+    double offset = cone.offset + cone.slope * low_[j];
+    if (std::abs(offset) <= 1e-14 * std::abs(cone.offset)) offset = 0;  // but for rounding
+    cones_.push_back({j, cone.slope, offset});
     if (!(cones_.back().offset >= 0) || !(cones_.back().offset > 0 || cone.slope > 0))
       throw InvalidInput("interior point: a cone must be more than a line, and its axis in it");
   }

@@ -45,10 +45,9 @@ namespace voussoir::detail::second_order_cone {
   // determinant(u + t step) = a t^2 + 2 b t + c
   const double a = step[0] * step[0] - step[1] * step[1] - step[2] * step[2],
                b = u[0] * step[0] - u[1] * step[1] - u[2] * step[2], c = determinant(u);
-  const double under_root = b * b - a * c;
-  if (under_root < 0 || (b >= 0 && a >= 0)) return std::numeric_limits<double>::infinity();
-  // The root that comes first from c on, without cancellation.
-  const double root = std::sqrt(under_root);
+  if (b >= 0 && a >= 0) return std::numeric_limits<double>::infinity();
+  // The root that comes first, without cancellation: there always is one, but for rounding.
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
   return b <= 0 ? c / (root - b) : -(b + root) / a;
 }
 
