@@ -14,16 +14,59 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Area of the blocks that the mechanism moves: more than a thousandth of that which moves most.
-double moving_area(const Tunnel& tunnel, const LimitBound& bound) {
-  const auto speed = [](const std::array<double, 3>& v) {
-    return std::hypot(std::hypot(v[0], v[1]), v[2]);
+/// Of the blocks that the mechanism moves: more than a thousandth of that which moves most.
+template <class Geometry>
+double moving_measure(const TunnelIn<Geometry>& tunnel, const LimitBound& bound) {
+  const auto speed = [](const std::vector<double>& v) {
+    double squares = 0;
+    for (const double part : v) squares += part * part;
+    return std::sqrt(squares);
   };
-  double most = 0, area = 0;
+  double most = 0, measure = 0;
   for (const auto& velocity : bound.mechanism) most = std::max(most, speed(velocity));
   for (std::size_t b = 0; b < bound.mechanism.size(); ++b)
-    if (speed(bound.mechanism[b]) > 1e-3 * most) area += tunnel.mass().bodies[b].properties.measure;
-  return area;
+    if (speed(bound.mechanism[b]) > 1e-3 * most)
+      measure += tunnel.mass().bodies[b].properties.measure;
+  return measure;
+}
+
+/// Whether a side, or the top, can push harder than in situ.
+template <int Dim>
+bool can_push_harder(const FarField<Dim>& field) {
+  if (field.at(SideOf<Dim>::top) != Boundary::stress) return true;
+  for (int axis = 0; axis < Dim - 1; ++axis)
+    for (const bool upper : {false, true})
+      if (field.at(axis, upper) != Boundary::stress) return true;
+  return false;
+}
+
+template <class Geometry>
+LimitAnswer answer_of(const TunnelIn<Geometry>& stands, const LawsBySet<AnyJoint>& laws,
+                      double first, const Report& report) {
+  const auto start = std::chrono::steady_clock::now();
+  LimitAnswer answer;
+  answer.reason.clear();
+  if constexpr (Geometry::dim == 3) answer.unit = "m3";
+  if (stands.bolt_count() > 0 || stands.lining() != nullptr) {
+    answer.reason = "not sought: it is of rock without bolts and linings";
+    return answer;
+  }
+  const LimitSearch search{.first = first, .least = std::min(LimitSearch{}.least, first)};
+  const auto sought = [&](SideForces sides) {
+    return limit_load(limit_problem_of(stands, laws, sides), search, [&](double factor) {
+      return report("limit load, strength over " + significant_text(factor, 4), 0);
+    });
+  };
+  try {
+    answer.bound = sought(SideForces::any);
+    answer.moving = moving_measure(stands, *answer.bound);
+    if (!stands.in_situ().is_laid && can_push_harder(stands.far_field()))
+      answer.in_situ_sides = sought(SideForces::in_situ);
+  } catch (const NumericalFault& fault) {
+    answer.reason = fault.what();
+  }
+  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return answer;
 }
 
 std::string bracket_text(const LimitBound& bound) {
@@ -49,32 +92,11 @@ Json bound_json(const LimitBound& bound) {
 
 LimitAnswer limit_of(const Tunnel& stands, const LawsBySet<AnyJoint>& laws, double first,
                      const Report& report) {
-  const auto start = std::chrono::steady_clock::now();
-  LimitAnswer answer;
-  answer.reason.clear();
-  if (stands.bolt_count() > 0 || stands.lining() != nullptr) {
-    answer.reason = "not sought: it is of rock without bolts and linings";
-    return answer;
-  }
-  const LimitSearch search{.first = first, .least = std::min(LimitSearch{}.least, first)};
-  const auto sought = [&](SideForces sides) {
-    return limit_load(limit_problem_of(stands, laws, sides), search, [&](double factor) {
-      return report("limit load, strength over " + significant_text(factor, 4), 0);
-    });
-  };
-  try {
-    answer.bound = sought(SideForces::any);
-    answer.moving = moving_area(stands, *answer.bound);
-    const FarField<2>& field = stands.far_field();
-    const bool has_more = field.at(Side::left) != Boundary::stress ||
-                          field.at(Side::right) != Boundary::stress ||
-                          field.at(Side::top) != Boundary::stress;
-    if (!stands.in_situ().is_laid && has_more) answer.in_situ_sides = sought(SideForces::in_situ);
-  } catch (const NumericalFault& fault) {
-    answer.reason = fault.what();
-  }
-  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return answer;
+  return answer_of(stands, laws, first, report);
+}
+LimitAnswer limit_of(const SpatialTunnel& stands, const LawsBySet<AnyJoint>& laws, double first,
+                     const Report& report) {
+  return answer_of(stands, laws, first, report);
 }
 
 std::string limit_text(const LimitAnswer& answer, double stands) {
@@ -85,7 +107,7 @@ std::string limit_text(const LimitAnswer& answer, double stands) {
       "         rigid blocks whose joints dilate by their friction: an upper bound, no safe "
       "value\n";
   if (answer.moving > 0 && std::isfinite(answer.bound->fails))
-    out += text("         %.3g m2 move\n", answer.moving);
+    out += text("         %.3g ", answer.moving) + answer.unit + " move\n";
   if (answer.in_situ_sides)
     out += "         with sides that push as in situ and no harder: " +
            bracket_text(*answer.in_situ_sides) + "\n";
@@ -100,7 +122,7 @@ Json limit_json(const LimitAnswer& answer) {
   if (!answer.bound) return {{"bound", nullptr}, {"reason", answer.reason}};
   Json json = bound_json(*answer.bound);
   json["is_infinite"] = std::isinf(answer.bound->fails);
-  json["mechanism_m2"] = answer.moving;
+  json[std::string("mechanism_") + answer.unit] = answer.moving;
   json["in_situ_sides"] = answer.in_situ_sides ? bound_json(*answer.in_situ_sides) : Json();
   json["seconds"] = answer.seconds;
   return json;

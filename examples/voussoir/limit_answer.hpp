@@ -17,7 +17,8 @@ struct LimitAnswer {
   /// With sides that push as in situ, where they can do more than that; else none.
   std::optional<LimitBound> in_situ_sides;
   std::string reason = "not asked for";  ///< why there is no bound
-  double moving = 0;                     ///< of the mechanism [m^2]
+  double moving = 0;                     ///< of the mechanism [m^2], in 3-D [m^3]
+  const char* unit = "m2";               ///< of that
   double seconds = 0;
 };
 
@@ -27,6 +28,9 @@ struct LimitAnswer {
 /// @return  a reason instead of a bound: it has supports, or the programmes came to no end
 /// @throws Stopped
 [[nodiscard]] LimitAnswer limit_of(const Tunnel& stands, const LawsBySet<AnyJoint>& laws,
+                                   double first, const Report& report);
+/// In 3-D.
+[[nodiscard]] LimitAnswer limit_of(const SpatialTunnel& stands, const LawsBySet<AnyJoint>& laws,
                                    double first, const Report& report);
 
 /// Lines for a terminal.

@@ -62,7 +62,8 @@ std::string mechanism_picture(const Input& input, const TunnelAtFactor<Geometry>
 }
 
 /// @param standing  the model under the largest factor that stands; null: under none
-LimitAnswer limit_beside(const FactorBracket& bracket, const Tunnel* standing,
+template <class TunnelType>
+LimitAnswer limit_beside(const FactorBracket& bracket, const TunnelType* standing,
                          const LawsBySet<AnyJoint>& laws, const Report& report) {
   if (standing == nullptr) {
     LimitAnswer none;
@@ -163,8 +164,12 @@ SafetyAnswer safety_of(const Input& input, const SafetySettings& settings, bool 
   } else if (input.is_spatial()) {
     const RockIn<Spatial> rock = described_spatial_rock(input, blocks);
     warnings = rock.warnings;
-    answer = answer_of(input, settings, factor_of_safety(input, rock, settings, report));
-    if (wants_limit) answer.limit.reason = "not sought: it is of sections in 2-D";
+    const TunnelSafety<Spatial> safety = factor_of_safety(input, rock, settings, report);
+    answer = answer_of(input, settings, safety);
+    if (wants_limit)
+      answer.limit =
+          limit_beside(answer.bracket, safety.standing ? &safety.standing->tunnel : nullptr,
+                       laws_of(input), report);
   } else {
     const RockIn<Planar> rock = described_rock(input, blocks);
     warnings = rock.warnings;
