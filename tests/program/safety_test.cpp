@@ -191,6 +191,33 @@ TEST_SUITE("program/safety") {
     CHECK(whole.files.at("safety.svg").find("strength of joints over") != std::string::npos);
   }
 
+  TEST_CASE("a section and a slice of the same rock have one limit load") {
+    // Joints that run along the tunnel: the slice, 2 m thick, is the section made thick. One is a
+    // linear programme, the other has a cone for each corner of a contact.
+    CircleInRock rock{.surcharge = "100 kPa"};
+    rock.joint = "kn = \"5 GPa/m\"\nks = \"0.5 GPa/m\"\nfriction = \"54.46 deg\"\n";
+    const std::vector<std::string> options{"--largest", "1", "--set"};
+    const auto limit = [&](const char* dimension) {
+      std::vector<std::string> with = options;
+      with.push_back(std::string("model.dimension=") + dimension);
+      return safety_of(rock.text(), with).json.at("limit_load");
+    };
+    const Json section = limit("2"), slice = limit("3");
+    for (const char* sides : {"any", "in situ"}) {
+      CAPTURE(sides);
+      const auto of = [&](const Json& json) {
+        return sides == std::string("any") ? json : json.at("in_situ_sides");
+      };
+      // Both brackets hold the one limit; what blocks have moved until rest is 0.7 mm.
+      const double most = of(section).at("fails_over").get<double>();
+      CHECK(of(slice).at("holds_over").get<double>() <= most * (1 + 1e-3));
+      CHECK(of(slice).at("fails_over").get<double>() >=
+            of(section).at("holds_over").get<double>() * (1 - 1e-3));
+    }
+    CHECK(slice.at("mechanism_m3").get<double>() ==
+          near(2 * section.at("mechanism_m2").get<double>()).epsilon(1e-3));
+  }
+
   TEST_CASE("bad input") {
     const auto refused = [](const std::string& text, const std::vector<std::string>& more,
                             const std::vector<std::string>& parts) {

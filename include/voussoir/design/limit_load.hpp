@@ -332,8 +332,9 @@ class LimitLoadSearch {
     if (holds(part)) {
       while (holds(part / search_.step)) part /= search_.step;
     } else {
-      while (part * search_.least < 1 &&
-             !holds(part = std::min(part * search_.step, 1 / search_.least))) {
+      // Where nothing holds them the smallest factor says so at once.
+      if (search_.least == search_.first || !holds(1 / search_.least)) return bound_;
+      while (!holds(part = std::min(part * search_.step, 1 / search_.least))) {
       }
     }
     while (bound_.is_closed() && bound_.fails > bound_.holds * (1 + search_.width))
