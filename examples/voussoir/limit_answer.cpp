@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/design/limit_problem.hpp>
 #include <voussoir/drawing/number_text.hpp>
 
@@ -51,6 +52,12 @@ LimitAnswer answer_of(const TunnelIn<Geometry>& stands, const LawsBySet<AnyJoint
     answer.reason = "not sought: it is of rock without bolts and linings";
     return answer;
   }
+  for (const AnyJoint& law : laws.all())
+    if (law.as<BartonBandisJoint>() != nullptr) {
+      answer.reason =
+          "not sought: of Barton and Bandis' joints the strength is no sum of friction and cohesion";
+      return answer;
+    }
   const LimitSearch search{.first = first, .least = std::min(LimitSearch{}.least, first)};
   const auto sought = [&](SideForces sides) {
     return limit_load(limit_problem_of(stands, laws, sides), search, [&](double factor) {

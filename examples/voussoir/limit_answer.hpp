@@ -25,7 +25,8 @@ struct LimitAnswer {
 /// @param stands  under some factor
 /// @param laws    undivided
 /// @param first   factor that is tried first
-/// @return  a reason instead of a bound: it has supports, or the programmes came to no end
+/// @return  a reason instead of a bound: it has supports, a joint law has no strength that a bound
+///          could take, or the programmes came to no end
 /// @throws Stopped
 [[nodiscard]] LimitAnswer limit_of(const Tunnel& stands, const LawsBySet<AnyJoint>& laws,
                                    double first, const Report& report);

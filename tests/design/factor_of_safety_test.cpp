@@ -150,8 +150,15 @@ TEST_SUITE("design/factor_of_safety") {
                                               .residual_friction_angle = 28 * degree,
                                               .initial_stiffness = 20e9,
                                               .maximum_closure = 0.2e-3});
-    CHECK_THROWS_WITH_AS((void)weakened(rough, 2), doctest::Contains("BartonBandisJoint"),
-                         InvalidInput);
+    // At every stress and displacement on its curve; its stiffness and dilation are what they were.
+    const BartonBandisJoint &whole = *rough.as<BartonBandisJoint>(),
+                            half = *weakened(weakened(rough, 1.25), 1.6).as<BartonBandisJoint>();
+    for (const double stress : {1e3, 20e3, 1e6, 40e6, 200e6})
+      for (const double slip : {0.0, 1e-4, 5e-4, 2e-3, 0.1})
+        CHECK(half.strength(stress, slip) ==
+              near(0.5 * whole.strength(stress, slip)).epsilon(1e-13));
+    CHECK(half.joint_normal_stiffness() == whole.joint_normal_stiffness());
+    CHECK(half.joint_shear_stiffness() == near(whole.joint_shear_stiffness()).epsilon(1e-13));
     CHECK_THROWS_WITH_AS((void)weakened(coulomb, 0), doctest::Contains("factor of strength"),
                          InvalidInput);
   }

@@ -126,6 +126,27 @@ TEST_SUITE("tunnel/wall_motion") {
     CHECK(crown <= 10e-3 + 0.16 * turn);
   }
 
+  TEST_CASE("a loose block is no movement of the opening as a whole") {
+    // A wall that becomes an ellipse while the opening rises, in unequal parts; far pressed
+    // sideways.
+    std::vector<WallMotion> wall;
+    const Vec2 rise(0.2e-3, 1.5e-3);
+    for (int k = 0; k < 60; ++k) {
+      const double angle = (k + 0.5) * 6 * degree, length = k % 3 == 0 ? 0.6 : 0.3;
+      const Vec2 moved = rise + Vec2(-4e-3 * std::cos(angle), 0.5e-3 * std::sin(angle));
+      wall.push_back({angle, length, 0, moved});
+    }
+    // By symmetry about the centre, every third part and its opposite alike.
+    CHECK(mean_displacement(wall).x() == voussoir_test::near(rise.x()).epsilon(1e-12));
+    CHECK(mean_displacement(wall).y() == voussoir_test::near(rise.y()).epsilon(1e-12));
+    // Two opposite ones come loose: the rest is symmetric still.
+    wall[4].moved = Vec2(-30e-3, -140e-3);
+    wall[34].moved = Vec2(50e-3, -3);
+    CHECK(mean_displacement(wall).x() == voussoir_test::near(rise.x()).epsilon(1e-12));
+    CHECK(mean_displacement(wall).y() == voussoir_test::near(rise.y()).epsilon(1e-12));
+    CHECK(std::isnan(mean_displacement({}).x()));
+  }
+
   // Blocks below 0.1 m2 are dropped, so that rock overhangs in holes, at the springing, too.
   TEST_CASE("heading and bench have the wall of the whole, whichever comes first") {
     const SimplePolygon upper(

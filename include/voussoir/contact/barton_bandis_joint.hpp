@@ -65,6 +65,9 @@ class BartonBandisJoint {
     /// M [-], >= 1: the joint dilates by 1/M of the angle of its roughness. The source has 1 to 2,
     /// with the stress; 2 lifts least. Infinity: no dilation.
     double damage_coefficient = 2;
+    /// By which tau is divided, whatever the stress: for strength reduction [-], > 0. Stiffness and
+    /// dilation stay, the latter as far as what is left of the friction pays for it.
+    double strength_divisor = 1;
   };
 
   /// K_ni and V_m of a joint under its first loads, from JRC, JCS and the strength of the rock.
@@ -124,18 +127,22 @@ class BartonBandisJoint {
     require(p_.largest_stress > 0 && std::isfinite(p_.largest_stress), "largest_stress",
             p_.largest_stress, "> 0 Pa");
     require(p_.damage_coefficient >= 1, "damage_coefficient", p_.damage_coefficient, ">= 1");
+    require(p_.strength_divisor > 0 && std::isfinite(p_.strength_divisor), "strength_divisor",
+            p_.strength_divisor, "> 0");
     const double scale = p_.joint_length / p_.sample_length;
     roughness_ = p_.roughness * elementary::power(scale, -0.02 * p_.roughness);
     wall_strength_ = p_.wall_strength * elementary::power(scale, -0.03 * p_.roughness);
     peak_slip_ = p_.joint_length / 500 *
                  elementary::power(std::max(roughness_, 1e-3) / p_.joint_length, 0.33);
     residual_angle_ = std::min(p_.residual_friction_angle, steepest_angle);
-    tan_residual_ = elementary::tangent(residual_angle_);
+    tan_residual_ = elementary::tangent(residual_angle_) / p_.strength_divisor;
     largest_closure_ = closure_on_curve(p_.largest_stress);
     const double left = 1 - largest_closure_ / p_.maximum_closure;
     largest_stiffness_ = p_.initial_stiffness / (left * left);
     largest_shear_stiffness_ = steepest_rise(p_.largest_stress);
   }
+
+  [[nodiscard]] const Params& params() const { return p_; }
 
   /// Normal stress at a closure [Pa]; 0 where the joint is open (V <= 0).
   [[nodiscard]] double stress(double closure) const {
@@ -257,7 +264,8 @@ class BartonBandisJoint {
   /// tau / sigma_n at a displacement on the curve [-]. @param angle  i [rad]
   [[nodiscard]] double friction(double angle, double displacement) const {
     const double part = detail::MobilisedRoughness::at(displacement / peak_slip_);
-    return part == 0 ? tan_residual_ : elementary::tangent(residual_angle_ + part * angle);
+    return part == 0 ? tan_residual_
+                     : elementary::tangent(residual_angle_ + part * angle) / p_.strength_divisor;
   }
   /// Of the curve, and of what the spring must be stiffer than that for the slip on it to pay for
   /// its dilation [Pa/m]: on the straight line to 0.3 delta_p, or at 0.6, after which the curve
@@ -271,7 +279,8 @@ class BartonBandisJoint {
     const double rise = angle * (1 + friction * friction) / (to.ratio - from.ratio);
     // At most twice: with phi_r next to nothing and M = 1 there is hardly anything to pay with.
     const double paid = std::max(0.5, 1 - lift / friction);
-    return stress / peak_slip_ * std::max(tan_residual_ / from.ratio, rise / paid);
+    return stress / peak_slip_ *
+           std::max(p_.strength_divisor * tan_residual_ / from.ratio, rise / paid);
   }
   /// k_s of a point that has borne no more than a stress [Pa/m].
   [[nodiscard]] double shear_stiffness_under(double stress) const {
@@ -296,7 +305,8 @@ class BartonBandisJoint {
     const double stress = load.initial.normal / load.weight,
                  shear = initial_shear(load).norm() / load.weight;
     if (!(shear > stress * tan_residual_)) return 0;
-    const double angle = elementary::angle_of(shear, stress) - residual_angle_,
+    const double angle =
+                     elementary::angle_of(p_.strength_divisor * shear, stress) - residual_angle_,
                  most = roughness_angle(stress);
     return peak_slip_ *
            (angle < most ? detail::MobilisedRoughness::ratio_before_peak(angle / most) : 1.0);

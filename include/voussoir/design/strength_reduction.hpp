@@ -6,22 +6,22 @@
 #include <optional>
 #include <type_traits>
 #include <voussoir/contact/any_joint.hpp>
+#include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/core/message.hpp>
 #include <voussoir/design/analysis_input.hpp>
 #include <voussoir/design/bodies.hpp>
 
 /// Joints and supports whose strength is divided by a factor; their stiffness stays.
 namespace voussoir::design {
 
-/// tan(phi), c and sigma_t over the factor, at the peak and what is left of them; dilation stays
-/// where it is not more than the friction that is left.
+/// tan(phi), c and sigma_t over the factor, at the peak and what is left of them, of Barton and
+/// Bandis' joints the strength at every stress; dilation stays where it is not more than the
+/// friction that is left.
 /// @param factor  > 0
-/// @throws InvalidInput  of a law whose strength is no sum of friction and cohesion
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyJoint weakened(const AnyJoint& joint, double factor);
 
 /// All joints of an input so.
@@ -72,9 +72,10 @@ VOUSSOIR_DESIGN_INLINE AnyJoint weakened(const AnyJoint& joint, double factor) {
       weaker.friction_angle = detail::weaker_angle(weaker.friction_angle, factor);
       return BurgersJoint(weaker, any_units);
     } else {
-      throw InvalidInput(message({"strength reduction: the strength of ", law.name,
-                                  " is no sum of friction and cohesion; must be CoulombJoint, "
-                                  "MohrCoulombJoint or BurgersJoint"}));
+      static_assert(std::is_same_v<Law, BartonBandisJoint>, "one law of AnyJoint has no branch");
+      BartonBandisJoint::Params weaker = law.params();
+      weaker.strength_divisor *= factor;
+      return BartonBandisJoint(weaker, any_units);
     }
   });
 }

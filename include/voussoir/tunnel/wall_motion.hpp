@@ -13,6 +13,7 @@
 #include <voussoir/core/bodies.hpp>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/prismatic_opening.hpp>
@@ -40,15 +41,11 @@ struct WallMotion {
 
 /// Mean displacement of the wall, parts by their length: that of the opening as a whole [m]. Not a
 /// number without a wall.
-[[nodiscard]] inline Vec2 mean_displacement(const std::vector<WallMotion>& wall) {
-  Vec2 sum = zeros<Vec2>();
-  double length = 0;
-  for (const WallMotion& piece : wall) {
-    sum += piece.length * piece.moved;
-    length += piece.length;
-  }
-  return sum / length;
-}
+///
+/// Loose blocks do not count: those whose movement differs from the median one by more than ten
+/// times what half of the wall does. A round wall that gives way elastically becomes an ellipse,
+/// and no part of it differs by more than sqrt(2) times that.
+[[nodiscard]] VOUSSOIR_INLINE Vec2 mean_displacement(const std::vector<WallMotion>& wall);
 
 namespace detail {
 
@@ -277,6 +274,19 @@ template <class Geometry, class... Parts>
 
 namespace detail {
 
+/// Half of the lengths lie below. @param values  not empty
+VOUSSOIR_INLINE double median_of(const std::vector<double>& values,
+                                 const std::vector<double>& lengths) {
+  double total = 0, below = 0;
+  for (const double length : lengths) total += length;
+  const std::vector<std::size_t> order = order_of_values(values);
+  for (const std::size_t k : order) {
+    below += lengths[k];
+    if (below >= 0.5 * total) return values[k];
+  }
+  return values[order.back()];
+}
+
 VOUSSOIR_INLINE std::vector<std::vector<double>> ray_marks(const SimplePolygon& section,
                                                            const Vec2& centre) {
   constexpr double between = std::numbers::pi / 30;
@@ -316,6 +326,30 @@ VOUSSOIR_INLINE void add_corners_of(const SimplePolygon& other, const SimplePoly
 }
 
 }  // namespace detail
+
+VOUSSOIR_INLINE Vec2 mean_displacement(const std::vector<WallMotion>& wall) {
+  constexpr double loose = 10;
+  Vec2 median = zeros<Vec2>();
+  double reach = std::numeric_limits<double>::infinity();
+  if (!wall.empty()) {
+    std::vector<double> lengths, values(wall.size());
+    for (const WallMotion& piece : wall) lengths.push_back(piece.length);
+    for (int d = 0; d < 2; ++d) {
+      for (std::size_t k = 0; k < wall.size(); ++k) values[k] = wall[k].moved[d];
+      median[d] = detail::median_of(values, lengths);
+    }
+    for (std::size_t k = 0; k < wall.size(); ++k) values[k] = length_of(wall[k].moved - median);
+    reach = loose * detail::median_of(values, lengths);
+  }
+  Vec2 sum = zeros<Vec2>();
+  double length = 0;
+  for (const WallMotion& piece : wall) {
+    if (length_of(piece.moved - median) > reach) continue;
+    sum += piece.length * piece.moved;
+    length += piece.length;
+  }
+  return sum / length;
+}
 
 #endif
 
