@@ -73,6 +73,7 @@
 #include <voussoir/theory/lining_in_ground.hpp>
 #include <voussoir/theory/longitudinal_profile.hpp>
 #include <voussoir/theory/polygon_ring.hpp>
+#include <voussoir/theory/pull_out.hpp>
 #include <voussoir/theory/smeared_bolts.hpp>
 #include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
