@@ -96,8 +96,8 @@ TEST_SUITE("theory/pull_out") {
       }
       CHECK(test.at_displacement(2 * last.displacement).force == last.force);
       CHECK(last.force == near(0.175e6 * 2 + plate).epsilon(1e-12));
-      // Force is flat there: half of its digits tell the slip.
-      CHECK(test.at_force(last.force).slipped == near(2).epsilon(1e-6));
+      // Force is flat there, with the cube of the rest: a third of its digits tell the slip.
+      CHECK(test.at_force(last.force).slipped == near(2).epsilon(1e-4));
     }
   }
 
