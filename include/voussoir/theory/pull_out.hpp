@@ -78,6 +78,8 @@ class PullOut {
   [[nodiscard]] double transfer_length() const { return 1 / decay_; }
   /// Where the bond at the pulled end is used up.
   [[nodiscard]] PullOutPoint first_slip() const { return at_slipped(0); }
+  /// To where displacement is proportional to force: slip begins, or the plate gives [N].
+  [[nodiscard]] double linear_to() const { return std::min(first_slip().force, plate_gives()); }
   /// Where all of it slips: F = s_b L + P, which it keeps.
   [[nodiscard]] PullOutPoint last() const { return at_slipped(bar_.length); }
   /// @param slipped  p [m], 0 to L
@@ -109,6 +111,12 @@ class PullOut {
     const double felt = plate > 0 ? plate / std::cosh(std::min(x, 700.0)) : 0.0;
     return long_stiffness_ * displacement * std::tanh(x) + felt;
   }
+  /// The force at which the plate gives, if no bond slips before [N].
+  [[nodiscard]] double plate_gives() const {
+    const double x = decay_ * bar_.length;
+    return bar_.end_strength > 0 && x < 700 ? bar_.end_strength * std::cosh(x)
+                                            : std::numeric_limits<double>::infinity();
+  }
   /// The first state at which `is_beyond(point)`, where slip has begun.
   template <class IsBeyond>
   [[nodiscard]] PullOutPoint sought(const IsBeyond& is_beyond) const {
@@ -133,11 +141,9 @@ VOUSSOIR_INLINE PullOutPoint PullOut::at_force(double force) const {
   if (force >= first.force)
     return sought([&](const PullOutPoint& point) { return point.force >= force; });
   // Before slip only a plate that gives makes two straight lines of it.
-  const double x = decay_ * bar_.length, plate = bar_.end_strength;
-  const double gives =
-      plate > 0 && x < 700 ? plate * std::cosh(x) : std::numeric_limits<double>::infinity();
-  if (plate == 0 || force <= gives) return {force / head_stiffness(), force, 0};
-  return {(force - plate / std::cosh(x)) / (long_stiffness_ * std::tanh(x)), force, 0};
+  if (force <= plate_gives()) return {force / head_stiffness(), force, 0};
+  const double x = decay_ * bar_.length;
+  return {(force - bar_.end_strength / std::cosh(x)) / (long_stiffness_ * std::tanh(x)), force, 0};
 }
 
 VOUSSOIR_INLINE PullOutPoint PullOut::at_displacement(double displacement) const {
