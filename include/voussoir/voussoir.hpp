@@ -10,6 +10,7 @@
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/bolt/check_bolt_law.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/contact/any_joint.hpp>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>

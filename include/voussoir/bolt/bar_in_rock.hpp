@@ -89,7 +89,8 @@ using BarInRock = std::variant<BondedBolt, EndAnchoredBolt>;
   const double slipping = head_is_weaker ? joint.before : joint.after;
   std::vector<double> forces{head.linear_to(), tip.linear_to(), strong.first_slip().force};
   constexpr int parts = 24;  // between two of them the chord is within 0.1 % of the curve
-  for (int k = 0; k <= parts; ++k) forces.push_back(weak.at_slipped(slipping * k / parts).force);
+  for (int k = 0; k <= parts; ++k)
+    forces.push_back(weak.at_slipped(k < parts ? slipping * k / parts : slipping).force);
   const double most = weak.last().force;
   std::sort(forces.begin(), forces.end());
   std::vector<BoltCurve::Point> points;
