@@ -6,7 +6,10 @@
 #include <voussoir/bolt/any_bolt.hpp>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/bolt/bar_in_rock.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/bolt/bolt_curve.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/contact/any_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/rock_on_lining.hpp>
@@ -58,6 +61,7 @@ using SpatialTunnel = TunnelIn<Spatial>;
 #if VOUSSOIR_DESIGN_BODIES
 
 VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts) {
+  if (bolts.type == BoltType::end_anchored) return EndAnchors{};
   switch (bolts.anchors) {
     case AnchorKind::lorig:
       return LorigAnchors{bolts.anchor_offset};
@@ -70,6 +74,26 @@ VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts) {
 }
 
 VOUSSOIR_DESIGN_INLINE AnyBolt bolt_of(const BoltsInput& bolts) {
+  constexpr double unlimited = BarStrength::unlimited;
+  const BarStrength strength{.yield_force = bolts.yield_force.value_or(unlimited),
+                             .rupture_force = bolts.rupture_force.value_or(unlimited),
+                             .rupture_extension = bolts.rupture_elongation.value_or(unlimited)};
+  if (bolts.type == BoltType::end_anchored)
+    return CurveBolt(EndAnchoredBolt{.axial_stiffness = bolts.axial_rigidity(),
+                                     .anchor_stiffness = bolts.anchor_stiffness.value_or(unlimited),
+                                     .anchor_strength = bolts.anchor_strength.value_or(unlimited),
+                                     .plate_strength = bolts.plate_strength.value_or(unlimited),
+                                     .strength = strength},
+                     bolts.pretension);
+  if (bolts.bond_stiffness)
+    return CurveBolt(BondedBolt{.axial_stiffness = bolts.axial_rigidity(),
+                                .bond_stiffness = *bolts.bond_stiffness,
+                                .bond_strength = bolts.bond_strength.value(),
+                                .plate_strength = bolts.plate_strength.value_or(0),
+                                .strength = strength},
+                     bolts.pretension);
+  if (bolts.rupture_elongation)
+    return CurveBolt(strength.limited(BoltCurve::straight(bolts.stiffness)), bolts.pretension);
   AxialBolt::Params axial{.axial_stiffness = bolts.stiffness, .pretension = bolts.pretension};
   if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
   if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;
