@@ -45,7 +45,7 @@ constexpr Common poisson_ratio{0.05, 0.45, true};              // [-]
 constexpr Common bolt_stiffness{5e6, 4e9}, dowel_stiffness{1e6, 900e6};  // [N/m]
 // Grouted cables and bars: 0.1 to 1 MN/m; split sets less.
 constexpr Common bolt_bond{10e3, 2e6};          // [N/m]
-constexpr Common bond_stiffness{1e6, 5e9};      // of grout over slip [N/m^2]
+constexpr Common bond_stiffness{2e7, 1.5e10};   // of grout over slip [N/m^2]
 constexpr Common bar_modulus{30e9, 230e9};      // glass fibre to steel [Pa]
 constexpr Common bar_area{20e-6, 5000e-6};      // [m^2]
 constexpr Common anchor_stiffness{2e6, 900e6};  // [N/m]

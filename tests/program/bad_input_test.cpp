@@ -278,7 +278,7 @@ TEST_SUITE("program/bad_input") {
       CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
       CHECK(
           outcome.err.find(
-              "accepted: init, check, run, blocks, grc, safety, explain, schema, completion, diff, "
+              "accepted: init, check, run, blocks, grc, pullout, safety, explain, schema, completion, diff, "
               "report, diagram, realisations, sweep, design, case, merge, patterns" +
               std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
     }

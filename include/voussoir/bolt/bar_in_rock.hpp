@@ -76,33 +76,58 @@ struct EndAnchoredBolt {
 /// A bolt by what is installed.
 using BarInRock = std::variant<BondedBolt, EndAnchoredBolt>;
 
-/// How far it opens of a force, of two sides in series: the curve of a joint.
-/// @param joint  between head and tip of the bolt, both lengths > 0
-/// @throws InvalidInput  a value out of range
-[[nodiscard]] inline BoltCurve curve_of(const BondedBolt& bolt, const BoltJoint& joint) {
-  const auto side = [&](double length, double plate) {
-    return PullOut({bolt.axial_stiffness, bolt.bond_stiffness, bolt.bond_strength, length, plate});
-  };
-  const PullOut head = side(joint.before, bolt.plate_strength), tip = side(joint.after, 0);
-  const bool head_is_weaker = head.last().force < tip.last().force;
-  const PullOut &weak = head_is_weaker ? head : tip, &strong = head_is_weaker ? tip : head;
-  const double slipping = head_is_weaker ? joint.before : joint.after;
-  std::vector<double> forces{head.linear_to(), tip.linear_to(), strong.first_slip().force};
-  constexpr int parts = 24;  // between two of them the chord is within 0.1 % of the curve
-  for (int k = 0; k <= parts; ++k)
-    forces.push_back(weak.at_slipped(k < parts ? slipping * k / parts : slipping).force);
+namespace detail {
+
+/// A bonded length that is pulled by its end, in chords that are within 0.1 % of it; with the other
+/// side of a joint, which bears as much or more, what both give.
+/// @param length  of `weak` [m]
+[[nodiscard]] inline BoltCurve pulled_curve(const PullOut& weak, double length,
+                                            const PullOut* strong) {
+  std::vector<double> forces{weak.linear_to()};
+  if (strong != nullptr)
+    forces.insert(forces.end(), {strong->linear_to(), strong->first_slip().force});
+  // Of a step h the chord is off by s h^2 / 8 E A: of u >= s (1 / b^2 + p / b + p^2 / 2) / E A
+  // less than a thousandth.
+  for (double slipped = 0; slipped < length;
+       slipped += 0.09 * (weak.transfer_length() + 0.7 * slipped))
+    forces.push_back(weak.at_slipped(slipped).force);
   const double most = weak.last().force;
+  forces.push_back(most);
   std::sort(forces.begin(), forces.end());
   std::vector<BoltCurve::Point> points;
   for (const double force : forces) {
     const double from = points.empty() ? 0.0 : points.back().force;
     // Neighbours that rounding tells apart make slopes of any size.
     if (!(force > from * (1 + 1e-6)) || force > most) continue;
-    const double extension =
-        weak.at_force(force).displacement + strong.at_force(force).displacement;
-    points.push_back({extension, force});
+    points.push_back({weak.at_force(force).displacement +
+                          (strong != nullptr ? strong->at_force(force).displacement : 0.0),
+                      force});
   }
-  return bolt.strength.limited(BoltCurve(std::move(points)));
+  return BoltCurve(std::move(points));
+}
+
+}  // namespace detail
+
+/// A length of the bolt that is pulled by its end.
+/// @param plate  at its other end [N]
+[[nodiscard]] inline PullOut pull_out_of(const BondedBolt& bolt, double length, double plate = 0) {
+  return PullOut({bolt.axial_stiffness, bolt.bond_stiffness, bolt.bond_strength, length, plate});
+}
+/// What the bar bears of it, too.
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline BoltCurve pull_out_curve(const BondedBolt& bolt, double length) {
+  return bolt.strength.limited(detail::pulled_curve(pull_out_of(bolt, length), length, nullptr));
+}
+
+/// How far a joint opens of a force.
+/// @param joint  between head and tip of the bolt, both lengths > 0
+/// @throws InvalidInput  a value out of range
+[[nodiscard]] inline BoltCurve curve_of(const BondedBolt& bolt, const BoltJoint& joint) {
+  const PullOut head = pull_out_of(bolt, joint.before, bolt.plate_strength),
+                tip = pull_out_of(bolt, joint.after);
+  const bool head_is_weaker = head.last().force < tip.last().force;
+  return bolt.strength.limited(head_is_weaker ? detail::pulled_curve(head, joint.before, &tip)
+                                              : detail::pulled_curve(tip, joint.after, &head));
 }
 [[nodiscard]] inline BoltCurve curve_of(const EndAnchoredBolt& bolt, const BoltJoint& joint) {
   require(bolt.axial_stiffness > 0 && std::isfinite(bolt.axial_stiffness), "axial stiffness E A",

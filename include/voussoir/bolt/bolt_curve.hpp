@@ -137,8 +137,9 @@ class BoltCurve {
     if (force > strength() || std::isinf(force)) return *this;
     const double end = extension_at(force);
     std::vector<Point> points;
+    const bool is_straight = points_.size() == 1 && beyond_ >= stiffness() * (1 - rounding);
     for (const Point& point : points_)
-      if (point.force < force && point.extension < end) points.push_back(point);
+      if (!is_straight && point.force < force && point.extension < end) points.push_back(point);
     points.push_back({end, force});
     BoltCurve made(std::move(points), beyond);
     made.breaks_ = breaks;
