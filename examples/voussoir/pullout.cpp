@@ -128,8 +128,8 @@ std::string pull_out_text(const PullOutTests& all) {
              kilonewtons(event.force) + "\n";
     if (test.events.empty()) out += "         no strength was given: it stays elastic\n";
     if (test.enough)
-      out += "         as strong as the bar: a bond over " + significant_text(*test.enough, 3) +
-             " m\n";
+      out += "         bond over " + significant_text(*test.enough, 3) +
+             " m bears what the bar does\n";
   }
   for (const std::string& warning : all.warnings) out += "warning  " + warning + "\n";
   return out;
