@@ -54,9 +54,8 @@ PullOutTest bonded_test(const BoltsInput& pattern, const BondedBolt& bolt, doubl
   for (PullOutEvent& event : test.events)
     if (event.force <= all.force && event.what == "the bar yields")
       event.displacement = pulled.at_force(event.force).displacement;
-  if (curve.strength() >= all.force)
-    test.events.push_back({"all of the bond slips",
-                           std::max(all.displacement, curve.extension_at(all.force)), all.force});
+  if (all.force < bears)
+    test.events.push_back({"all of the bond slips", all.displacement, all.force});
   if (std::isfinite(bears)) test.enough = bears / bolt.bond_strength;
   return test;
 }

@@ -3,6 +3,7 @@
 // are used up; by hand, against the pull-out test, and every law through its check.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -60,6 +61,17 @@ TEST_SUITE("bolt/curve_bolt") {
     plated.plate_strength = 60e3;
     CHECK(CurveBolt(plated).at_joint({1.0, 2.5})->curve().strength() ==
           near(bond + 60e3).epsilon(1e-12));
+  }
+
+  TEST_CASE("the strength of a joint is that of the bond, to the last digit, wherever it is") {
+    // What is checked is worked out apart, and nothing may be above it.
+    for (int k = 1; k < 400; ++k) {
+      const double before = 0.01 * k, after = 4 - before;
+      CHECK(CurveBolt(strand).at_joint({before, after})->curve().strength() ==
+            std::min(bond * before, bond * after));
+    }
+    // Next to nothing is bonded: it holds next to nothing.
+    CHECK(CurveBolt(strand).at_joint({1e-9, 4})->curve().strength() == bond * 1e-9);
   }
 
   TEST_CASE("let go a cable that has slipped keeps its slip") {
@@ -137,7 +149,8 @@ TEST_SUITE("bolt/curve_bolt") {
     yielding.strength = {.yield_force = 130e3, .rupture_extension = 0.02};
     const std::vector<CurveBolt> laws{
         CurveBolt(strand), *CurveBolt(strand, 20e3).at_joint({0.5, 3}),
-        *CurveBolt(yielding, 30e3).at_joint({1, 2}), CurveBolt(EndAnchoredBolt{12e7, 9e7, 9e4, 8e4}),
+        *CurveBolt(yielding, 30e3).at_joint({1, 2}),
+        CurveBolt(EndAnchoredBolt{12e7, 9e7, 9e4, 8e4}),
         CurveBolt(BoltCurve({{1e-3, 4e4}, {4e-3, 9e4}, {2e-2, 1e5}}, 1e5), 1e4)};
     for (const CurveBolt& law : laws) {
       for (const auto& findings :

@@ -116,16 +116,15 @@ TEST_SUITE("program/pullout") {
     CHECK(says(yields.outcome.out, "the bolt is lost at 50 mm and 120 kN\n"));
   }
 
-  TEST_CASE("in a tunnel cables carry no more than their bond, and joints far from it the same") {
-    // Of 2 m with 20 kN/m no joint has more than 20 kN; what the model holds is what is checked.
-    const std::string weak = replaced(strand, "0.175 MN/m", "20 kN/m");
+  TEST_CASE("in a tunnel cables carry no more than their bond, which slips") {
+    // Of 2 m with 1 kN/m no joint has more than 1 kN; what the model holds is what is checked.
+    const std::string weak = replaced(strand, "0.175 MN/m", "1 kN/m");
     const Results run = results_of(with_bolts(weak));
     const auto rows = rows_of(run.files.at("bolts.csv"));
     REQUIRE(rows.size() > 3);
     bool slips = false;
     for (const auto& row : rows) {
-      const double at = std::stod(row.at("distance_from_head_m")),
-                   strength = 20 * std::min(at, 2 - at);
+      const double at = std::stod(row.at("distance_from_head_m")), strength = std::min(at, 2 - at);
       CHECK(std::stod(row.at("strength_kN")) == near(strength).epsilon(1e-6));
       CHECK(std::stod(row.at("axial_force_kN")) <= strength * (1 + 1e-6));
       slips = slips || row.at("state") == "yielded";

@@ -97,8 +97,12 @@ namespace detail {
   std::vector<BoltCurve::Point> points;
   for (const double force : forces) {
     const double from = points.empty() ? 0.0 : points.back().force;
-    // Neighbours that rounding tells apart make slopes of any size.
-    if (!(force > from * (1 + 1e-6)) || force > most) continue;
+    if (!(force > from) || force > most) continue;
+    // Neighbours that rounding tells apart make slopes of any size; the last is the strength.
+    if (force <= from * (1 + 1e-6)) {
+      if (force < most) continue;
+      points.pop_back();
+    }
     points.push_back({weak.at_force(force).displacement +
                           (strong != nullptr ? strong->at_force(force).displacement : 0.0),
                       force});
