@@ -9,6 +9,7 @@
 #include <vector>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
+#include <voussoir/design/bolt_strength.hpp>
 #include <voussoir/design/openings.hpp>
 #include <voussoir/design/size_estimate.hpp>
 #include <voussoir/drawing/number_text.hpp>
@@ -411,6 +412,14 @@ void check_bolts(Checker& checker, const Input& input) {
     below("pretension", bolts.pretension, "rupture_force", bolts.rupture_force);
     if (bolts.yield_force)
       below("yield_force", *bolts.yield_force, "rupture_force", bolts.rupture_force);
+    if (bolts.type == BoltType::end_anchored) {
+      below("pretension", bolts.pretension, "anchor_strength", bolts.anchor_strength);
+      if (bolts.plate_strength == 0.0)
+        checker.report(table + "plate_strength", "leaves an end-anchored bolt without a plate",
+                       "above 0 N; left out: the plate does not give");
+      else
+        below("pretension", bolts.pretension, "plate_strength", bolts.plate_strength);
+    }
     if (bolts.name == "bolts" || bolts.name == "lining")
       checker.report(table + "name", "is what a stage installs all of", "another name");
     for (std::size_t other = 0; other < k; ++other)
@@ -526,15 +535,13 @@ void check_diagram(Checker& checker, const Input& input) {
 /// A utilisation is that of a strength.
 void check_criteria(Checker& checker, const Input& input) {
   const CriteriaInput& criteria = input.criteria;
-  const bool has_bolts = std::any_of(
-      input.bolts.begin(), input.bolts.end(),
-      [](const BoltsInput& pattern) { return pattern.yield_force || pattern.rupture_force; });
+  const bool has_bolts = std::any_of(input.bolts.begin(), input.bolts.end(), has_strength);
   const bool has_linings =
       std::any_of(input.linings.begin(), input.linings.end(),
                   [](const LiningInput& lining) { return lining.concrete.has_value(); });
   if (criteria.bolt_utilisation && !has_bolts && !checker.faulty("support"))
     checker.report("criteria.bolt_utilisation", "is of bolts, and none has a strength",
-                   "support.bolts.yield_force or rupture_force beside it");
+                   "support.bolts.yield_force, rupture_force or bond_strength beside it");
   if (criteria.utilisation && !has_linings && !checker.faulty("support"))
     checker.report("criteria.utilisation", "is of linings, and none has a strength",
                    "support.lining.concrete beside it");

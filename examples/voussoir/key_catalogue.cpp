@@ -23,6 +23,9 @@ std::vector<std::string> asking_documents() {
       "[tunnel]\nshape = \"polygon\"\nfile = \"\"\n[joints]\norientations = \"\"\n",
       "[[opening]]\nshape = \"polygon\"\nfile = \"\"\n[[round]]\nfile = \"\"\n",
       "[joints]\nfile = \"\"\n[[joint_set]]\nintensity = \"1 /m^2\"\n[[joint_set]]\n",
+      "support.bolts.type = \"end-anchored\"\n",
+      "[support.bolts]\nbond_strength = \"1 kN/m\"\nbond_stiffness = \"1 MPa\"\n",
+      "support.bolts.yield_force = \"1 kN\"\n",
       "[[block]]\n[[load]]\nforce = [\"0 N/m\", \"0 N/m\"]\n"};
   for (const JointLawRow& row : joint_law_rows())
     documents.push_back("joint.law = \"" + std::string(row.word) + "\"\n");

@@ -241,6 +241,14 @@ int run_program(int argc, char** argv) {
   grc->add_option("--steps", reaction_steps, "in which the wall is unloaded, in a section")
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
+  CLI::App* pullout = app.add_subcommand(
+      "pullout", "the pull-out test of its bolts: head stiffness, first slip, what gives and when");
+  add_input(pullout);
+  std::vector<std::string> bonded_lengths;
+  pullout
+      ->add_option("--length", bonded_lengths,
+                   "bonded, for example \"0.5 m\"; again for more; left out: the whole bolt")
+      ->allow_extra_args(false);
   CLI::App* safety = app.add_subcommand(
       "safety",
       "factor of safety: by how much the strength of joints may be divided, and what falls");
@@ -260,7 +268,7 @@ int run_program(int argc, char** argv) {
   completion->add_option("SHELL", shell, "bash or zsh")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh"}));
-  for (CLI::App* verb : {run, check, blocks, grc, safety})
+  for (CLI::App* verb : {run, check, blocks, grc, pullout, safety})
     verb->add_flag("--json", options.json, "print JSON in place of words");
   CLI::App* diff = app.add_subcommand("diff", "what differs between two runs");
   std::vector<std::string> compared;
@@ -443,6 +451,7 @@ int run_program(int argc, char** argv) {
     if (*report) return report_verb(options, report_file, wants_pdf);
     if (*blocks) return blocks_verb(options);
     if (*grc) return grc_verb(options, reaction_steps);
+    if (*pullout) return pullout_verb(options, bonded_lengths);
     if (*safety)
       return safety_verb(options, safety_options.settings(), !safety_options.without_limit);
     if (*check) return check_verb(options, check->count("--out") > 0);

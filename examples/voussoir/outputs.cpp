@@ -35,10 +35,16 @@ double beam_moment(const FeetInput& feet, double bearing) {
   return feet.on_beam().moment * bearing * feet.beam->spacing * feet.beam->spacing;
 }
 
-/// The bolt whose bar is stressed most, in a bar of the diameter that the anchors have.
+/// The bolt whose bar is stressed most, in its steel or a bar of the diameter that the anchors
+/// have.
 struct BarStress {
-  double stress = 0;    ///< [Pa]
-  double diameter = 0;  ///< [m]
+  double stress = 0;                ///< [Pa]
+  double diameter = 0;              ///< [m]
+  std::optional<double> area = {};  ///< where it is given [m^2]
+
+  [[nodiscard]] std::string bar() const {
+    return area ? text("%.3g mm2", 1e6 * *area) : text("%.3g mm", 1e3 * diameter);
+  }
 };
 BarStress bar_stress(const Input& input, const RunResult& run) {
   const std::vector<double> forces = largest_bolt_forces(run.tunnel);
@@ -46,8 +52,9 @@ BarStress bar_stress(const Input& input, const RunResult& run) {
   BarStress most;
   for (std::size_t k = 0; k < patterns.size(); ++k) {
     const double diameter = patterns[k]->diameter,
-                 stress = forces[k] / (0.25 * std::numbers::pi * diameter * diameter);
-    if (most.diameter == 0 || stress > most.stress) most = {stress, diameter};
+                 full = 0.25 * std::numbers::pi * diameter * diameter,
+                 stress = forces[k] / patterns[k]->area.value_or(full);
+    if (most.diameter == 0 || stress > most.stress) most = {stress, diameter, patterns[k]->area};
   }
   return most;
 }
@@ -70,8 +77,8 @@ std::string strength_line(const Input& input, const RunResult& run) {
     if (!is_there) continue;
     names += (names.empty() ? "" : ", ") + name;
     if (name == "bolts")
-      names += text(" (up to %.3g MPa", 1e-6 * bar_stress(input, run).stress) +
-               text(" in a bar of %.3g mm)", 1e3 * bar_stress(input, run).diameter);
+      names += text(" (up to %.3g MPa", 1e-6 * bar_stress(input, run).stress) + " in a bar of " +
+               bar_stress(input, run).bar() + ")";
     if (name == "lining") names += text(" (up to %.3g MPa)", 1e-6 * lining_stress(input, run));
   }
   return names.empty() ? "" : "strength " + names + ": " + not_checked + "\n";

@@ -44,7 +44,11 @@ constexpr Common concrete_modulus{0.5e9, 250e9};               // to steel [Pa]
 constexpr Common poisson_ratio{0.05, 0.45, true};              // [-]
 constexpr Common bolt_stiffness{5e6, 4e9}, dowel_stiffness{1e6, 900e6};  // [N/m]
 // Grouted cables and bars: 0.1 to 1 MN/m; split sets less.
-constexpr Common bolt_bond{10e3, 2e6};                                    // [N/m]
+constexpr Common bolt_bond{10e3, 2e6};          // [N/m]
+constexpr Common bond_stiffness{2e7, 1.5e10};   // of grout over slip [N/m^2]
+constexpr Common bar_modulus{30e9, 230e9};      // glass fibre to steel [Pa]
+constexpr Common bar_area{20e-6, 5000e-6};      // [m^2]
+constexpr Common anchor_stiffness{2e6, 900e6};  // [N/m]
 constexpr Common pretension{1e3, 900e3, true}, bolt_strength{10e3, 5e6};  // [N]
 constexpr Common bond{20e3, 10e6, true};                                  // [Pa]
 constexpr Common bearing_stiffness{20e6, 19e9};                           // [Pa/m]
@@ -223,7 +227,16 @@ void look_at_bolts(const std::string& table, const BoltsInput& bolts, Look& look
   look.at(table + "diameter", bolts.diameter, {0.008, 0.08}, dimension::length);
   look.at(table + "arc (its angle)", bolts.arc.to - bolts.arc.from, {2 * degree, 360 * degree},
           dimension::angle);
-  look.at(table + "stiffness", bolts.stiffness, bolt_stiffness, dimension::stiffness);
+  if (bolts.type == BoltType::grouted && !bolts.bond_stiffness)
+    look.at(table + "stiffness", bolts.stiffness, bolt_stiffness, dimension::stiffness);
+  if (bolts.type == BoltType::end_anchored || bolts.bond_stiffness)
+    look.at(table + "E", bolts.young_modulus, bar_modulus, dimension::pressure);
+  look.at(table + "area", bolts.area, bar_area, dimension::area);
+  look.at(table + "bond_stiffness", bolts.bond_stiffness, bond_stiffness, dimension::pressure);
+  look.at(table + "anchor_stiffness", bolts.anchor_stiffness, anchor_stiffness,
+          dimension::stiffness);
+  look.at(table + "anchor_strength", bolts.anchor_strength, bolt_strength, dimension::force);
+  look.at(table + "rupture_elongation", bolts.rupture_elongation, {2e-3, 1}, dimension::length);
   if (bolts.law == BoltKind::axial_shear)
     look.at(table + "shear_stiffness", bolts.shear_stiffness, dowel_stiffness,
             dimension::stiffness);
@@ -231,7 +244,7 @@ void look_at_bolts(const std::string& table, const BoltsInput& bolts, Look& look
   look.at(table + "yield_force", bolts.yield_force, bolt_strength, dimension::force);
   look.at(table + "rupture_force", bolts.rupture_force, bolt_strength, dimension::force);
   look.at(table + "bond_strength", bolts.bond_strength, bolt_bond, dimension::stiffness);
-  if (bolts.anchors == AnchorKind::lorig)
+  if (bolts.anchors == AnchorKind::lorig && bolts.type == BoltType::grouted)
     look.at(table + "anchor_offset", bolts.anchor_offset, {0.005, 2}, dimension::length);
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// `voussoir run`, `check`, `blocks`, `grc`, `safety`, `init`: one input file, one tunnel.
+// `voussoir run`, `check`, `blocks`, `grc`, `pullout`, `safety`, `init`: one input file, one
+// tunnel.
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <system_error>
 #include <type_traits>
 #include <utility>
+#include <vector>
 #include <voussoir/core/errors.hpp>
+#include <voussoir/core/units.hpp>
 #include <voussoir/io/atomic_file.hpp>
 #include <voussoir/io/operating_system.hpp>
 
@@ -17,6 +20,7 @@
 #include "ground_reaction.hpp"
 #include "lining_strength.hpp"
 #include "outputs.hpp"
+#include "pullout.hpp"
 #include "report_sections.hpp"
 #include "rock_blocks.hpp"
 #include "run_folder.hpp"
@@ -284,6 +288,48 @@ int grc_verb(const Options& options, int steps) {
   outputs.add(name + ".json", json, id);
   say(options, said, with_run_id(name + ".json", json, id));
   publish(outputs, options, name + ".json, " + name + ".csv, " + name + ".svg");
+  return finished;
+}
+
+namespace {
+
+/// "--length 0.5m" of a command line [m].
+double bonded_length(const std::string& given) {
+  const char* const accepted = "\n   = accepted: from 1 cm to 1000 m, such as --length \"0.5 m\"";
+  try {
+    const Quantity length = parse_quantity(given);
+    if (length.dimension == dimension::length && length.value >= 0.01 && length.value <= 1000)
+      return length.value;
+  } catch (const UnitError& error) {
+    throw InvalidInput("--length " + given + " " + error.complaint() + accepted);
+  }
+  throw InvalidInput("--length " + given + " is no bonded length" + accepted);
+}
+
+}  // namespace
+
+int pullout_verb(const Options& options, const std::vector<std::string>& lengths) {
+  work = {"reading " + options.file, "a smaller input file"};
+  RunId run_id("pullout");
+  std::vector<double> bonded;
+  for (const std::string& length : lengths) bonded.push_back(bonded_length(length));
+  const Input input = read_input(utf8_path(options.file), options.overrides);
+  if (input.laid)
+    throw InvalidInput(options.file +
+                       ": pullout is of bolts, and blocks that are laid have none\n"
+                       "   = accepted: an input file with [support.bolts]");
+  RunFolder outputs(options.folder);
+  run_id.add(input);
+  for (const double length : bonded) run_id.add(length);
+  const std::string id = run_id.text();
+  const PullOutTests tests = pull_out_tests(input, bonded);
+  work.doing = "writing the results";
+  const std::string json = pull_out_json(tests);
+  outputs.add("pullout.json", json, id);
+  outputs.add("pullout.csv", pull_out_csv(tests), id);
+  outputs.add("pullout.svg", pull_out_svg(input, tests), id);
+  say(options, pull_out_text(tests), with_run_id("pullout.json", json, id));
+  publish(outputs, options, "pullout.json, pullout.csv, pullout.svg");
   return finished;
 }
 

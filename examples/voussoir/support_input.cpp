@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
 #include <voussoir/design/openings.hpp>
@@ -22,11 +25,15 @@ constexpr Range bolt_range{.low = 1e3, .high = 1e12};                       // o
 constexpr Range modulus_range{.low = 1e6, .high = 1e12};                    // of a lining [Pa]
 constexpr Range out_of_plane_range{.low = 0.01, .high = 1000};              // [m]
 constexpr Range force_range{.low = 0, .high = 1e9, .low_included = false};  // of one bolt [N]
-constexpr Range bond_per_metre_range{.low = 1, .high = 1e9};   // of the grout of a bolt [N/m]
-constexpr Range bond_range{.low = 100, .high = 1e9};           // of a lining to rock [Pa]
-constexpr Range bearing_range{.low = 1e3, .high = 1e12};       // strength under a foot [Pa]
-constexpr Range duration_range{.low = 0, .high = 3.2e10};      // a thousand years [s]
-constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};  // along the tunnel [m]
+constexpr Range bond_per_metre_range{.low = 1, .high = 1e9};     // of the grout of a bolt [N/m]
+constexpr Range bond_stiffness_range{.low = 1e5, .high = 1e12};  // of that, over slip [N/m^2]
+constexpr Range bar_modulus_range{.low = 1e10, .high = 1e12};    // of a bolt [Pa]
+constexpr Range bar_area_range{.low = 1e-5, .high = 0.1};        // of a bolt [m^2]
+constexpr Range elongation_range{.low = 1e-4, .high = 10};       // of a bolt that is lost [m]
+constexpr Range bond_range{.low = 100, .high = 1e9};             // of a lining to rock [Pa]
+constexpr Range bearing_range{.low = 1e3, .high = 1e12};         // strength under a foot [Pa]
+constexpr Range duration_range{.low = 0, .high = 3.2e10};        // a thousand years [s]
+constexpr Range rib_spacing_range{.low = 0.01, .high = 1000};    // along the tunnel [m]
 
 constexpr const char* arc_form =
     R"(two angles from -360 to 360 deg, the first below the second, at most 360 deg apart, such as ["0 deg", "180 deg"])";
@@ -114,6 +121,99 @@ void read_opening_name(Section& s, const Input& input, std::size_t& opening) {
   opening = value->as_word(names).value_or(opening);
 }
 
+/// What holds only where all of these conditions do; nothing of it is read where one is not known.
+void read_where(Section& s, std::optional<bool> holds, const std::string& condition,
+                const std::function<void()>& read) {
+  if (holds)
+    s.only_with(*holds, condition, read);
+  else
+    s.unread(read);
+}
+
+/// What a bolt is of, and how long it bears.
+void read_bolt_bar(Section& s, BoltsInput& bolts) {
+  s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
+  s.quantity("pretension", bolts.pretension, dimension::force, between(0, force_range.high),
+             Need::optional);
+  s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
+  s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
+  s.only_with(bolts.yield_force.has_value() || s.faulty("yield_force"), "yield_force", [&] {
+    s.quantity("rupture_elongation", bolts.rupture_elongation, dimension::length, elongation_range);
+  });
+}
+
+/// How it is held in the rock.
+void read_bolt_grip(Section& s, BoltsInput& bolts) {
+  std::optional<bool> is_grouted, is_ended;  // none: what it is is not known
+  if (s.choice<BoltType>("type", bolts.type,
+                         {{"grouted", BoltType::grouted}, {"end-anchored", BoltType::end_anchored}},
+                         Need::optional)) {
+    is_grouted = bolts.type == BoltType::grouted;
+    is_ended = !*is_grouted;
+  }
+  const auto grouted_and = [&](bool more) {
+    return is_grouted ? std::optional(*is_grouted && more) : std::nullopt;
+  };
+  const std::string grouted = R"(type = "grouted")";
+  read_where(s, is_grouted, grouted, [&] {
+    s.quantity("bond_strength", bolts.bond_strength, dimension::stiffness, bond_per_metre_range);
+  });
+  const bool has_bond = bolts.bond_strength || s.faulty("bond_strength");
+  read_where(s, grouted_and(has_bond), grouted + " and bond_strength", [&] {
+    s.quantity("bond_stiffness", bolts.bond_stiffness, dimension::pressure, bond_stiffness_range);
+  });
+  const bool slips = bolts.bond_stiffness || s.faulty("bond_stiffness");
+  read_where(s, grouted_and(!slips), grouted + ", without bond_stiffness,", [&] {
+    s.quantity("stiffness", bolts.stiffness, dimension::stiffness, bolt_range, Need::required);
+  });
+  read_where(s, is_grouted ? std::optional(*is_ended || has_bond) : std::nullopt,
+             R"(bond_strength or type = "end-anchored")", [&] {
+               s.quantity("plate_strength", bolts.plate_strength, dimension::force,
+                          between(0, force_range.high));
+             });
+  read_where(s, is_grouted ? std::optional(*is_ended || slips) : std::nullopt,
+             R"(bond_stiffness or type = "end-anchored")", [&] {
+               s.quantity("E", bolts.young_modulus, dimension::pressure, bar_modulus_range,
+                          Need::optional);
+               s.quantity("area", bolts.area, dimension::area, bar_area_range);
+             });
+  read_where(s, is_ended, R"(type = "end-anchored")", [&] {
+    s.quantity("anchor_stiffness", bolts.anchor_stiffness, dimension::stiffness, bolt_range);
+    s.quantity("anchor_strength", bolts.anchor_strength, dimension::force, force_range);
+  });
+
+  bool anchors_known = false;
+  read_where(s, is_grouted, grouted, [&] {
+    anchors_known = s.choice<AnchorKind>("anchors", bolts.anchors,
+                                         {{"lorig", AnchorKind::lorig},
+                                          {"garga-wang", AnchorKind::garga_wang},
+                                          {"joint-face", AnchorKind::joint_face}},
+                                         Need::optional);
+  });
+  std::optional<double> offset;
+  const bool is_lorig = bolts.anchors == AnchorKind::lorig && is_grouted.value_or(true);
+  read_where(s, anchors_known ? std::optional(is_lorig) : std::nullopt, "anchors = \"lorig\"",
+             [&] { s.quantity("anchor_offset", offset, dimension::length, above(0)); });
+
+  // As Boon et al. (2015), section 5.2.
+  bolts.anchor_offset = offset.value_or(1.2 * bolts.diameter);
+
+  // A dowel is beside a spring of one stiffness.
+  bool law_known = false;
+  read_where(s, grouted_and(!slips && !bolts.rupture_elongation),
+             grouted + ", without bond_stiffness and rupture_elongation,", [&] {
+               law_known = s.choice<BoltKind>(
+                   "law", bolts.law,
+                   {{"axial", BoltKind::axial}, {"axial-shear", BoltKind::axial_shear}},
+                   Need::optional);
+             });
+  read_where(s, law_known ? std::optional(bolts.law == BoltKind::axial_shear) : std::nullopt,
+             "law = \"axial-shear\"", [&] {
+               s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness,
+                          bolt_range, Need::required);
+             });
+}
+
 }  // namespace
 
 void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
@@ -133,47 +233,8 @@ void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
              Need::optional);
   s.quantity("ahead", bolts.ahead, dimension::angle, between(radians(1), radians(45)));
   if (!input.is_spatial()) note_unused(input, s, "ahead");
-  s.quantity("diameter", bolts.diameter, dimension::length, above(0), Need::optional);
-  s.quantity("stiffness", bolts.stiffness, dimension::stiffness, bolt_range, Need::required);
-  s.quantity("pretension", bolts.pretension, dimension::force, between(0, force_range.high),
-             Need::optional);
-  s.quantity("yield_force", bolts.yield_force, dimension::force, force_range);
-  s.quantity("rupture_force", bolts.rupture_force, dimension::force, force_range);
-  s.quantity("bond_strength", bolts.bond_strength, dimension::stiffness, bond_per_metre_range);
-  s.only_with(bolts.bond_strength.has_value() || s.faulty("bond_strength"), "bond_strength", [&] {
-    s.quantity("plate_strength", bolts.plate_strength, dimension::force,
-               between(0, force_range.high), Need::optional);
-  });
-
-  const bool anchors_known = s.choice<AnchorKind>("anchors", bolts.anchors,
-                                                  {{"lorig", AnchorKind::lorig},
-                                                   {"garga-wang", AnchorKind::garga_wang},
-                                                   {"joint-face", AnchorKind::joint_face}},
-                                                  Need::optional);
-  std::optional<double> offset;
-  const auto read_offset = [&] {
-    s.quantity("anchor_offset", offset, dimension::length, above(0));
-  };
-  if (anchors_known) {
-    s.only_with(bolts.anchors == AnchorKind::lorig, "anchors = \"lorig\"", read_offset);
-  } else {
-    s.unread(read_offset);
-  }
-  // As Boon et al. (2015), section 5.2.
-  bolts.anchor_offset = offset.value_or(1.2 * bolts.diameter);
-
-  const bool law_known = s.choice<BoltKind>(
-      "law", bolts.law, {{"axial", BoltKind::axial}, {"axial-shear", BoltKind::axial_shear}},
-      Need::optional);
-  const auto shear = [&] {
-    s.quantity("shear_stiffness", bolts.shear_stiffness, dimension::stiffness, bolt_range,
-               Need::required);
-  };
-  if (law_known) {
-    s.only_with(bolts.law == BoltKind::axial_shear, "law = \"axial-shear\"", shear);
-  } else {
-    s.unread(shear);
-  }
+  read_bolt_bar(s, bolts);
+  read_bolt_grip(s, bolts);
 }
 
 void read_lining(Section& s, Input& input, LiningInput& lining) {

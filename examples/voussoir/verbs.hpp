@@ -127,6 +127,9 @@ struct PlanOptions {
 /// Ground reaction, and what supports do; in 3-D the wall along the tunnel.
 /// @param steps  in which the wall is unloaded, 2-D
 [[nodiscard]] int grc_verb(const Options& options, int steps);
+/// The pull-out test of its bolts, in closed form: nothing of the rock is computed.
+/// @param lengths  bonded, as quantities; none: the whole bolt
+[[nodiscard]] int pullout_verb(const Options& options, const std::vector<std::string>& lengths);
 /// The factor of safety by strength reduction, and what falls beyond it.
 [[nodiscard]] int safety_verb(const Options& options, const SafetySettings& settings,
                               bool wants_limit);

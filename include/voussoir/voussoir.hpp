@@ -10,6 +10,7 @@
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
 #include <voussoir/bolt/check_bolt_law.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/contact/any_joint.hpp>
 #include <voussoir/contact/barton_bandis_joint.hpp>
 #include <voussoir/contact/burgers_joint.hpp>
@@ -73,6 +74,7 @@
 #include <voussoir/theory/lining_in_ground.hpp>
 #include <voussoir/theory/longitudinal_profile.hpp>
 #include <voussoir/theory/polygon_ring.hpp>
+#include <voussoir/theory/pull_out.hpp>
 #include <voussoir/theory/smeared_bolts.hpp>
 #include <voussoir/theory/thin_lining.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>

@@ -63,6 +63,31 @@ TEST_SUITE("design/bolt_strength") {
     CHECK(bolt_limit(bolts, 4, 0.4).mode == BoltMode::yield);
   }
 
+  TEST_CASE("held by its ends: bar, anchor and plate, wherever its joints are") {
+    BoltsInput bolts = grouted();
+    bolts.type = BoltType::end_anchored;
+    bolts.bond_strength.reset();
+    for (const double position : {0.1, 2.0, 3.9}) {
+      BoltsInput held = bolts;
+      CHECK(bolt_limit(held, 4, position).strength == 150e3);
+      CHECK(bolt_limit(held, 4, position).mode == BoltMode::yield);
+      held.anchor_strength = 120e3;
+      CHECK(bolt_limit(held, 4, position).strength == 120e3);
+      CHECK(bolt_limit(held, 4, position).mode == BoltMode::anchor);
+      held.plate_strength = 80e3;
+      CHECK(bolt_limit(held, 4, position).strength == 80e3);
+      CHECK(governed_by({2, 1, position, 40e3, bolt_limit(held, 4, position)}) == "bolt 3: plate");
+    }
+    // Nothing but a plate says what it bears.
+    bolts.yield_force.reset();
+    bolts.rupture_force.reset();
+    CHECK(!has_strength(bolts));
+    bolts.plate_strength = 80e3;
+    CHECK(has_strength(bolts));
+    bolts.type = BoltType::grouted;  // of which it is a part of the bond
+    CHECK(!has_strength(bolts));
+  }
+
   TEST_CASE("without a bond the bar alone, without that nothing") {
     BoltsInput bolts = grouted();
     bolts.bond_strength.reset();

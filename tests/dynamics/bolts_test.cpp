@@ -3,12 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <vector>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/bolt/bar_in_rock.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/contact/coulomb_joint.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
 #include <voussoir/dynamics/moving_rock.hpp>
@@ -34,10 +37,11 @@ using Bolts = BoltSet<2, AxialBolt>;
 const CoulombJoint joint({5e9, 5e8, 35 * degree});
 
 /// A bolt between the centres of two bodies, `initial` long, free of force.
-std::shared_ptr<Bolts> between(const Run& run, int a, int b, const Vec2& initial,
-                               const AxialBolt& law) {
-  auto bolts = std::make_shared<Bolts>(law);
-  Bolts::Spring spring{};
+template <class Law = AxialBolt>
+std::shared_ptr<BoltSet<2, Law>> between(const Run& run, int a, int b, const Vec2& initial,
+                                         const Law& law) {
+  auto bolts = std::make_shared<BoltSet<2, Law>>(law);
+  typename BoltSet<2, Law>::Spring spring{};
   spring.a = a;
   spring.b = b;
   spring.span.initial = run.pose(a).rotation.transpose() * initial;
@@ -72,6 +76,33 @@ TEST_SUITE("dynamics/bolts") {
     CHECK(std::abs(run.energy().relative_imbalance()) < 1e-4);
     run.advance(0.5 * period);
     CHECK(std::abs(run.position(block).y()) < 1e-5);
+  }
+
+  TEST_CASE("a yielding bolt stops a block whose energy it takes, and is lost with one more") {
+    // 40 MN/m to 120 kN and 50 mm more. m v^2 / 2 + m g d = 120 kN (d - 1.5 mm): of 1.5 m/s d is
+    // 34.4 mm; of 2 m/s it would be 59.7 mm, and 53 mm is the end.
+    const CurveBolt law(BarStrength{.yield_force = 120e3, .rupture_extension = 0.05}.limited(
+        BoltCurve::straight(40e6)));
+    for (const double speed : {1.5, 2.0}) {
+      Run run(joint, {.safety = 0.02});
+      const int roof = run.add_fixed_block(rectangle({0, 3}, 1, 1));
+      const int block = run.add_block(rectangle({0, 0}, 1, 1), 2700);
+      const auto bolts = between(run, roof, block, {0, -3}, law);
+      run.add_support(bolts);
+      run.set_velocity(block, {0, -speed});
+      double lowest = 0;
+      for (int k = 0; k < 60; ++k) {
+        run.advance(1e-3);
+        lowest = std::min(lowest, run.position(block).y());
+      }
+      const double energy = 0.5 * 2700 * speed * speed,
+                   stops = (energy + 120e3 * 1.5e-3) / (120e3 - 2700 * 9.81);
+      CHECK(bolts->springs()[0].broken == (stops > 0.053));
+      // A millisecond at rest is 17 um of fall.
+      if (stops < 0.053) CHECK(std::abs(-lowest - stops) < 5e-5);
+      if (stops > 0.053) CHECK(-lowest > stops);
+      CHECK(std::abs(run.energy().relative_imbalance()) < 1e-3);
+    }
   }
 
   TEST_CASE("a block that is taken out holds nothing any more by its bolts") {

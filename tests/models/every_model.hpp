@@ -126,6 +126,12 @@ template <>
 inline AxialShearBolt law() {
   return AxialShearBolt({.axial = {.axial_stiffness = 2e8}, .shear_stiffness = 2e7});
 }
+// A cable in weak grout.
+template <>
+inline CurveBolt law() {
+  return CurveBolt(BondedBolt{
+      .axial_stiffness = 2e7, .bond_stiffness = 2e8, .bond_strength = 1.5e4, .strength = {}});
+}
 template <>
 inline AnyBolt law() {
   return law<AxialShearBolt>();

@@ -276,11 +276,11 @@ TEST_SUITE("program/bad_input") {
       CHECK(outcome.status == 2);
       CHECK(outcome.err.find("`" + c.word + "` is not a verb") != std::string::npos);
       CHECK((outcome.err.find("did you mean " + c.meant) != std::string::npos) == !c.meant.empty());
-      CHECK(
-          outcome.err.find(
-              "accepted: init, check, run, blocks, grc, safety, explain, schema, completion, diff, "
-              "report, diagram, realisations, sweep, design, case, merge, patterns" +
-              std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
+      CHECK(outcome.err.find(
+                "accepted: init, check, run, blocks, grc, pullout, safety, explain, schema, "
+                "completion, diff, report, diagram, realisations, sweep, design, case, merge, "
+                "patterns" +
+                std::string(has_paper ? ", paper, verify; " : "; ")) != std::string::npos);
     }
   }
 

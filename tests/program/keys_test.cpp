@@ -89,6 +89,18 @@ feet = { stiffness = "2 GPa/m", beam = { depth = "30 cm", E = "30 GPa", spacing 
 concrete = { fck = "30 MPa", adhesion = "0.5 MPa" }
 )";
 
+/// Bolts by their bar.
+const std::string spring =
+                      "stiffness = \"0.2 GN/m\"\nlaw = \"axial-shear\"\n"
+                      "shear_stiffness = \"0.2 GN/m\"\nbond_strength = \"300 kN/m\"\n",
+                  cable =
+                      "bond_stiffness = \"112 MN/m/m\"\nbond_strength = \"300 kN/m\"\n"
+                      "area = \"181 mm^2\"\nyield_force = \"200 kN\"\n"
+                      "rupture_elongation = \"5 cm\"\n",
+                  end_anchored =
+                      "type = \"end-anchored\"\nanchor_stiffness = \"20 MN/m\"\n"
+                      "anchor_strength = \"90 kN\"\n";
+
 /// A file, and where the paths in it begin.
 struct Base {
   std::string text, directory = ".";
@@ -103,6 +115,8 @@ std::vector<Base> bases() {
        "[run]\nmethod = \"explicit\"\n[diagram]\nspacing = [\"20 deg\", \"none\"]\n"
        "thickness = [\"0 cm\", \"20 cm\"]\n[criteria]\nconvergence = \"20 mm\"\n"
        "[costs]\nbolt_per_metre = 20\nconcrete_per_m3 = 400\n"},
+      {ground + joints + horseshoe + replaced(supports, spring, cable)},
+      {ground + joints + horseshoe + replaced(supports, spring, end_anchored)},
       {ground + joints + horseshoe + supports +
        "[[stage]]\nwall_traction = 0.5\n"
        "[[stage]]\nwall_traction = 0\n"},

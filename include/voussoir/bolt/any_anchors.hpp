@@ -46,13 +46,17 @@ class AnyAnchorsOf {
   [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
     return visit([&](const auto& anchors) { return anchors.distances(crossing); });
   }
+  /// What its type says; if it says nothing, no.
+  [[nodiscard]] bool ties_ends() const {
+    return visit([](const auto& anchors) { return voussoir::ties_ends(anchors); });
+  }
 
  private:
   std::variant<First, Others...> anchors_;
 };
 
 /// Any of the ways in which a bolt may grip the blocks beside a joint; Lorig's by default.
-using AnyAnchors = AnyAnchorsOf<LorigAnchors, GargaWangAnchors, JointFaceAnchors>;
+using AnyAnchors = AnyAnchorsOf<LorigAnchors, GargaWangAnchors, JointFaceAnchors, EndAnchors>;
 
 static_assert(BoltAnchors<AnyAnchors>);
 

@@ -3,12 +3,14 @@
 
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
 #include <voussoir/bolt/bolt_law.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/visit_numbered.hpp>
 
@@ -79,6 +81,14 @@ class AnyBoltOf {
       return report_of(law, span, own, false);  // whoever has committed knows whether it broke
     });
   }
+  /// What its type says; if it says nothing, none.
+  [[nodiscard]] std::optional<AnyBoltOf> at_joint(const BoltJoint& joint) const {
+    return visit([&]<class Law>(const Law& law) -> std::optional<AnyBoltOf> {
+      if constexpr (HasLawAtJoint<Law>)
+        if (const auto made = law.at_joint(joint)) return AnyBoltOf(*made);
+      return std::nullopt;
+    });
+  }
 
  private:
   /// Calls call(law, state) with the state of its type, a fresh one where nothing was committed.
@@ -94,7 +104,7 @@ class AnyBoltOf {
 };
 
 /// Any of the bolt laws.
-using AnyBolt = AnyBoltOf<AxialBolt, AxialShearBolt>;
+using AnyBolt = AnyBoltOf<AxialBolt, AxialShearBolt, CurveBolt>;
 
 static_assert(BoltLaw<AnyBolt, 2> && BoltLaw<AnyBolt, 3>);
 

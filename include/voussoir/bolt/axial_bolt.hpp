@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <voussoir/bolt/bar_stretch.hpp>
 #include <voussoir/bolt/bolt_law.hpp>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
@@ -67,7 +68,7 @@ class AxialBolt {
   template <int Dim>
   [[nodiscard]] BoltForce<Dim> force(const BoltSpan<Dim>& span, const State& state) const {
     if (state.ruptured) return {};
-    const Stretch<Dim> now = stretch(span);
+    const BarStretch<Dim> now = stretch(span);
     const double axial = std::min(returned(now, state).force, params_.rupture_force);
     BoltForce<Dim> force{axial * now.direction, axial};
     if (now.closing < 0) {
@@ -109,7 +110,7 @@ class AxialBolt {
   template <int Dim>
   [[nodiscard]] double energy(const BoltSpan<Dim>& span, const State& state) const {
     if (state.ruptured) return state.lost;
-    const Stretch<Dim> at = stretch(span);
+    const BarStretch<Dim> at = stretch(span);
     Return now = returned(at, state);
     // Of a step that passed the rupture force no more than the way to there.
     if (const double rupture = params_.rupture_force; now.force >= rupture)
@@ -130,44 +131,14 @@ class AxialBolt {
   }
 
  private:
-  template <int Dim>
-  struct Stretch {
-    Vec<Dim> direction;
-    double extension;
-    double closing = 0;      ///< along the axis, of a strut between anchors that coincide, <= 0 [m]
-    bool may_press = false;  ///< along its direction
-  };
   struct Return {
     double force, plastic_extension;
   };
 
   template <int Dim>
-  [[nodiscard]] Stretch<Dim> stretch(const BoltSpan<Dim>& span) const {
-    VOUSSOIR_ASSERT(detail::is_unit(span.axis), "the axis of a bolt is a direction");
-    const double initial = span.initial.norm();
-    if (!(initial > 0)) return stretch_from_joint(span);
-    const Vec<Dim> now = span.initial + span.motion;
-    const double length = now.norm();
-    if (!(length > 0)) return {span.axis, -initial, 0, params_.carries_compression};
-    // l - d = (m^2 + 2 d.m)/(l + d) keeps its digits where the motion is tiny beside the span.
-    const double extension =
-        (span.motion.squaredNorm() + 2 * span.initial.dot(span.motion)) / (length + initial);
-    return {now / length, extension, 0, params_.carries_compression};
-  }
-  /// Anchors that coincide have no line between them: the bar starts out along its axis, as long as
-  /// the pretension has stretched it, and the joint's motion bends it from there. Closing the joint
-  /// slackens it; it does not pull the bar out on the other side. A strut is pressed along its axis
-  /// then, and pulled across it as before: with one length for both the force would jump where a
-  /// joint closes on a bolt that has yielded.
-  template <int Dim>
-  [[nodiscard]] Stretch<Dim> stretch_from_joint(const BoltSpan<Dim>& span) const {
-    const double seat = params_.pretension / params_.axial_stiffness;
-    Vec<Dim> bar = seat * span.axis + span.motion;
-    const double along = std::min(0.0, span.axis.dot(bar));
-    bar -= along * span.axis;
-    const double length = bar.norm(), closing = params_.carries_compression ? along : 0.0;
-    if (!(length > 0)) return {span.axis, -seat, closing};
-    return {bar / length, length - seat, closing};
+  [[nodiscard]] BarStretch<Dim> stretch(const BoltSpan<Dim>& span) const {
+    return bar_stretch(span, params_.pretension / params_.axial_stiffness,
+                       params_.carries_compression);
   }
 
   /// H: by which the yield force grows with the plastic extension [N/m].
@@ -175,7 +146,7 @@ class AxialBolt {
     return params_.axial_stiffness * params_.hardening_ratio / (1 - params_.hardening_ratio);
   }
   template <int Dim>
-  [[nodiscard]] Return returned(const Stretch<Dim>& now, const State& state) const {
+  [[nodiscard]] Return returned(const BarStretch<Dim>& now, const State& state) const {
     const double stiffness = params_.axial_stiffness;
     const double trial = params_.pretension + stiffness * (now.extension - state.plastic_extension);
     if (trial < 0 && !now.may_press) return {0.0, state.plastic_extension};

@@ -24,12 +24,25 @@ concept HasAnchorDistances = requires(const Anchors anchors, const BoltCrossing&
   { anchors.distances(crossing) } -> std::same_as<AnchorDistances>;
 };
 
+/// Optional: whether the bolt is held by its ends alone, and grips at no joint between them.
+template <class Anchors>
+concept HasTiesEnds = requires(const Anchors anchors) {
+  { anchors.ties_ends() } -> std::same_as<bool>;
+};
+template <class Anchors>
+[[nodiscard]] bool ties_ends(const Anchors& anchors) {
+  if constexpr (HasTiesEnds<Anchors>)
+    return anchors.ties_ends();
+  else
+    return false;
+}
+
 /// Chooses the two anchors of a bolt at every joint it crosses.
 ///
 /// What the compiler cannot check: anchors stay inside the intersections, 0 <= distance <= length.
 ///
-/// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors; AnyAnchors (one of them, known at run
-/// time).
+/// Models: LorigAnchors, GargaWangAnchors, JointFaceAnchors, EndAnchors; AnyAnchors (one of them,
+/// known at run time).
 template <class Anchors>
 concept BoltAnchors = Fills<Anchors, roles::BoltAnchors> && HasName<Anchors> && Copyable<Anchors> &&
     DefaultConstructible<Anchors> && HasAnchorDistances<Anchors>;
@@ -84,6 +97,18 @@ struct JointFaceAnchors {
   [[nodiscard]] AnchorDistances distances(const BoltCrossing&) const { return {0.0, 0.0}; }
 };
 
+/// A plate at the head and an anchor at the tip, nothing between them: one spring from the block at
+/// the head to that at the tip, however many joints the bar crosses.
+struct EndAnchors {
+  using role = roles::BoltAnchors;
+  static constexpr const char* name = "EndAnchors";
+  [[nodiscard]] AnchorDistances distances(const BoltCrossing& crossing) const {
+    return {crossing.before, crossing.after};
+  }
+  [[nodiscard]] bool ties_ends() const { return true; }
+};
+
+static_assert(BoltAnchors<EndAnchors> && HasTiesEnds<EndAnchors>);
 static_assert(BoltAnchors<LorigAnchors> && BoltAnchors<GargaWangAnchors> &&
               BoltAnchors<JointFaceAnchors>);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/roles.hpp>
 #include <voussoir/core/vec.hpp>
@@ -17,6 +18,11 @@ struct BoltSpan {
   /// Of the second body relative to the first since then, where the bar crosses the joint [m].
   /// Other than `motion` it is free of the rotation of the rock as a whole.
   Vec<Dim> jump = zeros<Vec<Dim>>();
+};
+
+/// Where a bolt crosses a joint: its length on either side [m], towards head and tip.
+struct BoltJoint {
+  double before, after;
 };
 
 /// What the bolt does at one joint.
@@ -83,6 +89,13 @@ concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
   { law.describe(span, state) } -> std::same_as<BoltReport>;
 };
 
+/// Optional: the law is another one at every joint, by how much of the bolt is on either side; none
+/// returned: it is the same.
+template <class Law>
+concept HasLawAtJoint = requires(const Law law, const BoltJoint& joint) {
+  { law.at_joint(joint) } -> std::same_as<std::optional<Law>>;
+};
+
 /// The spring that a bolt is, at every joint it crosses. Values are per bolt, not per metre.
 ///
 /// What the compiler cannot check:
@@ -97,9 +110,10 @@ concept HasBoltReport = requires(const Law law, const BoltSpan<Dim>& span,
 /// `check_law` (bolt/check_bolt_law.hpp) tries all of this.
 ///
 /// Optional: `BoltReport describe(const BoltSpan<Dim>&, const State&) const`, for a law that
-/// remembers what it has yielded (see `report_from_force`).
+/// remembers what it has yielded (see `report_from_force`); `std::optional<Law> at_joint(const
+/// BoltJoint&) const`, for a law that depends on how much of the bolt is on either side.
 ///
-/// Models: AxialBolt, AxialShearBolt; AnyBolt (one of them, known at run time).
+/// Models: AxialBolt, AxialShearBolt, CurveBolt; AnyBolt (one of them, known at run time).
 template <class Law, int Dim>
 concept BoltLaw = Fills<Law, roles::BoltLaw> && HasName<Law> && Copyable<Law> &&
     HasBoltState<Law, Dim> && HasBoltForce<Law, Dim> && HasBoltCommit<Law, Dim> &&

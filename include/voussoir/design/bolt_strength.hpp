@@ -23,11 +23,17 @@ namespace voussoir::design {
   return std::min(bolts.yield_force.value_or(unlimited), bolts.rupture_force.value_or(unlimited));
 }
 
+/// Whether anything of a pattern says what it bears.
+[[nodiscard]] inline bool has_strength(const BoltsInput& bolts) {
+  return std::isfinite(bolt_strength(bolts)) || bolts.bond_strength || bolts.anchor_strength ||
+         (bolts.type == BoltType::end_anchored && bolts.plate_strength);
+}
+
 /// What a bolt would fail of at a joint.
-enum class BoltMode { yield, rupture, bond_at_tip, bond_at_head, plate };
+enum class BoltMode { yield, rupture, bond_at_tip, bond_at_head, plate, anchor };
 [[nodiscard]] inline const char* to_string(BoltMode mode) {
   constexpr const char* words[] = {"yield", "rupture", "bond at the tip", "bond at the head",
-                                   "plate"};
+                                   "plate", "anchor"};
   return words[static_cast<std::size_t>(mode)];
 }
 
@@ -35,22 +41,31 @@ enum class BoltMode { yield, rupture, bond_at_tip, bond_at_head, plate };
 struct BoltLimit {
   double strength = std::numeric_limits<double>::infinity();  ///< [N]; infinite: none was given
   BoltMode mode = BoltMode::yield;
+  bool is_of_ends = false;  ///< of a bolt that is held by its ends: everywhere along it
 };
 
 /// The least of three: the bar; the bond of all that is grouted beyond the joint, to the tip; the
 /// bond of all that is grouted before it, to the head, and the plate there. `plate`: where that
-/// bears the larger part of the last.
+/// bears the larger part of the last. Of an end-anchored bolt bar, anchor and plate.
 /// @param length    of the bolt [m]
 /// @param position  of the joint from the head [m], 0 to `length`
 [[nodiscard]] inline BoltLimit bolt_limit(const BoltsInput& bolts, double length, double position) {
   BoltLimit limit{bolt_strength(bolts), bolts.yield_force ? BoltMode::yield : BoltMode::rupture};
+  if (bolts.type == BoltType::end_anchored) {
+    limit.is_of_ends = true;
+    if (bolts.anchor_strength && *bolts.anchor_strength < limit.strength)
+      limit = {*bolts.anchor_strength, BoltMode::anchor, true};
+    if (bolts.plate_strength && *bolts.plate_strength < limit.strength)
+      limit = {*bolts.plate_strength, BoltMode::plate, true};
+    return limit;
+  }
   if (!bolts.bond_strength) return limit;
+  const double plate = bolts.plate_strength.value_or(0);
   const double beyond = *bolts.bond_strength * (length - position),
                before = *bolts.bond_strength * position;
   if (beyond < limit.strength) limit = {beyond, BoltMode::bond_at_tip};
-  if (before + bolts.plate_strength < limit.strength)
-    limit = {before + bolts.plate_strength,
-             bolts.plate_strength > before ? BoltMode::plate : BoltMode::bond_at_head};
+  if (before + plate < limit.strength)
+    limit = {before + plate, plate > before ? BoltMode::plate : BoltMode::bond_at_head};
   return limit;
 }
 
@@ -94,7 +109,7 @@ template <class Solver>
   return most;
 }
 
-/// What of a bolt governs, and where: "bolt 7: bond beyond its joint at 2.9 m".
+/// What of a bolt governs, and where: "bolt 7: bond beyond its joint at 2.9 m", "bolt 2: anchor".
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::string governed_by(const BoltUtilisation& at);
 
 /// Its value [-]; 0: no bolt that has a strength crosses a joint; none: no bolt has one.
@@ -104,7 +119,7 @@ template <class Solver>
   const std::vector<BoltUtilisation> joints = bolt_utilisations(input, tunnel);
   if (const BoltUtilisation* const most = governing(joints)) return most->value();
   for (const BoltsInput* pattern : patterns_of_bars(input, bars_of(tunnel)))
-    if (std::isfinite(bolt_strength(*pattern)) || pattern->bond_strength) return 0.0;
+    if (has_strength(*pattern)) return 0.0;
   return std::nullopt;
 }
 
@@ -126,6 +141,8 @@ inline constexpr const char* not_checked = "no strength was given: not checked";
 #if VOUSSOIR_DESIGN_BODIES
 
 VOUSSOIR_DESIGN_INLINE std::string governed_by(const BoltUtilisation& at) {
+  const std::string bolt = "bolt " + std::to_string(at.bolt + 1) + ": ";
+  if (at.limit.is_of_ends) return bolt + to_string(at.limit.mode);
   const char* words = "";
   switch (at.limit.mode) {
     case BoltMode::yield:
@@ -143,16 +160,15 @@ VOUSSOIR_DESIGN_INLINE std::string governed_by(const BoltUtilisation& at) {
     case BoltMode::plate:
       words = "plate and bond before";
       break;
+    case BoltMode::anchor:
+      break;  // of a bolt that is held by its ends
   }
-  return "bolt " + std::to_string(at.bolt + 1) + ": " + words + " its joint at " +
-         message_number(at.position, 3) + " m";
+  return bolt + words + " its joint at " + message_number(at.position, 3) + " m";
 }
 
 VOUSSOIR_DESIGN_INLINE std::vector<std::string> unchecked_supports(const AnalysisInput& input) {
   std::vector<std::string> unchecked;
-  if (std::any_of(input.bolts.begin(), input.bolts.end(), [](const BoltsInput& pattern) {
-        return std::isinf(bolt_strength(pattern)) && !pattern.bond_strength;
-      }))
+  if (!std::all_of(input.bolts.begin(), input.bolts.end(), has_strength))
     unchecked.emplace_back("bolts");
   if (std::any_of(input.linings.begin(), input.linings.end(),
                   [](const LiningInput& lining) { return !lining.concrete; }))

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <voussoir/bolt/any_anchors.hpp>
 #include <voussoir/bolt/any_bolt.hpp>
 #include <voussoir/bolt/axial_bolt.hpp>
 #include <voussoir/bolt/axial_shear_bolt.hpp>
+#include <voussoir/bolt/bar_in_rock.hpp>
 #include <voussoir/bolt/bolt_anchors.hpp>
+#include <voussoir/bolt/bolt_curve.hpp>
+#include <voussoir/bolt/curve_bolt.hpp>
 #include <voussoir/contact/any_joint.hpp>
 #include <voussoir/contact/mohr_coulomb_joint.hpp>
 #include <voussoir/contact/rock_on_lining.hpp>
@@ -40,6 +44,11 @@ using Tunnel = TunnelIn<Planar>;
 using SpatialTunnel = TunnelIn<Spatial>;
 
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts);
+/// What its bar bears.
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE BarStrength bar_strength_of(const BoltsInput& bolts);
+/// A bolt that is given by its bar and how the rock holds it; none: by its stiffness at a joint.
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE std::optional<BarInRock> bar_in_rock_of(
+    const BoltsInput& bolts);
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyBolt bolt_of(const BoltsInput& bolts);
 /// Rock on lining: friction, and a bond until it fails, which leaves the friction.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE MohrCoulombJoint interface_of(const LiningInput& lining);
@@ -58,6 +67,7 @@ using SpatialTunnel = TunnelIn<Spatial>;
 #if VOUSSOIR_DESIGN_BODIES
 
 VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts) {
+  if (bolts.type == BoltType::end_anchored) return EndAnchors{};
   switch (bolts.anchors) {
     case AnchorKind::lorig:
       return LorigAnchors{bolts.anchor_offset};
@@ -69,7 +79,35 @@ VOUSSOIR_DESIGN_INLINE AnyAnchors anchors_of(const BoltsInput& bolts) {
   throw std::logic_error("unknown bolt anchors");
 }
 
+VOUSSOIR_DESIGN_INLINE BarStrength bar_strength_of(const BoltsInput& bolts) {
+  constexpr double unlimited = BarStrength::unlimited;
+  return {.yield_force = bolts.yield_force.value_or(unlimited),
+          .rupture_force = bolts.rupture_force.value_or(unlimited),
+          .rupture_extension = bolts.rupture_elongation.value_or(unlimited)};
+}
+
+VOUSSOIR_DESIGN_INLINE std::optional<BarInRock> bar_in_rock_of(const BoltsInput& bolts) {
+  constexpr double unlimited = BarStrength::unlimited;
+  if (bolts.type == BoltType::end_anchored)
+    return EndAnchoredBolt{.axial_stiffness = bolts.axial_rigidity(),
+                           .anchor_stiffness = bolts.anchor_stiffness.value_or(unlimited),
+                           .anchor_strength = bolts.anchor_strength.value_or(unlimited),
+                           .plate_strength = bolts.plate_strength.value_or(unlimited),
+                           .strength = bar_strength_of(bolts)};
+  if (bolts.bond_stiffness && bolts.bond_strength)
+    return BondedBolt{.axial_stiffness = bolts.axial_rigidity(),
+                      .bond_stiffness = *bolts.bond_stiffness,
+                      .bond_strength = *bolts.bond_strength,
+                      .plate_strength = bolts.plate_strength.value_or(0),
+                      .strength = bar_strength_of(bolts)};
+  return std::nullopt;
+}
+
 VOUSSOIR_DESIGN_INLINE AnyBolt bolt_of(const BoltsInput& bolts) {
+  if (const auto bar = bar_in_rock_of(bolts)) return CurveBolt(*bar, bolts.pretension);
+  if (bolts.rupture_elongation)
+    return CurveBolt(bar_strength_of(bolts).limited(BoltCurve::straight(bolts.stiffness)),
+                     bolts.pretension);
   AxialBolt::Params axial{.axial_stiffness = bolts.stiffness, .pretension = bolts.pretension};
   if (bolts.yield_force) axial.yield_force = *bolts.yield_force;
   if (bolts.rupture_force) axial.rupture_force = *bolts.rupture_force;

@@ -96,7 +96,8 @@ VOUSSOIR_DESIGN_INLINE AnalysisInput with_weaker_supports(AnalysisInput input, d
     divide(bolts.yield_force);
     divide(bolts.rupture_force);
     divide(bolts.bond_strength);
-    bolts.plate_strength /= factor;
+    divide(bolts.plate_strength);
+    divide(bolts.anchor_strength);
   }
   for (LiningInput& lining : input.linings) {
     lining.shear_bond /= factor;

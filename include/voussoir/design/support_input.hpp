@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ namespace voussoir::design {
 
 enum class AnchorKind { lorig, garga_wang, joint_face };
 enum class BoltKind { axial, axial_shear };
+/// Along all of it in grout, or by plate and anchor alone.
+enum class BoltType { grouted, end_anchored };
 
 /// Distance between bolts along the wall: an angle at the tunnel centre or a length.
 struct BoltSpacing {
@@ -48,19 +51,40 @@ struct BoltsInput {
   /// 3-D: forepoles, which lie at this angle to the axis over the rock ahead [rad], 1 to 45 deg;
   /// none: bolts at right angles to it.
   std::optional<double> ahead = {};
-  double diameter = 0.028;     ///< [m], > 0
-  double stiffness = 0;        ///< axial, of one bolt across one joint [N/m], 1e3 to 1e12
-  double shear_stiffness = 0;  ///< of one bolt across one joint, axial_shear only [N/m]
-  double pretension = 0;       ///< [N], 0 to 1e9
-  std::optional<double> yield_force = {};    ///< of one bolt [N], > 0, <= 1e9
+  BoltType type = BoltType::grouted;
+  double diameter = 0.028;  ///< [m], > 0
+  /// Axial, of one bolt across one joint [N/m], 1e3 to 1e12; of a grouted bolt without a bond
+  /// stiffness.
+  double stiffness = 0;
+  double shear_stiffness = 0;              ///< of one bolt across one joint, axial_shear only [N/m]
+  double pretension = 0;                   ///< [N], 0 to 1e9
+  std::optional<double> yield_force = {};  ///< of one bolt [N], > 0, <= 1e9
   std::optional<double> rupture_force = {};  ///< of one bolt [N], > 0, <= 1e9
-  /// Of the grout along one bolt [N/m], > 0, <= 1e9; none: its bond is not checked. The model holds
-  /// the bolt at its anchors, whatever they carry.
+  /// Beyond yield until it is lost, at a joint or of an end-anchored bolt [m], 1e-4 to 10: the
+  /// force goes straight to that of rupture, or stays where there is none. None: 2 % of the
+  /// stiffness is left beyond yield.
+  std::optional<double> rupture_elongation = {};
+  double young_modulus = 200e9;     ///< E of the bar [Pa], 1e10 to 1e12
+  std::optional<double> area = {};  ///< of the bar [m^2], 1e-5 to 0.1; none: of a full round one
+  /// Of the grout along one bolt [N/m], > 0, <= 1e9; none: its bond is not checked. Without a bond
+  /// stiffness the model holds the bolt at its anchors, whatever they carry.
   std::optional<double> bond_strength = {};
-  double plate_strength = 0;  ///< of plate and nut at the head [N], 0 to 1e9; with a bond alone
+  /// Of the grout, over slip and length [N/m^2], 1e5 to 1e12, with a bond strength: bond slips in
+  /// the model, and its stiffness is that of bar and bond.
+  std::optional<double> bond_stiffness = {};
+  /// Of plate and nut at the head [N], 0 to 1e9; none: of a grouted bolt there is none, that of an
+  /// end-anchored one does not give.
+  std::optional<double> plate_strength = {};
+  /// Of the anchor of an end-anchored bolt [N/m], 1e3 to 1e12, [N], > 0, <= 1e9; none: no end.
+  std::optional<double> anchor_stiffness = {}, anchor_strength = {};
   AnchorKind anchors = AnchorKind::lorig;
   double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0
   BoltKind law = BoltKind::axial;
+
+  /// E A [N].
+  [[nodiscard]] double axial_rigidity() const {
+    return young_modulus * area.value_or(0.25 * std::numbers::pi * diameter * diameter);
+  }
 };
 
 /// On which the ends of an arc of lining stand.

@@ -64,7 +64,7 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
       spring.span.motion = -present.motion;
       spring.span.jump = -present.jump;
       spring.share = share;
-      spring.law = law;
+      spring.law = law_at(law, {at.position, at.beyond});
       add(spring);
     }
   }
@@ -191,6 +191,13 @@ class BoltSet : public SupportModel<BoltSet<Dim, Law>, Dim> {
   }
 
  private:
+  /// That of the bolt, or its own at this joint.
+  [[nodiscard]] int law_at(int law, const BoltJoint& joint) {
+    if constexpr (HasLawAtJoint<Law>)
+      if (auto own = laws_[static_cast<std::size_t>(law)].at_joint(joint))
+        return add_law(std::move(*own));
+    return law;
+  }
   [[nodiscard]] static std::size_t index(int b) { return static_cast<std::size_t>(b); }
   [[nodiscard]] static bool is_chosen(const Spring& s, const BodyMarks* chosen) {
     return chosen == nullptr || is_marked(*chosen, s.a) || is_marked(*chosen, s.b);
