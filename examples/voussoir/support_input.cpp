@@ -143,6 +143,9 @@ void read_bolts(Section& s, Input& input, BoltsInput& bolts) {
   s.only_with(bolts.bond_strength.has_value() || s.faulty("bond_strength"), "bond_strength", [&] {
     s.quantity("plate_strength", bolts.plate_strength, dimension::force,
                between(0, force_range.high), Need::optional);
+    s.only_with(bolts.plate_strength > 0 || s.faulty("plate_strength"), "plate_strength", [&] {
+      s.quantity("plate_width", bolts.plate_width, dimension::length, between(0.01, 2));
+    });
   });
 
   const bool anchors_known = s.choice<AnchorKind>("anchors", bolts.anchors,
@@ -217,6 +220,10 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
   s.optional_table("concrete", [&](Section& table) { read_concrete(table, lining); });
+  s.optional_table("ribs", [&](Section& table) { read_ribs(table, lining); });
+  if (lining.ribs && lining.age && lining.age->has_growing_modulus)
+    s.complain("ribs", "share forces with concrete whose E grows, which is not followed",
+               "concrete.E_grows = false, no concrete.age, or no table ribs");
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     std::optional<double> width, friction;

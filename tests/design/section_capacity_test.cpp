@@ -12,6 +12,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/design/section_capacity.hpp>
 
+#include "support/concrete_sections.hpp"
 #include "support/near.hpp"
 
 namespace section_capacity_test {
@@ -20,10 +21,8 @@ namespace {
 using namespace voussoir;
 using namespace voussoir::design;
 using voussoir_test::near;
-
-ConcreteSection plain(double thickness, double strength) {
-  return {.thickness = thickness, .strength = strength};
-}
+using voussoir_test::plain;
+using voussoir_test::reinforced;
 
 /// EN 1992-1-1, 3.1.7, as a function of the strain, for up to 50 MPa [-].
 double parabola_rectangle(double strain) {
@@ -54,13 +53,6 @@ SectionForces by_strips(const ConcreteSection& s, double inner, double outer) {
     add(bars.area * (stress - f * parabola_rectangle(strain)), bars.depth);
   }
   return sum;
-}
-
-/// Two layers of mesh, not alike.
-ConcreteSection reinforced() {
-  ConcreteSection s = plain(0.25, 30e6);
-  s.bars = {{.area = 6e-4, .depth = 0.04}, {.area = 9e-4, .depth = 0.20}};
-  return s;
 }
 
 }  // namespace

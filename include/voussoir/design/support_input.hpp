@@ -8,6 +8,8 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/design/composite_support.hpp>
+#include <voussoir/design/concrete_age.hpp>
 #include <voussoir/design/section_capacity.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -58,6 +60,9 @@ struct BoltsInput {
   /// the bolt at its anchors, whatever they carry.
   std::optional<double> bond_strength = {};
   double plate_strength = 0;  ///< of plate and nut at the head [N], 0 to 1e9; with a bond alone
+  /// Of a square plate [m], 0.01 to 2, with its strength: where the head lies on shotcrete, it may
+  /// punch it. None: it is not asked.
+  std::optional<double> plate_width = {};
   AnchorKind anchors = AnchorKind::lorig;
   double anchor_offset = 0;  ///< joint to anchor, lorig only [m], > 0
   BoltKind law = BoltKind::axial;
@@ -107,11 +112,22 @@ struct LiningInput {
   /// By which it is checked; thickness and width are those of the lining, areas of bars per metre
   /// of it [m^2/m]. None: it is not checked.
   std::optional<ConcreteSection> concrete = {};
+  /// Of concrete that is loaded early: with `concrete` alone. None: it has the strength and the
+  /// modulus that are given.
+  std::optional<ConcreteAge> age = {};
+  std::optional<SteelRibs> ribs = {};  ///< within its concrete
   /// Of shotcrete to the rock, characteristic [Pa], 1e3 to 1e7, on a strip along the edge of a
   /// block [m], 1e-3 to 1: single blocks are checked by it. Not the bond that the model knows.
   std::optional<double> adhesion = {};
   double adhesion_width = 0.03;
 
+  /// E when it is so old [Pa].
+  [[nodiscard]] double modulus_at(double when) const {
+    return age && concrete ? young_modulus * age->modulus_part(when, concrete->strength)
+                           : young_modulus;
+  }
+  /// E with which it is installed, the least that it has [Pa].
+  [[nodiscard]] double first_modulus() const { return modulus_at(age ? age->when_loaded : 0.0); }
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {
     return tensile_bond > 0 && beam != LiningElement::pinned;
