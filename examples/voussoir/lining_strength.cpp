@@ -79,7 +79,8 @@ void read_age(Section& s, LiningInput& lining) {
                                    : "are of age_law = \"tested\"",
                  "both or neither");
   });
-  if (!loaded || s.faulty("")) return;
+  for (const char* key : {"age", "age_law", "cement", "tests"})
+    if (!loaded || s.faulty(key)) return;
   age.when_loaded = *loaded;
   lining.age = age;
 }

@@ -68,6 +68,7 @@ TEST_SUITE("design/concrete_age") {
     CHECK(tested.modulus_part(one_day, 30e6) == near(std::pow(0.4, 0.3)).epsilon(1e-12));
     CHECK(tested.strength_at(7 * one_day, 20e6) == 20e6);  // a mix that is better than asked for
     CHECK_THROWS_AS((void)tested.strength_at(0.2 * one_day, 30e6), InvalidInput);
+    CHECK_THROWS_AS((void)ConcreteAge{.law = AgeLaw::tested}.maturity(one_day, 30e6), InvalidInput);
   }
 
   TEST_CASE("a young section: compression by the law, tension and fibres by maturity") {

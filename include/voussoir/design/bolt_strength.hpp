@@ -112,8 +112,10 @@ template <class Solver>
   std::vector<BoltUtilisation> found;
   for (const CrossingForce& at : bolt_forces(tunnel)) {
     const auto k = static_cast<std::size_t>(at.bolt);
-    const double punching =
-        punching_under(input, *patterns[k], thickness, angle_of_head(input, *patterns[k], bars[k]));
+    const double punching = patterns[k]->plate_width
+                                ? punching_under(input, *patterns[k], thickness,
+                                                 angle_of_head(input, *patterns[k], bars[k]))
+                                : std::numeric_limits<double>::infinity();
     found.push_back({at.bolt, ++joints[k], at.position, at.report.axial,
                      bolt_limit(*patterns[k], bars[k].length(), at.position, punching)});
   }

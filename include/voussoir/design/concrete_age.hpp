@@ -59,8 +59,10 @@ struct ConcreteAge {
 
   /// Part of the mean strength of 28 days that is there [-], at most 1.
   /// @param strength  f_ck of 28 days [Pa]
-  /// @throws InvalidInput  the age is below `youngest`
+  /// @throws InvalidInput  the age is below `youngest`, or nothing was tested
   [[nodiscard]] double maturity(double age, double strength) const {
+    if (law == AgeLaw::tested && tests.empty())
+      throw InvalidInput("tested strengths of concrete: there are none; must be one or more");
     if (!(age >= youngest()))
       throw InvalidInput(message({"age of concrete = ", age / one_day, " d: must be >= ",
                                   youngest() / one_day, " d by ", to_string(law)}));
