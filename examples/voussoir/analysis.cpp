@@ -49,9 +49,7 @@ void warn_of_stress_and_supports(const Input& input, const RunResultIn<Geometry>
   append(warnings, remarks_on(support_condition(run.tunnel)));
   if (std::string text = bolt_strength_warning(bolt_utilisations(input, run.tunnel)); !text.empty())
     warnings.push_back(std::move(text));
-  if (std::string text =
-          lining_strength_warning(lining_utilisations(input, supports_of(input), run.tunnel));
-      !text.empty())
+  if (std::string text = lining_strength_warning(lining_strength_of(input, run)); !text.empty())
     warnings.push_back(std::move(text));
 }
 

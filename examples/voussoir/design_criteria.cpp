@@ -16,7 +16,7 @@ double ranked(const TunnelResult& result, double value) {
 }
 
 bool has_bolt_strength(const Input& input) {
-  return std::any_of(input.bolts.begin(), input.bolts.end(), has_strength);
+  return std::any_of(input.bolts.begin(), input.bolts.end(), is_checked);
 }
 
 bool has_lining_strength(const Input& input) {

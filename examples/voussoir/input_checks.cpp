@@ -9,7 +9,7 @@
 #include <vector>
 #include <voussoir/core/elementary.hpp>
 #include <voussoir/core/units.hpp>
-#include <voussoir/design/bolt_strength.hpp>
+#include <voussoir/design/models.hpp>
 #include <voussoir/design/openings.hpp>
 #include <voussoir/design/size_estimate.hpp>
 #include <voussoir/drawing/number_text.hpp>
@@ -19,6 +19,7 @@
 #include <voussoir/tunnel/ring_nodes.hpp>
 #include <voussoir/tunnel/section_part.hpp>
 
+#include "design_criteria.hpp"
 #include "joint_laws.hpp"
 #include "plausibility.hpp"
 
@@ -115,9 +116,8 @@ void check_bond(Checker& checker, const Input& input, const LiningInput& lining,
   if (input.diagram && &lining == &input.linings.front())
     for (const double thickness : input.diagram->thickness)
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
-  const double length =
-      bending_length(LiningSection::rectangular(thinnest, lining.young_modulus).bending_stiffness,
-                     lining.interface_normal_stiffness);
+  const double length = bending_length(section_of(lining, thinnest).bending_stiffness,
+                                       lining.interface_normal_stiffness);
   const double perimeter = outline_of(outline_input(input, lining.opening)).perimeter();
   const double least = node_count_for(perimeter, length, coarsest_bonded_spacing),
                chosen = node_count_for(perimeter, length, chosen_bonded_spacing);
@@ -434,9 +434,15 @@ void check_duration(Checker& checker, const Input& input, const StageInput& stag
   if (stage.duration == 0 || checker.faulty("joint") || checker.faulty("joint_set")) return;
   const double step = longest_creep_step(laws_of(input));
   constexpr double most_steps = 1000;
-  if (std::isinf(step))
-    return checker.report(key, "is for joints that creep, and none does",
-                          R"(law = "burgers" of [joint] or a [[joint_set]], or no duration)");
+  const bool ages = std::any_of(input.linings.begin(), input.linings.end(),
+                                [](const LiningInput& lining) { return lining.age.has_value(); });
+  if (std::isinf(step)) {
+    if (!ages)
+      checker.report(key, "is for joints that creep or concrete that ages, and none does",
+                     R"(law = "burgers" of [joint] or a [[joint_set]], )"
+                     "support.lining.concrete.age, or no duration");
+    return;
+  }
   if (stage.duration > most_steps * step)
     checker.report(key,
                    "would take " + significant_text(std::ceil(stage.duration / step), 3) +
@@ -535,14 +541,10 @@ void check_diagram(Checker& checker, const Input& input) {
 /// A utilisation is that of a strength.
 void check_criteria(Checker& checker, const Input& input) {
   const CriteriaInput& criteria = input.criteria;
-  const bool has_bolts = std::any_of(input.bolts.begin(), input.bolts.end(), has_strength);
-  const bool has_linings =
-      std::any_of(input.linings.begin(), input.linings.end(),
-                  [](const LiningInput& lining) { return lining.concrete.has_value(); });
-  if (criteria.bolt_utilisation && !has_bolts && !checker.faulty("support"))
+  if (criteria.bolt_utilisation && !has_bolt_strength(input) && !checker.faulty("support"))
     checker.report("criteria.bolt_utilisation", "is of bolts, and none has a strength",
                    "support.bolts.yield_force, rupture_force or bond_strength beside it");
-  if (criteria.utilisation && !has_linings && !checker.faulty("support"))
+  if (criteria.utilisation && !has_lining_strength(input) && !checker.faulty("support"))
     checker.report("criteria.utilisation", "is of linings, and none has a strength",
                    "support.lining.concrete beside it");
 }

@@ -58,14 +58,13 @@ BarStress bar_stress(const Input& input, const RunResult& run) {
   }
   return most;
 }
-/// N / t + 6 |M| / t^2 of thrust and moment, the largest of all linings [Pa].
+/// Of concrete at an edge, the largest of all linings [Pa].
 double lining_stress(const Input& input, const RunResult& run) {
   const std::vector<const LiningInput*> linings = linings_as_installed(input, supports_of(input));
   double most = 0;
-  for (const LiningForce& at : lining_forces(run.tunnel)) {
-    const double t = linings.at(static_cast<std::size_t>(at.lining))->thickness;
-    most = std::max(most, std::abs(at.thrust) / t + 6 * std::abs(at.moment) / (t * t));
-  }
+  for (const LiningForce& at : lining_forces(run.tunnel))
+    most = std::max(most, concrete_stress(*linings.at(static_cast<std::size_t>(at.lining)),
+                                          {at.thrust, at.moment}));
   return most;
 }
 /// Which supports nothing says of whether they bear what they carry; empty: none.
@@ -244,8 +243,7 @@ std::string run_json(const Input& input, const RunResult& run) {
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
   if (run.tunnel.first_lining_node() >= 0)
-    add_lining_strength(input, lining_utilisations(input, supports_of(input), run.tunnel),
-                        json["lining"]);
+    add_lining_strength(input, lining_strength_of(input, run), json["lining"]);
   if (run.bonded_nodes > 0) json["lining"]["nodes_chosen_for_the_bond"] = run.bonded_nodes;
   for (const auto& foot : foot_forces(run.tunnel)) {
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
@@ -269,8 +267,7 @@ std::string bolts_csv(const Input& input, const RunResult& run) {
 }
 
 std::string lining_csv(const Input& input, const RunResult& run) {
-  return lining_table(lining_forces(run.tunnel),
-                      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel)));
+  return lining_table(lining_forces(run.tunnel), strength_by_node(lining_utilisations(input, run)));
 }
 
 std::string blocks_svg(const Input& input, const RunResult& run) {
@@ -286,8 +283,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
         millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
   text.bolt_strengths = bolt_strengths(input, run.tunnel);
-  text.node_utilisations =
-      strength_by_node(lining_utilisations(input, supports_of(input), run.tunnel));
+  text.node_utilisations = strength_by_node(lining_utilisations(input, run));
   return draw_tunnel(run.tunnel, run.built, text);
 }
 
@@ -331,7 +327,7 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += "lining   thrust up to " + text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment) +
-           lining_strength_line(input, lining_utilisations(input, supports_of(input), run.tunnel));
+           lining_strength_line(input, lining_strength_of(input, run));
   if (run.bonded_nodes > 0)
     out += "         " + std::to_string(run.bonded_nodes) + " nodes on the full ring, " +
            text("%.3g m apart, chosen for the bond\n", run.opening.perimeter() / run.bonded_nodes);

@@ -363,12 +363,16 @@ Section limits_section(const RunResults& r) {
   }
   if (!r.is_laid()) {
     limits.emplace_back("Dry rock: neither water nor blasting nor earthquakes.");
+    const bool ages = !list_at(r.run, "/lining/by_stage").empty();
     limits.emplace_back(
-        "Supports are wished in place: they act in full from the stage in which they are "
-        "installed. Concrete neither hardens, shrinks nor creeps.");
+        std::string("Supports are wished in place: they act in full from the stage in which they "
+                    "are installed. Concrete ") +
+        (ages ? "hardens from stage to stage; it neither shrinks nor creeps."
+              : "neither hardens, shrinks nor creeps."));
     limits.emplace_back(
-        "Not checked: shear, punching and bond of the lining; plates and bond of bolts; the ground "
-        "surface. Forces are those of the model, without partial factors on loads.");
+        "Not checked: adhesion of the lining to the rock; shear of steel ribs; bond and plates of "
+        "bolts whose strength is not given; the ground surface. Forces are those of the model, "
+        "without partial factors on loads.");
     limits.emplace_back(
         "A block that came off is taken out; where it lands, and what it hits, is not followed.");
   }

@@ -142,6 +142,15 @@ Judged judged(double use) {
   return use > 1 ? Judged{"exceeded", Tone::bad} : Judged{"within", Tone::good};
 }
 
+/// In which stage, of concrete that ages; empty: at the end.
+std::string governing_stage(const Json& run) {
+  const std::string stage = words_at(run, "/lining/governing/stage");
+  const double age = number_at(run, "/lining/governing/age_d");
+  return stage.empty() ? ""
+                       : ", in " + stage +
+                             (std::isfinite(age) ? " (" + shown(age) + " d old)" : std::string());
+}
+
 /// Bolts, linings and feet against their strength, a row each.
 Table utilisation_table(const RunResults& r) {
   Table table("What supports carry of what they bear", {{"support", "", Kind::text},
@@ -185,7 +194,8 @@ Table utilisation_table(const RunResults& r) {
       table.add(
           {"lining",
            place + ", " + shown_fixed(angle, 0) + "°" +
-               (std::isfinite(along) ? ", " + shown_fixed(along, 2) + " m along" : ""),
+               (std::isfinite(along) ? ", " + shown_fixed(along, 2) + " m along" : "") +
+               governing_stage(run),
            "thrust " + shown(number_at(run, "/lining/governing/thrust_kN_per_m")) +
                " kN/m, moment " + shown(number_at(run, "/lining/governing/moment_kNm_per_m")) +
                " kN m/m",
@@ -220,7 +230,7 @@ std::string governing_sentence(const RunResults& r) {
     return "The lining governs: " + place + ", " +
            shown_fixed(number_at(r.run, "/lining/governing/angle_deg"), 0) +
            "° from the right-hand springing anticlockwise, in " +
-           words_at(r.run, "/lining/governing/mode") + ", " +
+           words_at(r.run, "/lining/governing/mode") + governing_stage(r.run) + ", " +
            (is_beyond ? "beyond its strength" : shown_percent(lining) + " of its strength") + ".";
   if (std::isfinite(bolts))
     return "The bolts govern, in tension: " + shown_percent(bolts) + " of their strength.";

@@ -141,9 +141,8 @@ int run_tunnel_verb(const Options& options, const Input& input, Compute&& comput
   files.add("lining.csv", lining_csv(input, run));
   files.add("blocks.svg", blocks_svg(input, run));
   for (const NamedDocument& picture : pictures.finish()) files.add(picture.name, picture.text);
-  if (const auto nodes = lining_utilisations(input, supports_of(input), run.tunnel);
-      !nodes.empty()) {
-    files.add("lining_strength.svg", lining_strength_svg(input, nodes));
+  if (const LiningStrength strength = lining_strength_of(input, run); !strength.nodes.empty()) {
+    files.add("lining_strength.svg", lining_strength_svg(input, strength));
     names += ", lining_strength.svg";
   }
   if (input.survey) {

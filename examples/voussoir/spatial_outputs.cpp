@@ -143,8 +143,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
                       {"mean_thrust_kN_per_m", 1e-3 * e.mean_thrust},
                       {"largest_moment_kNm_per_m", 1e-3 * e.largest_moment}};
   if (run.tunnel.first_lining_node() >= 0)
-    add_lining_strength(input, lining_utilisations(input, supports_of(input), run.tunnel),
-                        json["lining"]);
+    add_lining_strength(input, lining_strength_of(input, run), json["lining"]);
   for (const auto& foot : foot_forces(run.tunnel))
     json["lining"]["feet"].push_back({{"x_m", foot.place.x()},
                                       {"y_m", foot.place.y()},
@@ -163,9 +162,8 @@ std::string bolts_csv(const Input& input, const SpatialRunResult& run) {
 
 std::string lining_csv(const Input& input, const SpatialRunResult& run) {
   const auto members = lining_members(run.tunnel);
-  return lining_table(
-      members, strength_by_member(members, rib_forces(run.tunnel),
-                                  lining_utilisations(input, supports_of(input), run.tunnel)));
+  return lining_table(members, strength_by_member(members, rib_forces(run.tunnel),
+                                                  lining_utilisations(input, run)));
 }
 
 std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
@@ -249,7 +247,7 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
            text("%.0f kN/m", 1e-3 * e.largest_thrust) +
            text(" (mean %.0f), ", 1e-3 * e.mean_thrust) +
            text("moment up to %.1f kN m/m\n", 1e-3 * e.largest_moment) +
-           lining_strength_line(input, lining_utilisations(input, supports_of(input), run.tunnel));
+           lining_strength_line(input, lining_strength_of(input, run));
   std::string names;
   for (const std::string& name : unchecked_supports(input))
     names += (names.empty() ? "" : ", ") + name;

@@ -171,6 +171,12 @@ void read_bolt_grip(Section& s, BoltsInput& bolts) {
                s.quantity("plate_strength", bolts.plate_strength, dimension::force,
                           between(0, force_range.high));
              });
+  read_where(
+      s,
+      is_grouted ? std::optional(bolts.plate_strength.value_or(0) > 0 || s.faulty("plate_strength"))
+                 : std::nullopt,
+      "plate_strength",
+      [&] { s.quantity("plate_width", bolts.plate_width, dimension::length, between(0.01, 2)); });
   read_where(s, is_grouted ? std::optional(*is_ended || slips) : std::nullopt,
              R"(bond_stiffness or type = "end-anchored")", [&] {
                s.quantity("E", bolts.young_modulus, dimension::pressure, bar_modulus_range,
@@ -278,6 +284,10 @@ void read_lining(Section& s, Input& input, LiningInput& lining) {
   if (!input.is_spatial()) note_unused(input, s, "rib_spacing");
   read_lined_arc(s, lining);
   s.optional_table("concrete", [&](Section& table) { read_concrete(table, lining); });
+  s.optional_table("ribs", [&](Section& table) { read_ribs(table, lining); });
+  if (lining.ribs && lining.age && lining.age->has_growing_modulus)
+    s.complain("ribs", "share forces with concrete whose E grows, which is not followed",
+               "concrete.E_grows = false, no concrete.age, or no table ribs");
   s.optional_table("feet", [&](Section& table) {
     FeetInput& feet = lining.feet.emplace();
     std::optional<double> width, friction;

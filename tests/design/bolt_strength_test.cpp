@@ -12,6 +12,7 @@
 namespace bolt_strength_test {
 namespace {
 
+using namespace voussoir;
 using namespace voussoir::design;
 using voussoir_test::near;
 
@@ -77,15 +78,19 @@ TEST_SUITE("design/bolt_strength") {
       held.plate_strength = 80e3;
       CHECK(bolt_limit(held, 4, position).strength == 80e3);
       CHECK(governed_by({2, 1, position, 40e3, bolt_limit(held, 4, position)}) == "bolt 3: plate");
+      // A plate of 15 cm on 10 cm of shotcrete that bears 72 kN: that, and no bond beside it.
+      CHECK(bolt_limit(held, 4, position, 72e3).strength == 72e3);
+      CHECK(bolt_limit(held, 4, position, 72e3).mode == BoltMode::punching);
+      CHECK(bolt_limit(held, 4, position, 90e3).mode == BoltMode::plate);
     }
     // Nothing but a plate says what it bears.
     bolts.yield_force.reset();
     bolts.rupture_force.reset();
-    CHECK(!has_strength(bolts));
+    CHECK(!is_checked(bolts));
     bolts.plate_strength = 80e3;
-    CHECK(has_strength(bolts));
+    CHECK(is_checked(bolts));
     bolts.type = BoltType::grouted;  // of which it is a part of the bond
-    CHECK(!has_strength(bolts));
+    CHECK(!is_checked(bolts));
   }
 
   TEST_CASE("without a bond the bar alone, without that nothing") {
@@ -119,6 +124,59 @@ TEST_SUITE("design/bolt_strength") {
     CHECK(governing(joints) == nullptr);
     CHECK(joints.front().value() == 0);
     CHECK(governing(std::vector<BoltUtilisation>()) == nullptr);
+  }
+
+  TEST_CASE("a plate on shotcrete bears no more than that bears of punching") {
+    BoltsInput bolts = grouted();
+    bolts.plate_strength = 80e3;
+    CHECK(bolt_limit(bolts, 4, 0.2, 100e3).strength == near(100e3));
+    CHECK(bolt_limit(bolts, 4, 0.2, 100e3).mode == BoltMode::plate);
+    CHECK(bolt_limit(bolts, 4, 0.2, 50e3).strength == near(70e3));
+    CHECK(bolt_limit(bolts, 4, 0.2, 50e3).mode == BoltMode::punching);
+    CHECK(bolt_limit(bolts, 4, 0.6, 50e3).mode == BoltMode::bond_at_head);  // 60 of 110 kN
+    CHECK(governed_by(BoltUtilisation{0, 1, 0.2, 60e3, bolt_limit(bolts, 4, 0.2, 50e3)}) ==
+          "bolt 1: punching of the shotcrete by its plate, and bond before its joint at 0.2 m");
+  }
+
+  TEST_CASE("which shotcrete is under a plate") {
+    AnalysisInput input;
+    input.bolts = {grouted()};
+    input.bolts[0].plate_width = 0.15;
+    input.linings.resize(1);
+    LiningInput& lining = input.linings[0];
+    lining.thickness = 0.1;
+    lining.concrete = ConcreteSection{.strength = 30e6};
+    lining.arc = ArcInput{0.5, 2.5};
+    input.stages = {{.name = "shotcrete", .linings = {0}}, {.name = "bolts", .bolts = {0}}};
+    const auto at = [&](double angle) { return punching_under(input, input.bolts[0], {}, angle); };
+    // 4 (0.15 + 0.10) x 0.10 x 1.081348 MPa / 1.5 = 72.09 kN; 5 cm: 4 x 0.20 x 0.05 x 0.7209.
+    CHECK(at(1.5) == near(72.0899e3).epsilon(1e-5));
+    CHECK(punching_under(input, input.bolts[0], 0.05, 1.5) == near(28.8360e3).epsilon(1e-5));
+    CHECK(std::isinf(punching_under(input, input.bolts[0], 0.0, 1.5)));  // left out
+    CHECK(std::isinf(at(3)));                                            // beside it
+    lining.age = ConcreteAge{.when_loaded = one_day};
+    CHECK(at(1.5) == near(0.5256316 * 72.0899e3).epsilon(1e-4));
+    lining.age.reset();
+    input.stages[0].behind = 1;  // sprayed behind the bolts
+    CHECK(std::isinf(at(1.5)));
+    input.stages[0].behind = 0;
+    std::swap(input.stages[0], input.stages[1]);
+    CHECK(std::isinf(at(1.5)));
+    input.stages = {{.name = "both", .bolts = {0}, .linings = {0}}};
+    CHECK(std::isfinite(at(1.5)));
+    lining.opening = 1;
+    CHECK(std::isinf(at(1.5)));
+    lining.opening = 0;
+    lining.concrete.reset();
+    CHECK(std::isinf(at(1.5)));
+    lining.concrete = ConcreteSection{.strength = 30e6};
+    input.bolts[0].plate_width.reset();
+    CHECK(std::isinf(at(1.5)));
+    // Heads are looked at about the centre of their opening.
+    CHECK(angle_of_head(input, input.bolts[0], Segment{{0, 3}, {0, 6}}) ==
+          near(0.5 * 3.14159265358979).epsilon(1e-12));
+    CHECK(angle_of_head(input, input.bolts[0], Segment{{-3, -3}, {-6, -6}}) ==
+          near(1.25 * 3.14159265358979).epsilon(1e-12));
   }
 }
 

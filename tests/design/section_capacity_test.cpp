@@ -12,6 +12,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/design/section_capacity.hpp>
 
+#include "support/concrete_sections.hpp"
 #include "support/near.hpp"
 
 namespace section_capacity_test {
@@ -20,10 +21,8 @@ namespace {
 using namespace voussoir;
 using namespace voussoir::design;
 using voussoir_test::near;
-
-ConcreteSection plain(double thickness, double strength) {
-  return {.thickness = thickness, .strength = strength};
-}
+using voussoir_test::plain;
+using voussoir_test::reinforced;
 
 /// EN 1992-1-1, 3.1.7, as a function of the strain, for up to 50 MPa [-].
 double parabola_rectangle(double strain) {
@@ -54,13 +53,6 @@ SectionForces by_strips(const ConcreteSection& s, double inner, double outer) {
     add(bars.area * (stress - f * parabola_rectangle(strain)), bars.depth);
   }
   return sum;
-}
-
-/// Two layers of mesh, not alike.
-ConcreteSection reinforced() {
-  ConcreteSection s = plain(0.25, 30e6);
-  s.bars = {{.area = 6e-4, .depth = 0.04}, {.area = 9e-4, .depth = 0.20}};
-  return s;
 }
 
 }  // namespace
@@ -140,6 +132,33 @@ TEST_SUITE("design/section_capacity") {
           CHECK(std::abs(found.moment - strips.moment) < 1e-6 * size * h);
         }
     }
+  }
+
+  TEST_CASE("printed values: a slab by another program, a column by IS 456") {
+    // 268.71 kN m of eurocodeapplied.com (uls-design-rectangular-section), quoted by the
+    // verification of XC, verif/tests/materials/ec2/test_ec2_interaction_diagram_03.py: 1 m x 60
+    // cm, C25, alpha_cc = 1, six bars of 16 mm at 74 mm and six of 4 mm at 68 mm from the other
+    // face, under a thrust of 0.64 kN.
+    ConcreteSection slab = plain(0.6, 25e6);
+    slab.long_term_factor = 1;
+    const auto bars = [](double diameter) {
+      return 6 * 3.14159265358979 / 4 * diameter * diameter;
+    };
+    slab.bars = {{.area = bars(0.016), .depth = 0.526}, {.area = bars(0.004), .depth = 0.068}};
+    CHECK(SectionCapacity(slab).utilisation({639.09, 268.71e3}).value == near(1).epsilon(1e-4));
+    // IS 456 has the same diagram with 0.446 f_ck and the same pivot at 3/7 of the height. Scilab's
+    // textbook companion 3683, example 18.5: with the neutral axis 1.3 D deep 0.409 f_ck D acts
+    // 0.468 D below the face; down to 1.0 D it is 0.36 f_ck x, 0.416 x below it.
+    const double h = 0.5;
+    const SectionCapacity column(plain(h, 20e6));
+    const double f = column.section().design_strength() / 0.446;
+    // The least strain is 0.3 / 1.3 of the largest.
+    const double most = 2e-3 / (1 - 3.0 / 7 / 1.3), other = most * 0.3 / 1.3;
+    const SectionForces deep = column.at(1, 0.5 * (1 - other / 2e-3)), full = column.at(1, 0.5);
+    CHECK(deep.thrust / (f * h) == near(0.409).epsilon(0.002));  // three digits
+    CHECK(0.5 - deep.moment / (deep.thrust * h) == near(0.468).epsilon(0.001));
+    CHECK(full.thrust / (f * h) == near(0.361).epsilon(0.002));
+    CHECK(0.5 - full.moment / (full.thrust * h) == near(0.416).epsilon(0.001));
   }
 
   TEST_CASE("high strengths have their own diagram, table 3.1") {

@@ -9,6 +9,7 @@
 #include <voussoir/core/random.hpp>
 #include <voussoir/design/section_check.hpp>
 
+#include "support/concrete_sections.hpp"
 #include "support/near.hpp"
 
 namespace section_check_test {
@@ -17,18 +18,12 @@ namespace {
 using namespace voussoir;
 using namespace voussoir::design;
 using voussoir_test::near;
+using voussoir_test::plain;
+using voussoir_test::reinforced;
 
-ConcreteSection plain(double thickness, double strength) {
-  return {.thickness = thickness, .strength = strength};
-}
 ConcreteSection elastic(double thickness, double strength) {
   ConcreteSection s = plain(thickness, strength);
   s.method = SectionMethod::elastic;
-  return s;
-}
-ConcreteSection reinforced() {
-  ConcreteSection s = plain(0.25, 30e6);
-  s.bars = {{.area = 6e-4, .depth = 0.04}, {.area = 9e-4, .depth = 0.20}};
   return s;
 }
 

@@ -89,7 +89,7 @@ TEST_SUITE("design/shotcrete_blocks") {
       CHECK(found.mode() == row.mode);
     }
     // 4 x (0.15 + 0.1) m of 72.09 kN/m.
-    CHECK(punching_resistance(layer(), 0.15) == near(72.0899e3).epsilon(1e-5));
+    CHECK(punching_resistance(layer().section, 0.15) == near(72.0899e3).epsilon(1e-5));
   }
 
   TEST_CASE("a block takes the lining over it, if its adhesion is given") {

@@ -65,6 +65,10 @@ TEST_SUITE("design/support_costs") {
     CHECK(cost_of(costs, q) ==
           near(12 * q.bolt_length + 30 * q.holes + 350 * q.concrete / 0.8 + 1.5 * q.steel)
               .epsilon(1e-12));
+    AnalysisInput ribbed = input;
+    ribbed.linings[0].ribs = SteelRibs{.area = 34e-4, .spacing = 1.25};
+    CHECK(support_quantities(ribbed, {input.bolts[0].spacing, 0.2}).steel - q.steel ==
+          near(7850 * 34e-4 / 1.25 * 2 * pi * 4.9).epsilon(1e-5));
     // What is left out costs nothing, and what no stage installs neither.
     const SupportQuantities none = support_quantities(input, {std::nullopt, 0});
     CHECK(cost_of(costs, none) == 0);

@@ -80,6 +80,7 @@ law = "axial-shear"
 shear_stiffness = "0.2 GN/m"
 bond_strength = "300 kN/m"
 plate_strength = "100 kN"
+plate_width = "20 cm"
 [support.lining]
 thickness = "20 cm"
 E = "25 GPa"
@@ -88,6 +89,10 @@ arc = ["0 deg", "180 deg"]
 feet = { stiffness = "2 GPa/m", beam = { depth = "30 cm", E = "30 GPa", spacing = "1 m" } }
 concrete = { fck = "30 MPa", adhesion = "0.5 MPa" }
 )";
+const std::string ribs =
+    "ribs = { area = \"34 cm^2\", I = \"864 cm^4\", W = \"144 cm^3\", spacing = \"1 m\", "
+    "yield = \"235 MPa\" }\n";
+const std::string age = "concrete = { fck = \"30 MPa\", age = \"7 d\", age_law = ";
 
 /// Bolts by their bar.
 const std::string spring =
@@ -117,7 +122,7 @@ std::vector<Base> bases() {
        "[costs]\nbolt_per_metre = 20\nconcrete_per_m3 = 400\n"},
       {ground + joints + horseshoe + replaced(supports, spring, cable)},
       {ground + joints + horseshoe + replaced(supports, spring, end_anchored)},
-      {ground + joints + horseshoe + supports +
+      {ground + joints + horseshoe + supports + ribs +
        "[[stage]]\nwall_traction = 0.5\n"
        "[[stage]]\nwall_traction = 0\n"},
       {replaced(ground, "width = \"40 m\"", "dimension = 3\nwidth = \"40 m\"") +
@@ -148,6 +153,11 @@ std::vector<Base> bases() {
       {replaced(ground, "width = \"40 m\"", "width = \"60 m\"") + joints + horseshoe +
        "[[opening]]\nshape = \"horseshoe\"\nwidth = \"4 m\"\nwall_height = \"2 m\"\n"
        "at = [\"18 m\", \"0 m\"]\n[[round]]\n[[round]]\nopening = \"opening 1\"\n"},
+      {ground + joints + horseshoe +
+       replaced(supports, "concrete = { fck = \"30 MPa\",", age + "\"en1992\",")},
+      {ground + joints + horseshoe +
+       replaced(supports, "concrete = { fck = \"30 MPa\",",
+                age + "\"tested\", tests = [{ age = \"1 d\", fck = \"12 MPa\" }],")},
       {read_file(examples + "/survey/tunnel.toml"), examples + "/survey"},
       {replaced(read_file(examples + "/survey/tunnel.toml"), "orientations = \"joints.csv\"",
                 "orientations = \"joints.csv\"\nfile = \"faces.dxf\""),

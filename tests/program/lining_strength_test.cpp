@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 #include <vector>
+#include <voussoir/design/composite_support.hpp>
 #include <voussoir/design/section_check.hpp>
 
 #include "run_results.hpp"
@@ -127,6 +128,118 @@ TEST_SUITE("program/lining_strength") {
     CHECK(deep.outcome.out.find("m along: ") != std::string::npos);
   }
 
+  TEST_CASE("young concrete has the strength and the modulus of its age") {
+    // Chang and Stille, a day old: 0.5256316 of the strength, 0.6798752 of the modulus.
+    const Results young = results_of(tunnel(plain + "age = \"1 d\"\n")),
+                  soft = results_of(
+                      replaced(tunnel("[support.lining.concrete]\nfck = \"13.14079 MPa\"\nfctk = "
+                                      "\"0.943784 MPa\"\n"),
+                               "E = \"25 GPa\"", "E = \"16.99688 GPa\"")),
+                  constant = results_of(tunnel(plain + "age = \"1 d\"\nE_grows = false\n")),
+                  old = results_of(tunnel(plain));
+    const auto& lining = young.json.at("lining");
+    // fctk: 0.5256316 x 0.7 x 0.3 x 25^(2/3).
+    CHECK(std::abs(lining.at("of_its_strength").get<double>() /
+                       soft.json.at("lining").at("of_its_strength").get<double>() -
+                   1) < 1e-5);
+    CHECK(std::abs(lining.at("largest_thrust_kN_per_m").get<double>() /
+                       soft.json.at("lining").at("largest_thrust_kN_per_m").get<double>() -
+                   1) < 1e-5);
+    CHECK(lining.at("governing").at("age_d") == 1);
+    CHECK(lining.at("by_stage").size() == 1);
+    CHECK(constant.json.at("lining").at("largest_thrust_kN_per_m") ==
+          old.json.at("lining").at("largest_thrust_kN_per_m"));
+    CHECK(constant.json.at("lining").at("of_its_strength").get<double>() >
+          1.2 * old.json.at("lining").at("of_its_strength").get<double>());
+    CHECK(!old.json.at("lining").contains("by_stage"));
+    CHECK(young.outcome.out.find("1 d old, at the ") != std::string::npos);
+    CHECK(young.files.at("lining_strength.svg").find("Concrete as old as") != std::string::npos);
+  }
+
+  TEST_CASE("a lining grows older and stiffer from stage to stage, and the worst stage counts") {
+    const auto staged = [](const std::string& concrete, const std::string& modulus,
+                           const std::string& dimension = "") {
+      return results_of(
+          replaced(tunnel(concrete, dimension), "E = \"25 GPa\"", "E = \"" + modulus + "\"") +
+          "[[stage]]\nname = \"half\"\nwall_traction = 0.5\nduration = \"2 d\"\n"
+          "install = [\"lining\"]\n"
+          "[[stage]]\nname = \"rest\"\nwall_traction = 0.49\nduration = \"25 d\"\n"
+          "[[stage]]\nname = \"end\"\nwall_traction = 0\n");
+    };
+    for (const std::string& dimension : {std::string(), spatial}) {
+      const Results aged = staged(plain + "age = \"1 d\"\n", "25 GPa", dimension);
+      const auto& stages = aged.json.at("lining").at("by_stage");
+      REQUIRE(stages.size() == 3);
+      CHECK(stages[0].at("age_d") == 1);
+      CHECK(stages[1].at("age_d") == 3);
+      CHECK(stages[2].at("age_d") == 28);
+      double most = 0;
+      for (const auto& stage : stages)
+        most = std::max(most, stage.at("of_its_strength").get<double>());
+      CHECK(aged.json.at("lining").at("of_its_strength") == most);
+      // The first stage is that of a lining that stays so soft; the end lies between that and one
+      // that has been stiff from the beginning.
+      const Results soft = staged(plain + "age = \"1 d\"\nE_grows = false\n", "16.99688 GPa",
+                                  dimension),
+                    stiff = staged(plain + "age = \"1 d\"\nE_grows = false\n", "25 GPa", dimension);
+      CHECK(std::abs(
+                stages[0].at("of_its_strength").get<double>() /
+                    soft.json.at("lining").at("by_stage")[0].at("of_its_strength").get<double>() -
+                1) < 1e-5);
+      const auto thrust = [](const Results& run) {
+        return run.json.at("lining").at("mean_thrust_kN_per_m").get<double>();
+      };
+      CHECK(thrust(aged) > thrust(soft) * 1.005);
+      CHECK(thrust(aged) < thrust(stiff) * 0.995);
+    }
+    // Without an age a stage has no use for its duration.
+    const Folder folder;
+    const Outcome refused = run_program(
+        {"check", write_file(folder / "case.toml",
+                             tunnel(plain) + "[[stage]]\nwall_traction = 0.5\nduration = \"2 d\"\n"
+                                             "[[stage]]\nwall_traction = 0\n")});
+    CHECK(refused.err.find("concrete that ages, and none does") != std::string::npos);
+  }
+
+  TEST_CASE("steel ribs have their part of thrust and moment, and can govern") {
+    const auto with = [](const std::string& yield) {
+      return plain +
+             "[support.lining.ribs]\narea = \"34 cm^2\"\nI = \"864 cm^4\"\nW = \"144 cm^3\"\n"
+             "spacing = \"1 m\"\nyield = \"" +
+             yield + "\"\n";
+    };
+    const voussoir::design::SteelRibs ribs{.area = 34e-4,
+                                           .second_moment = 864e-8,
+                                           .section_modulus = 144e-6,
+                                           .spacing = 1,
+                                           .yield_strength = 100e6};
+    for (const std::string& dimension : {std::string(), spatial}) {
+      const auto weak = results_of(tunnel(with("100 MPa"), dimension)).json.at("lining"),
+                 strong = results_of(tunnel(with("460 MPa"), dimension)).json.at("lining");
+      CHECK(weak.at("governing").at("mode") == "rib: yield");
+      const std::string mode = strong.at("governing").at("mode");
+      CHECK(mode.find("shotcrete: ") == 0);
+      CHECK(weak.at("largest_thrust_kN_per_m") == strong.at("largest_thrust_kN_per_m"));
+      // The node that governs, again.
+      const auto& at = weak.at("governing");
+      const auto shared =
+          voussoir::design::shared_forces(ribs, 25e9, thickness,
+                                          {1e3 * at.at("thrust_kN_per_m").get<double>(),
+                                           1e3 * at.at("moment_kNm_per_m").get<double>()},
+                                          1);
+      CHECK(std::abs(at.at("rib_thrust_kN").get<double>() / (1e-3 * shared.on_rib.thrust) - 1) <
+            1e-6);
+      CHECK(std::abs(voussoir::design::rib_utilisation(ribs, shared.on_rib).value /
+                         weak.at("of_its_strength").get<double>() -
+                     1) < 1e-6);
+    }
+    // They stiffen the lining, which then takes more.
+    const auto bare = results_of(tunnel(plain)).json.at("lining"),
+               both = results_of(tunnel(with("235 MPa"))).json.at("lining");
+    CHECK(both.at("mean_thrust_kN_per_m").get<double>() >
+          1.01 * bare.at("mean_thrust_kN_per_m").get<double>());
+  }
+
   TEST_CASE("stronger concrete, bars and fibres leave less; forces stay as they are") {
     const auto share = [](const std::string& concrete) {
       return results_of(tunnel(concrete)).json.at("lining");
@@ -206,6 +319,25 @@ TEST_SUITE("program/lining_strength") {
       for (const std::string& part : parts) CHECK(outcome.err.find(part) != std::string::npos);
     };
     refused("[support.lining.concrete]\n", {"support.lining.concrete", "fck"});
+    refused(plain + "age_law = \"en1992\"\n", {"age_law", "age"});
+    refused(plain + "age = \"2 d\"\nage_law = \"en1992\"\n", {"age", "younger", "3 d"});
+    refused(plain + "age = \"2 h\"\n", {"age", "leaves", "1 MPa"});
+    refused(plain + "age = \"2 d\"\nage_law = \"tested\"\n", {"age_law", "tests"});
+    refused(plain + "age = \"2 d\"\ntests = [{ age = \"1 d\", fck = \"9 MPa\" }]\n", {"tested"});
+    refused(plain +
+                "age = \"2 d\"\nage_law = \"tested\"\ntests = [{ age = \"1 d\", fck = \"9 MPa\" "
+                "}, { age = \"1 d\", fck = \"8 MPa\" }]\n",
+            {"tests[1].age", "rising", "tests[1].fck"});
+    refused(plain +
+                "age = \"2 d\"\nage_law = \"tested\"\ntests = [{ age = \"3 d\", fck = \"9 MPa\" "
+                "}]\n",
+            {"younger than tested", "3 d"});
+    const std::string ribs =
+        "[support.lining.ribs]\narea = \"34 cm^2\"\nI = \"864 cm^4\"\nspacing = \"1 m\"\nyield = "
+        "\"235 MPa\"\n";
+    refused(plain + ribs, {"support.lining.ribs", "W"});
+    refused(plain + ribs + "W = \"10 cm^3\"\n", {"W", "1.728 m"});
+    refused(plain + "age = \"2 d\"\n" + ribs + "W = \"144 cm^3\"\n", {"E_grows"});
     refused("[support.lining.concrete]\nfck = 25\n", {"fck", "unit"});
     refused("[support.lining.concrete]\nfck = \"250 MPa\"\n", {"fck", "90 MPa"});
     refused(replaced(mesh, "depth = \"11 cm\"", "depth = \"16 cm\""),

@@ -165,6 +165,42 @@ TEST_SUITE("program/strength") {
     CHECK(says(refused.err, "bond_strength"));
   }
 
+  TEST_CASE("a plate on shotcrete bears no more than that does before it is punched") {
+    const Folder folder;
+    const std::string file = write_file(folder / "case.toml", InputText{}.text());
+    // 8 cm; f_ctk = 0.7 x 0.3 MPa of 1 MPa; 4 (c + t) t f_ctd / 1.5 = 6.69 kN.
+    const double punching = 4 * 0.28 * 0.08 * (0.21e6 * 0.8 / 1.5) / 1.5, bond = 10e3;
+    const std::vector<std::string> sets{
+        "support.bolts.bond_strength=10 kN/m", "support.bolts.plate_strength=40 kN",
+        "support.bolts.rupture_force=60 MN", "support.lining.concrete={fck=\"1 MPa\"}"};
+    std::vector<std::string> with_width = sets;
+    with_width.emplace_back("support.bolts.plate_width=20 cm");
+    const Run wide = run(folder, file, sets, "wide"), held = run(folder, file, with_width, "held");
+    const std::string table = read_file(held.folder + "/bolts.csv"),
+                      before = read_file(wide.folder + "/bolts.csv");
+    const auto rows = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n'));
+    REQUIRE(rows > 2);
+    std::size_t punched = 0;
+    for (std::size_t row = 1; row < rows; ++row) {
+      CHECK(cell(table, row, "axial_force_kN") == cell(before, row, "axial_force_kN"));
+      const double at = std::stod(cell(table, row, "distance_from_head_m")), length = 2;
+      CHECK(std::stod(cell(table, row, "strength_kN")) ==
+            near(1e-3 * std::min(bond * (length - at), bond * at + punching)).epsilon(1e-6));
+      CHECK(std::stod(cell(before, row, "strength_kN")) ==
+            near(1e-3 * std::min(bond * (length - at), bond * at + 40e3)).epsilon(1e-6));
+      if (cell(table, row, "mode") == "punching") {
+        CHECK(bond * at < punching);
+        ++punched;
+      }
+    }
+    CHECK(punched > 0);
+    const Outcome refused =
+        run_program({"check", file, "--set", "support.bolts.bond_strength=50 kN/m", "--set",
+                     "support.bolts.plate_width=20 cm"});
+    CHECK(refused.status == 2);
+    CHECK(says(refused.err, "plate_strength"));
+  }
+
   TEST_CASE("bolts that have yielded and feet at their strength are in every table and verdict") {
     const Folder folder;
     const std::string file = write_file(folder / "case.toml", unchecked());

@@ -2,7 +2,10 @@
 // A lining in jointed rock that does not slip, against the closed form of a ring in elastic ground.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <voussoir/contact/rock_on_lining.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/theory/lining_in_ground.hpp>
@@ -57,6 +60,52 @@ TEST_SUITE("tunnel/ring_in_ground") {
       CHECK(std::abs(thrust - exact.thrust_amplitude) < 0.03 * exact.thrust);
       CHECK(moment / exact.moment_amplitude == voussoir_test::near(1).epsilon(0.03));
     }
+  }
+
+  // In rock that does not slip the second half of the unloading does to a ring of modulus E2 what
+  // it does to one that has had E2 from the beginning; the first half is that of E1.
+  TEST_CASE("a ring that ages carries N1(E1) + N2(E2)") {
+    constexpr double young = 2e9, radius = 5, box = 3 * radius, side = radius / 4;
+    const auto ring = [&](double first, double second) {
+      Solver<Planar, MohrCoulombJoint, RockOnLining<MohrCoulombJoint>> tunnel(
+          squares({{-box, -box}, {box, box}}, side, 20 * degree), glued(young / side, young / side),
+          {.density = 1, .k0 = 0.5, .surcharge = 1e6}, {}, ground_of_squares(young));
+      tunnel.excavate(circular_opening(2 * radius, 360), 1e-9);
+      tunnel.install_lining(lining_frame(tunnel.mass(), {.nodes = 120}),
+                            LiningSection::rectangular(0.3, first), glued(1e10, 1e9));
+      const Acceptance exact{.error_estimate = 1e-8, .unbalance_over_weight = 1e9};
+      (void)tunnel.equilibrium(0.5, {}, exact);
+      const auto before = lining_forces(tunnel);
+      if (second != first) {
+        tunnel.stiffen_lining(0, second / first);
+        const auto after = lining_forces(tunnel);
+        for (std::size_t k = 0; k < after.size(); ++k) {  // nothing has moved
+          CHECK(std::abs(after[k].thrust - before[k].thrust) < 1e-9 * std::abs(before[k].thrust));
+          CHECK(std::abs(after[k].moment - before[k].moment) < 1e-9 * std::abs(before[k].thrust));
+        }
+      }
+      REQUIRE(tunnel.equilibrium(0, {}, exact).verdict == Verdict::stable);
+      return std::pair(before, lining_forces(tunnel));
+    };
+    const auto [young_first, young_end] = ring(5e9, 5e9);
+    const auto [old_first, old_end] = ring(20e9, 20e9);
+    const auto [aged_first, aged_end] = ring(5e9, 20e9);
+    REQUIRE(aged_end.size() == old_end.size());
+    double largest = 0;
+    for (const LiningForce& at : old_end) largest = std::max(largest, at.thrust);
+    for (std::size_t k = 0; k < aged_end.size(); ++k) {
+      const double thrust = young_first[k].thrust + old_end[k].thrust - old_first[k].thrust,
+                   moment = young_first[k].moment + old_end[k].moment - old_first[k].moment;
+      CHECK(aged_first[k].thrust == young_first[k].thrust);
+      // The equilibrium that was asked for, a hundred times over.
+      CHECK(std::abs(aged_end[k].thrust - thrust) < 1e-6 * largest);
+      CHECK(std::abs(aged_end[k].moment - moment) < 1e-6 * largest);
+    }
+    CHECK(std::abs(aged_end[0].thrust - young_end[0].thrust) > 0.05 * largest);
+    Solver<Planar, MohrCoulombJoint, RockOnLining<MohrCoulombJoint>> bare(
+        squares({{-box, -box}, {box, box}}, 5 * side, 0), glued(young, young), {.density = 1});
+    CHECK_THROWS_WITH_AS(bare.stiffen_lining(0, 2), doctest::Contains("lining 0"), InvalidInput);
+    CHECK_THROWS_WITH_AS(bare.stiffen_lining(0, 0), doctest::Contains("factor"), InvalidInput);
   }
 }
 

@@ -26,6 +26,8 @@ inline constexpr Dimension length{0, 1, 0, 0};                ///< m
 inline constexpr Dimension time{0, 0, 1, 0};                  ///< s
 inline constexpr Dimension angle{0, 0, 0, 1};                 ///< rad
 inline constexpr Dimension area{0, 2, 0, 0};                  ///< m^2
+inline constexpr Dimension section_modulus{0, 3, 0, 0};       ///< of a steel section, m^3
+inline constexpr Dimension second_moment{0, 4, 0, 0};         ///< of a steel section, m^4
 inline constexpr Dimension intensity{0, -2, 0, 0};            ///< joint centres per area, 1/m^2
 inline constexpr Dimension area_per_volume{0, -1, 0, 0};      ///< P32 of joints, m^2/m^3
 inline constexpr Dimension number_per_volume{0, -3, 0, 0};    ///< P30 of joints, 1/m^3
@@ -50,13 +52,15 @@ struct DimensionWords {
   std::array<std::string_view, 4> echo;
 };
 
-inline constexpr std::array<DimensionWords, 18> dimension_words{{
+inline constexpr std::array<DimensionWords, 20> dimension_words{{
     {dimension::number, "a fraction", R"("40 %" or "2.5 %")", {"%"}},
     {dimension::mass, "a mass", R"("250 kg" or "1.2 t")", {"kg", "t"}},
     {dimension::length, "a length", R"("4 m", "10 cm" or "28 mm")", {"mm", "m"}},
     {dimension::time, "a time", R"("0.5 s", "30 d" or "2 a")", {"ms", "s", "h", "d"}},
     {dimension::angle, "an angle", R"("35 deg" or "0.6 rad")", {"deg"}},
     {dimension::area, "an area", R"("0.074 m^2" or "740 cm^2")", {"m^2"}},
+    {dimension::section_modulus, "a section modulus", R"("144 cm^3" or "1.44e-4 m^3")", {"cm^3"}},
+    {dimension::second_moment, "a second moment", R"("864 cm^4" or "8.64e-6 m^4")", {"cm^4"}},
     {dimension::intensity, "a number per area", R"("1 /m^2" or "0.5 1/m^2")", {"/m^2"}},
     {dimension::number_per_volume, "a number per volume", R"("0.1 /m^3")", {"/m^3"}},
     {dimension::velocity, "a velocity", R"("0.1 m/s" or "5 mm/s")", {"mm/s", "m/s"}},

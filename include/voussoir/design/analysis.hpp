@@ -48,6 +48,8 @@ struct TunnelRun {
   ConstructionResult<Geometry> built = {};
   double in_situ_out_of_balance =
       0;  ///< of the worst block over its weight, before the excavation [-]
+  /// Of linings whose concrete ages, after every stage; else empty.
+  std::vector<StageUtilisation> lining_history = {};
 
   [[nodiscard]] const EquilibriumReport& last() const { return built.last(); }
   /// In words: `to_string(verdict(), fallen_measure(), built.has_lost_lining())`.
@@ -58,6 +60,11 @@ struct TunnelRun {
   /// At the end [m]; in 3-D of the whole length.
   [[nodiscard]] const Convergence& convergence() const { return built.stages.back().convergence; }
 };
+
+/// What its linings carry of what they can, at the end of it.
+template <class Geometry>
+[[nodiscard]] std::vector<NodeUtilisation> lining_utilisations(const AnalysisInput& input,
+                                                               const TunnelRun<Geometry>& run);
 
 /// @param rock        consumed
 /// @param wants_bias  see `bounded_tunnel`
@@ -78,6 +85,12 @@ struct TunnelRun {
 
 /// The supports of the input itself.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE SupportChoice supports_of(const AnalysisInput& input);
+
+template <class Geometry>
+std::vector<NodeUtilisation> lining_utilisations(const AnalysisInput& input,
+                                                 const TunnelRun<Geometry>& run) {
+  return lining_utilisations(input, supports_of(input), run.tunnel, run.built.stages.size());
+}
 
 /// All stages of an input, in rock that is ready.
 /// @param rock      of a section
@@ -250,10 +263,11 @@ VOUSSOIR_DESIGN_INLINE TunnelRun<Planar> run_tunnel(const AnalysisInput& input, 
                                                     const StageProgress& report,
                                                     const StageObserver<Tunnel>& observer) {
   auto run = detail::run_of<Planar>(std::move(rock));
-  run.built = construct(run.tunnel,
-                        construction_of(input, run.tunnel, !input.has_rounds, supports_of(input),
-                                        detail::linear_of_this_computer(), RangeSought::all),
-                        report, observer);
+  run.built =
+      construct(run.tunnel,
+                construction_of(input, run.tunnel, !input.has_rounds, supports_of(input),
+                                detail::linear_of_this_computer(), RangeSought::all),
+                report, observing_age(input, supports_of(input), run.lining_history, observer));
   if (run.last().stopped) throw Stopped();  // nobody reads what could be told
   return run;
 }
@@ -262,10 +276,11 @@ VOUSSOIR_DESIGN_INLINE TunnelRun<Spatial> run_spatial_tunnel(
     const AnalysisInput& input, ExcavatedRock rock, const StageProgress& report,
     const StageObserver<SpatialTunnel>& observer) {
   auto run = detail::run_of<Spatial>(std::move(rock));
-  run.built = construct(run.tunnel,
-                        construction_of(input, supports_of(input),
-                                        detail::linear_of_this_computer(), RangeSought::all),
-                        report, observer);
+  run.built =
+      construct(run.tunnel,
+                construction_of(input, supports_of(input), detail::linear_of_this_computer(),
+                                RangeSought::all),
+                report, observing_age(input, supports_of(input), run.lining_history, observer));
   if (run.last().stopped) throw Stopped();
   return run;
 }
@@ -340,9 +355,11 @@ VOUSSOIR_DESIGN_INLINE std::string TunnelResult::word() const {
 namespace detail {
 
 /// The numbers of a tunnel that has been built.
+/// @param begun  see `lining_utilisations`
 template <class Solver>
 void describe(const AnalysisInput& input, const SupportChoice& supports, const Solver& tunnel,
-              const ConstructionResult<typename Solver::Geometry>& built, TunnelResult& result) {
+              const ConstructionResult<typename Solver::Geometry>& built, std::size_t begun,
+              const std::vector<StageUtilisation>& lining_history, TunnelResult& result) {
   result.verdict = built.verdict();
   result.lost_lining = built.has_lost_lining();
   result.fallen = built.fallen_measure();
@@ -362,12 +379,16 @@ void describe(const AnalysisInput& input, const SupportChoice& supports, const S
   result.bolts_yielded = condition.yielded;
   result.bolts_ruptured = condition.ruptured;
   result.feet_yielded = static_cast<int>(condition.yielded_feet.size());
-  if (const auto part = most_of_bolt_strength(input, tunnel)) result.of_bolt_strength = *part;
-  const std::vector<BoltUtilisation> joints = bolt_utilisations(input, tunnel);
+  if (const auto part = most_of_bolt_strength(input, tunnel, supports.thickness))
+    result.of_bolt_strength = *part;
+  const std::vector<BoltUtilisation> joints = bolt_utilisations(input, tunnel, supports.thickness);
   if (const BoltUtilisation* const most = governing(joints))
     result.bolts_governed_by = governed_by(*most);
-  const std::vector<NodeUtilisation> nodes = lining_utilisations(input, supports, tunnel);
-  if (const NodeUtilisation* const most = governing(nodes)) {
+  const std::vector<NodeUtilisation> nodes = lining_utilisations(input, supports, tunnel, begun);
+  if (const StageUtilisation* const stage = governing(lining_history)) {
+    result.of_lining_strength = stage->most.use.value;
+    result.lining_governed_by = stage->stage + ": " + governed_by(stage->most);
+  } else if (const NodeUtilisation* const most = governing(nodes)) {
     result.of_lining_strength = most->use.value;
     result.lining_governed_by = governed_by(*most);
   }
@@ -385,9 +406,12 @@ VOUSSOIR_DESIGN_INLINE TunnelResult supported_tunnel(const AnalysisInput& input,
   std::visit([&](const auto& tunnel) { result.blocks = tunnel.mass().bodies.size(); }, rock.tunnel);
   result.boundary = input.is_spatial() ? spatial_boundary_text : boundary_text(rock.boundary);
   const auto compute = [&](auto tunnel, const auto& construction) {
-    const auto built = construct(tunnel, construction, report);
+    using Solver = std::decay_t<decltype(tunnel)>;
+    std::vector<StageUtilisation> lining_history;
+    const auto built = construct(tunnel, construction, report,
+                                 observing_age<Solver>(input, supports, lining_history));
     if (built.last().stopped) throw Stopped();
-    detail::describe(input, supports, tunnel, built, result);
+    detail::describe(input, supports, tunnel, built, built.stages.size(), lining_history, result);
   };
   const LinearSettings linear{.memory_limit = detail::memory_of_a_case};
   try {

@@ -14,6 +14,7 @@
 #include <voussoir/design/bodies.hpp>
 #include <voussoir/design/models.hpp>
 #include <voussoir/design/openings.hpp>
+#include <voussoir/design/planned_stages.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/construction.hpp>
@@ -21,12 +22,6 @@
 /// From the input of an analysis to the construction of its tunnel, in 2-D and 3-D: what is
 /// excavated and what is installed, in which order.
 namespace voussoir::design {
-
-/// The supports of one tunnel among many in the same rock.
-struct SupportChoice {
-  std::optional<BoltSpacing> spacing;  ///< none: no bolts
-  double thickness = 0;                ///< of the lining [m]; 0: no lining
-};
 
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE Acceptance acceptance_of(const AnalysisInput& input,
                                                               const SimplePolygon& opening);
@@ -54,14 +49,6 @@ struct SupportChoice {
 /// In 3-D: as many as facets; none where they are chosen for a bond.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::optional<int> rib_nodes(const AnalysisInput& input,
                                                                   const LiningInput& lining);
-/// Linings in the order in which they are installed, in rounds along the tunnel once for every
-/// stretch: the number of a lining in forces and tables.
-[[nodiscard]] VOUSSOIR_DESIGN_INLINE std::vector<const LiningInput*> linings_as_installed(
-    const AnalysisInput& input, const SupportChoice& supports);
-/// That of the input, or for the first lining what is chosen; 0: it is left out [m].
-[[nodiscard]] VOUSSOIR_DESIGN_INLINE double thickness_of(const AnalysisInput& input,
-                                                         const LiningInput& lining,
-                                                         const SupportChoice& supports);
 /// The part of a lining around the section, and the feet that it stands on.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE LiningRing ring_of(const LiningInput& lining,
                                                         std::optional<int> nodes);
@@ -102,14 +89,6 @@ VOUSSOIR_DESIGN_INLINE BoltPattern pattern_of(const BoltsInput& bolts, const Bol
 }
 
 namespace detail {
-
-/// The stretch of its opening in which a stage works when the tunnel's face has advanced so often.
-VOUSSOIR_DESIGN_INLINE std::optional<int> stretch_at(const AnalysisInput& input,
-                                                     const StageInput& stage, int face) {
-  const int k = face - stage.behind;
-  if (k < 0 || k >= drive_of(input, stage.opening).count) return std::nullopt;
-  return k;
-}
 
 /// About the centre of the opening.
 VOUSSOIR_DESIGN_INLINE std::vector<Segment> local_bars(const AnalysisInput& input,
@@ -225,29 +204,29 @@ VOUSSOIR_DESIGN_INLINE std::vector<const BoltsInput*> patterns_of_bars(
   });
 }
 
-VOUSSOIR_DESIGN_INLINE double thickness_of(const AnalysisInput& input, const LiningInput& lining,
-                                           const SupportChoice& supports) {
-  return &lining == &input.linings.front() ? supports.thickness : lining.thickness;
+namespace detail {
+
+/// Linings of which concrete ages grow stiffer from stage to stage.
+template <class Solver>
+void age_linings(const AnalysisInput& input, const SupportChoice& supports,
+                 Construction<Solver>& construction) {
+  construction.ages = std::any_of(input.linings.begin(), input.linings.end(),
+                                  [](const LiningInput& lining) { return lining.age.has_value(); });
+  if (!construction.ages) return;
+  const std::vector<PlannedStage> stages = planned_stages(input, supports);
+  const std::vector<const LiningInput*> linings = linings_as_installed(input, supports);
+  VOUSSOIR_ASSERT(stages.size() == construction.stages.size(), "what is planned is built");
+  for (std::size_t k = 1; k < stages.size(); ++k) {
+    const std::vector<double> before = lining_ages(stages, k - 1), now = lining_ages(stages, k);
+    for (std::size_t n = 0; n < before.size(); ++n) {
+      if (!linings[n]->age) continue;
+      const double factor = linings[n]->modulus_at(now[n]) / linings[n]->modulus_at(before[n]);
+      if (factor != 1) construction.stages[k].stiffened.push_back({static_cast<int>(n), factor});
+    }
+  }
 }
 
-VOUSSOIR_DESIGN_INLINE std::vector<const LiningInput*> linings_as_installed(
-    const AnalysisInput& input, const SupportChoice& supports) {
-  std::vector<const LiningInput*> installed;
-  const auto install = [&](const StageInput& stage) {
-    for (const std::size_t k : stage.linings)
-      if (thickness_of(input, input.linings[k], supports) > 0)
-        installed.push_back(&input.linings[k]);
-  };
-  if (!input.is_spatial() || !input.tunnel.round_length) {
-    for (const StageInput& stage : input.stages)
-      if (is_modelled(input, stage.opening)) install(stage);
-    return installed;
-  }
-  for (int face = 0; face < advance_count(input); ++face)
-    for (const StageInput& stage : input.stages)
-      if (detail::stretch_at(input, stage, face)) install(stage);
-  return installed;
-}
+}  // namespace detail
 
 VOUSSOIR_DESIGN_INLINE int lining_nodes(const AnalysisInput& input, const LiningInput& lining,
                                         const RockMass<Planar>& mass, double thickness) {
@@ -334,6 +313,7 @@ VOUSSOIR_DESIGN_INLINE Construction<Tunnel> construction_of(const AnalysisInput&
       made.install_lining(std::move(lining));
     }
   }
+  detail::age_linings(input, supports, construction);
   return construction;
 }
 
@@ -386,7 +366,7 @@ class StretchWork {
                                             .spacing = width,
                                             .from = from,
                                             .to = to},
-                                           {strip_of(lining, thickness, width)},
+                                           {rib_strip_of(lining, thickness, width)},
                                            interface_of(lining)};
     const SimplePolygon& section = whole.section();
     const int nodes = made.layout.ring.nodes.value_or(
@@ -423,6 +403,7 @@ VOUSSOIR_DESIGN_INLINE Construction<SpatialTunnel> construction_of(const Analysi
       stage.duration = entry.duration;
       work.add(entry, 0, stage);
     }
+    detail::age_linings(input, supports, construction);
     return construction;
   }
   const int rounds = input.round_count();
@@ -437,6 +418,7 @@ VOUSSOIR_DESIGN_INLINE Construction<SpatialTunnel> construction_of(const Analysi
         stage.duration = std::max(stage.duration, entry.duration);  // they work side by side
       }
   }
+  detail::age_linings(input, supports, construction);
   return construction;
 }
 

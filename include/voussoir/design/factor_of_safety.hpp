@@ -206,7 +206,7 @@ class SafetySearch {
     if (settings_.with_supports) weaker = with_weaker_supports(std::move(weaker), factor);
     Solver tunnel = in_situ_(weaker);
     auto construction = construction_in(weaker, tunnel);
-    return carried_out(weaker, factor, std::move(tunnel), construction);
+    return carried_out(weaker, factor, std::move(tunnel), construction, 0);
   }
 
   /// The tunnel that stands under a smaller factor, after one more stage.
@@ -217,7 +217,8 @@ class SafetySearch {
     construction.stages.clear();
     construction.add_stage(message({"strength over ", factor}),
                            safety_.standing->built.stages.back().wall_traction);
-    return carried_out(input_, factor, std::move(tunnel), construction);
+    return carried_out(input_, factor, std::move(tunnel), construction,
+                       planned_stages(input_, supports_of(input_)).size());
   }
 
   [[nodiscard]] Construction<Solver> construction_in(const AnalysisInput& input,
@@ -234,25 +235,32 @@ class SafetySearch {
     return made;
   }
 
-  [[nodiscard]] TunnelAtFactor<Geometry> carried_out(
-      const AnalysisInput& input, double factor, Solver tunnel,
-      const Construction<Solver>& construction) const {
+  /// @param before  stages that stand already: concrete has the age of the last of them
+  [[nodiscard]] TunnelAtFactor<Geometry> carried_out(const AnalysisInput& input, double factor,
+                                                     Solver tunnel,
+                                                     const Construction<Solver>& construction,
+                                                     std::size_t before) const {
     StageProgress told;
     if (report_)
       told = [&](const std::string&, double fraction) {
         return report_(message({"strength over ", factor}), fraction);
       };
     TunnelAtFactor<Geometry> at{factor, {}, std::move(tunnel), {}};
+    const SupportChoice supports = supports_of(input);
+    std::vector<StageUtilisation> lining_history;
     at.result.blocks = at.tunnel.mass().bodies.size();
     try {
-      at.built = construct(at.tunnel, construction, told);
+      at.built = construct(at.tunnel, construction, told,
+                           before == 0 ? observing_age<Solver>(input, supports, lining_history)
+                                       : StageObserver<Solver>());
     } catch (const NumericalFault& fault) {
       at.result.failed = true;
       at.result.reason = fault.what();
       return at;
     }
     if (at.built.last().stopped) throw Stopped();
-    describe(input, supports_of(input), at.tunnel, at.built, at.result);
+    describe(input, supports, at.tunnel, at.built, before + at.built.stages.size(), lining_history,
+             at.result);
     return at;
   }
 

@@ -59,8 +59,11 @@ using SpatialTunnel = TunnelIn<Spatial>;
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnyMethod method_of(const AnalysisInput& input,
                                                          LinearSettings linear, RangeSought range);
 
-/// 3-D: of a strip of the lining.
+/// 3-D: of a strip of the lining, of its concrete alone, and with the steel ribs that it has across
+/// the tunnel.
 /// @param width  along the tunnel; of those that run along it, around the section [m]
+[[nodiscard]] VOUSSOIR_DESIGN_INLINE LiningSection rib_strip_of(const LiningInput& lining,
+                                                                double thickness, double width);
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE LiningSection strip_of(const LiningInput& lining,
                                                             double thickness, double width);
 
@@ -130,17 +133,36 @@ VOUSSOIR_DESIGN_INLINE MohrCoulombJoint interface_of(const LiningInput& lining) 
                           any_units);
 }
 
+namespace detail {
+
+/// Steel ribs within a width along the tunnel; they add nothing to what resists shear and torsion.
+inline void add_ribs(const LiningInput& lining, double width, LiningSection& section) {
+  if (!lining.ribs) return;
+  section.axial_stiffness += width * lining.ribs->axial_stiffness();
+  section.bending_stiffness += width * lining.ribs->bending_stiffness();
+}
+
+}  // namespace detail
+
 VOUSSOIR_DESIGN_INLINE LiningSection section_of(const LiningInput& lining, double thickness) {
   LiningSection section =
-      LiningSection::rectangular(thickness, lining.young_modulus, lining.poisson_ratio);
+      LiningSection::rectangular(thickness, lining.first_modulus(), lining.poisson_ratio);
+  detail::add_ribs(lining, 1, section);
   section.element = lining.beam;
+  return section;
+}
+
+VOUSSOIR_DESIGN_INLINE LiningSection rib_strip_of(const LiningInput& lining, double thickness,
+                                                  double width) {
+  LiningSection section = strip_of(lining, thickness, width);
+  detail::add_ribs(lining, width, section);
   return section;
 }
 
 VOUSSOIR_DESIGN_INLINE LiningSection strip_of(const LiningInput& lining, double thickness,
                                               double width) {
   LiningSection section =
-      LiningSection::strip(thickness, width, lining.young_modulus, lining.poisson_ratio);
+      LiningSection::strip(thickness, width, lining.first_modulus(), lining.poisson_ratio);
   section.element = lining.beam;
   return section;
 }

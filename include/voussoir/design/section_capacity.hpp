@@ -74,10 +74,11 @@ struct SectionForces {
 };
 
 /// Of what a section fails that is loaded beyond its capacity.
-enum class SectionMode { compression, bending, tension, pressed_edge, cracked_edge, shear };
+enum class SectionMode { compression, bending, tension, pressed_edge, cracked_edge, shear, yield };
 [[nodiscard]] inline const char* to_string(SectionMode mode) {
   constexpr const char* words[] = {
-      "compression", "bending", "tension", "compression of an edge", "tension of an edge", "shear"};
+      "compression",        "bending", "tension", "compression of an edge",
+      "tension of an edge", "shear",   "yield"};
   return words[static_cast<std::size_t>(mode)];
 }
 

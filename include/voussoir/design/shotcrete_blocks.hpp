@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/design/analysis_input.hpp>
@@ -96,10 +97,29 @@ struct ShotcreteCapacity {
 
 /// What the plate of one bolt bears of a layer that hangs on it [N]: the shear strength of the
 /// layer along a perimeter half its thickness from a square plate, 4 (c + t).
-/// @param plate  c, its width [m], > 0
-[[nodiscard]] inline double punching_resistance(const ShotcreteLayer& layer, double plate) {
+/// @param section  of the layer, 1 m wide
+/// @param plate    c, its width [m], > 0
+[[nodiscard]] inline double punching_resistance(const ConcreteSection& section, double plate) {
   require(plate > 0, "width of a plate", plate, "> 0 m");
-  return 4 * (plate + layer.section.thickness) * shear_resistance(layer.section, {});
+  return 4 * (plate + section.thickness) * shear_resistance(section, {});
+}
+
+/// Whether a lining lies at an angle about the centre of its opening [rad], 0 to 2 pi.
+[[nodiscard]] inline bool covers(const LiningInput& lining, double angle) {
+  if (!lining.arc) return true;
+  constexpr double turn = 2 * std::numbers::pi;
+  const double from_start = angle - lining.arc->from;
+  return from_start - turn * std::floor(from_start / turn) <= lining.arc->to - lining.arc->from;
+}
+
+/// The shotcrete of a lining, per metre, as old as when it is first loaded.
+/// @pre  its concrete is given
+[[nodiscard]] inline ConcreteSection shotcrete_of(const LiningInput& lining, double thickness) {
+  ConcreteSection section = *lining.concrete;
+  if (lining.age) section = lining.age->aged(std::move(section), lining.age->when_loaded);
+  section.thickness = thickness;
+  section.width = 1;
+  return section;
 }
 
 /// What a block at the wall takes of the shotcrete over it.
@@ -116,17 +136,11 @@ struct ShotcreteUse {
 [[nodiscard]] inline std::optional<ShotcreteUse> shotcrete_use(const AnalysisInput& input,
                                                                double angle, double load,
                                                                double free_measure) {
-  constexpr double turn = 2 * std::numbers::pi;
-  const auto covers = [&](const LiningInput& lining) {
-    if (!lining.arc) return true;
-    const double from_start = angle - lining.arc->from;
-    return from_start - turn * std::floor(from_start / turn) <= lining.arc->to - lining.arc->from;
-  };
   for (const LiningInput& lining : input.linings) {
-    if (lining.opening != 0 || !lining.concrete || !lining.adhesion || !covers(lining)) continue;
-    ShotcreteLayer layer{*lining.concrete, *lining.adhesion, lining.adhesion_width};
-    layer.section.thickness = lining.thickness;
-    layer.section.width = 1;
+    if (lining.opening != 0 || !lining.concrete || !lining.adhesion || !covers(lining, angle))
+      continue;
+    const ShotcreteLayer layer{shotcrete_of(lining, lining.thickness), *lining.adhesion,
+                               lining.adhesion_width};
     const ShotcreteCapacity capacity = input.is_spatial()
                                            ? shotcrete_over_face(layer, free_measure)
                                            : shotcrete_over_strip(layer, free_measure);

@@ -21,7 +21,7 @@ struct SupportQuantities {
   double holes = 0;        ///< [1/m]
   double bolt_length = 0;  ///< [m/m]
   double concrete = 0;     ///< in place [m^3/m]
-  double steel = 0;        ///< of bars in linings [kg/m]
+  double steel = 0;        ///< of bars and ribs in linings [kg/m]
 };
 
 /// Of all patterns and linings that stages install, each once.
@@ -98,6 +98,7 @@ VOUSSOIR_DESIGN_INLINE SupportQuantities support_quantities(const AnalysisInput&
     if (lining.concrete)
       for (const BarLayer& bars : lining.concrete->bars)
         sum.steel += steel_density * bars.area * length;
+    if (lining.ribs) sum.steel += steel_density * lining.ribs->area / lining.ribs->spacing * length;
   }
   return sum;
 }

@@ -9,6 +9,8 @@
 #include <vector>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/design/composite_support.hpp>
+#include <voussoir/design/concrete_age.hpp>
 #include <voussoir/design/section_capacity.hpp>
 #include <voussoir/geometry/segment.hpp>
 #include <voussoir/lining/lining_model.hpp>
@@ -75,6 +77,9 @@ struct BoltsInput {
   /// Of plate and nut at the head [N], 0 to 1e9; none: of a grouted bolt there is none, that of an
   /// end-anchored one does not give.
   std::optional<double> plate_strength = {};
+  /// Of a square plate [m], 0.01 to 2, with its strength: where the head lies on shotcrete, it may
+  /// punch it. None: it is not asked.
+  std::optional<double> plate_width = {};
   /// Of the anchor of an end-anchored bolt [N/m], 1e3 to 1e12, [N], > 0, <= 1e9; none: no end.
   std::optional<double> anchor_stiffness = {}, anchor_strength = {};
   AnchorKind anchors = AnchorKind::lorig;
@@ -131,11 +136,22 @@ struct LiningInput {
   /// By which it is checked; thickness and width are those of the lining, areas of bars per metre
   /// of it [m^2/m]. None: it is not checked.
   std::optional<ConcreteSection> concrete = {};
+  /// Of concrete that is loaded early: with `concrete` alone. None: it has the strength and the
+  /// modulus that are given.
+  std::optional<ConcreteAge> age = {};
+  std::optional<SteelRibs> ribs = {};  ///< within its concrete
   /// Of shotcrete to the rock, characteristic [Pa], 1e3 to 1e7, on a strip along the edge of a
   /// block [m], 1e-3 to 1: single blocks are checked by it. Not the bond that the model knows.
   std::optional<double> adhesion = {};
   double adhesion_width = 0.03;
 
+  /// E when it is so old [Pa].
+  [[nodiscard]] double modulus_at(double when) const {
+    return age && concrete ? young_modulus * age->modulus_part(when, concrete->strength)
+                           : young_modulus;
+  }
+  /// E with which it is installed, the least that it has [Pa].
+  [[nodiscard]] double first_modulus() const { return modulus_at(age ? age->when_loaded : 0.0); }
   /// Its nodes have to see the bond fail at the edge of a block, see `require_nodes_for_bond`.
   [[nodiscard]] bool bends_on_bond() const {
     return tensile_bond > 0 && beam != LiningElement::pinned;

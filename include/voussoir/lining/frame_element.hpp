@@ -149,6 +149,19 @@ struct FrameElement {
     start = -end_forces(u);
   }
 
+  /// Gives it another stiffness: what it carries stays, and what strains it from now on meets the
+  /// new one (concrete that ages: dN = E(t) A d(epsilon), which is not N = E(t) A epsilon).
+  /// @param factor  new over old, > 0
+  /// @param u       displacement of its nodes, which are at the poses now
+  void stiffen(double factor, const Pose<dim>& a, const Pose<dim>& b, const double* u) {
+    VOUSSOIR_ASSERT(factor > 0, "a member has a stiffness");
+    const Values carried = end_forces(u), strain = deformation(a, b);
+    local *= factor;
+    unstrained += (1 - 1 / factor) * strain;
+    start = zeros<Values>();
+    start = carried - end_forces(u);
+  }
+
   void add_force(const double* u, double* f) const {
     const Values push = -(transposed(turn) * end_forces(u));
     add_at<dof>(f + dof * i, part<dof>(push, 0));

@@ -39,6 +39,13 @@ class FrameMembers : public SupportModel<Derived, Geometry::dim> {
 
   [[nodiscard]] const std::vector<Element>& members() const { return members_; }
 
+  /// See `FrameElement::stiffen`.
+  /// @param pose_of  pose_of(body), now;  @param u  displacement of all bodies
+  template <class PoseOf>
+  void stiffen(double factor, PoseOf&& pose_of, const double* u) {
+    for (Element& m : members_) m.stiffen(factor, pose_of(m.i), pose_of(m.j), u);
+  }
+
   [[nodiscard]] std::vector<int> bodies() const override {
     std::vector<int> held;
     for (const Element& m : members_) {
@@ -178,8 +185,19 @@ class LiningMembers : public FrameMembers<LiningMembers<Geometry>, Geometry> {
 /// or a row of ribs.
 template <class Geometry>
 class LiningJoints : public FrameMembers<LiningJoints<Geometry>, Geometry> {
+  using Base = FrameMembers<LiningJoints<Geometry>, Geometry>;
+
  public:
-  using FrameMembers<LiningJoints<Geometry>, Geometry>::FrameMembers;
+  using typename Base::Element;
+
+  /// @param lining  number of the one that came with them, in the order of installation
+  LiningJoints(std::vector<Element> members, int lining)
+      : Base(std::move(members)), lining_(lining) {}
+
+  [[nodiscard]] int lining() const { return lining_; }
+
+ private:
+  int lining_;
 };
 
 #ifdef VOUSSOIR_COMPILED

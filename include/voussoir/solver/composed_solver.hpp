@@ -139,6 +139,14 @@ class ComposedSolver {
     return hanging;
   }
 
+  /// Gives a lining other moduli from now on, as concrete has when it is older: what it carries
+  /// stays, and what comes meets the new stiffness, of its members and of those that join it to
+  /// linings before it.
+  /// @param lining  in the order of installation, from 0
+  /// @param factor  new over old stiffness, > 0
+  /// @throws InvalidInput  there is no such lining, or the factor is out of range
+  void stiffen_lining(int lining, double factor);
+
   /// Lets the rock and its supports find their equilibrium at a residual wall traction
   /// on the wall (relaxation before support: > 0; the final state: 0). Of several rounds each keeps
   /// that part of its traction, or what was left of it before if that is less.
@@ -401,24 +409,6 @@ EquilibriumReport ComposedSolver<Models>::equilibrium(const std::vector<double>&
 }
 
 template <class Models>
-void ComposedSolver<Models>::change_joint_laws(LawsBySet<JointLaw> joint_laws) {
-  if (!joint_laws.has_sets_of(joint_laws_))
-    throw InvalidInput("other joint laws: must be of the sets that have laws of their own");
-  for (std::size_t k = 0; k < joint_laws.all().size(); ++k) {
-    const JointLaw &now = joint_laws.all()[k], &before = joint_laws_.all()[k];
-    require(now.joint_normal_stiffness() == before.joint_normal_stiffness(),
-            "normal stiffness of another joint law", now.joint_normal_stiffness(),
-            "what it was [Pa/m]");
-    require(now.joint_shear_stiffness() == before.joint_shear_stiffness(),
-            "shear stiffness of another joint law", now.joint_shear_stiffness(),
-            "what it was [Pa/m]");
-  }
-  system_.joints.replace_laws(detail::any_laws<dim>(joint_laws.all()));
-  joint_laws_ = std::move(joint_laws);
-  started_ = true;
-}
-
-template <class Models>
 auto ComposedSolver<Models>::displacement_of(int body, const Vec<dim>& point) const -> Vec<dim> {
   const Vec<dim> arm = point - system_.body(body).centre;
   if (system_.has_updated_contacts()) {
@@ -438,5 +428,6 @@ void ComposedSolver<Models>::build(const Progress& progress) {
 
 }  // namespace voussoir
 
+#include <voussoir/solver/detail/changed_materials.hpp>
 #include <voussoir/solver/detail/excavation.hpp>
 #include <voussoir/solver/detail/loads_on_blocks.hpp>

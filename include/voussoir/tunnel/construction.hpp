@@ -60,9 +60,16 @@ struct LiningInstallation {
   std::optional<FootBearing> feet = {};
 };
 
-/// One stage, in this order: rock is taken out; bolts and linings are installed where the rock is
-/// then, free of force but for pretension; the walls lose traction until the stage's part of it is
-/// left, and the rock and its supports come to rest; then joints creep for as long as it lasts.
+/// A lining that stands and whose material has aged, see `ComposedSolver::stiffen_lining`.
+struct LiningStiffening {
+  int lining = 0;     ///< in the order of installation, from 0
+  double factor = 1;  ///< new over old stiffness [-], > 0
+};
+
+/// One stage, in this order: linings that stand age; rock is taken out; bolts and linings are
+/// installed where the rock is then, free of force but for pretension; the walls lose traction
+/// until the stage's part of it is left, and the rock and its supports come to rest; then joints
+/// creep for as long as it lasts.
 template <class Solver>
 struct ConstructionStage {
   using Opening = typename Solver::Geometry::Opening;
@@ -70,6 +77,7 @@ struct ConstructionStage {
   /// Part of the in-situ traction that is left on the walls at the end [-], 0 to 1.
   double wall_traction = 0;
   double duration = 0;  ///< for which joints then creep [s], >= 0
+  std::vector<LiningStiffening> stiffened = {};
   std::vector<Round<typename Solver::Geometry>> rounds;
   std::vector<BoltInstallation<Solver>> bolts;
   std::vector<LiningInstallation<Solver>> linings;
@@ -102,6 +110,8 @@ struct Construction {
   /// Whose convergence is given, whatever is taken out besides; none: of the last opening and those
   /// that it is joined to.
   std::optional<typename Solver::Geometry::Opening> measured = {};
+  /// Durations may be those in which linings age, and no joint creeps.
+  bool ages = false;
 
   /// @param wall_traction  part of the in-situ traction left at the end [-], 0 to 1
   /// @return  the new stage, until the next is added
@@ -235,17 +245,24 @@ template <class Solver>
   return construction.measured ? convergence(solver, *construction.measured) : convergence(solver);
 }
 
-/// @throws InvalidInput  a stage lasts where no joint creeps, or its duration is out of range
+template <class Solver>
+[[nodiscard]] bool has_creeping_joints(const Solver& solver) {
+  if constexpr (CreepingLaw<typename Solver::JointLaw, Solver::dim>)
+    return std::isfinite(longest_creep_step(solver.joint_laws()));
+  else
+    return false;
+}
+
+/// @throws InvalidInput  a stage lasts where nothing creeps or ages, or its duration is out of
+/// range
 template <class Solver>
 void check_durations(const Solver& solver, const Construction<Solver>& construction) {
-  bool creeps = false;
-  if constexpr (CreepingLaw<typename Solver::JointLaw, Solver::dim>)
-    creeps = std::isfinite(longest_creep_step(solver.joint_laws()));
+  const bool lasts = construction.ages || has_creeping_joints(solver);
   for (const ConstructionStage<Solver>& stage : construction.stages)
     naming("stage \"" + stage.name + "\"", [&] {
       require(stage.duration >= 0 && std::isfinite(stage.duration), "duration", stage.duration,
               ">= 0 s");
-      require(creeps || stage.duration == 0, "duration", stage.duration,
+      require(lasts || stage.duration == 0, "duration", stage.duration,
               "0 s, for no joint law creeps");
     });
 }
@@ -279,6 +296,8 @@ void let_creep(Solver& solver, const ConstructionStage<Solver>& stage,
 /// @throws InvalidInput  see the calls; Stopped
 template <class Solver>
 void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Progress& progress) {
+  for (const LiningStiffening& aged : stage.stiffened)
+    solver.stiffen_lining(aged.lining, aged.factor);
   for (const auto& round : stage.rounds)
     solver.excavate(round.opening, round.smallest_piece, progress);
   StopCheck stop(progress, 1);  // in a million blocks a bolt takes a tenth of a second
@@ -329,7 +348,8 @@ ConstructionResult<typename Solver::Geometry> construct(
       for (const double left : solver.wall_fractions())
         end.wall_traction = std::max(end.wall_traction, left);
       end.convergence = detail::measured_convergence(solver, construction);
-      if (stage.duration > 0 && end.report.verdict == Verdict::stable)
+      if (stage.duration > 0 && end.report.verdict == Verdict::stable &&
+          detail::has_creeping_joints(solver))
         detail::let_creep(solver, stage, construction, asked, end);
     });
     if (observer) observer(solver, result.stages.back());

@@ -171,7 +171,9 @@ class LiningAssembly {
     system_.supports.add(std::make_shared<LiningMembers<Geometry>>(
         std::move(own), first_node_, static_cast<int>(frame.nodes.size()), frame.centre));
     if (!joints.empty())
-      system_.supports.add(std::make_shared<LiningJoints<Geometry>>(std::move(joints)));
+      system_.supports.add(std::make_shared<LiningJoints<Geometry>>(
+          std::move(joints),
+          static_cast<int>(system_.supports.template all<LiningMembers<Geometry>>().size()) - 1));
   }
 
   /// @param first    body that the first node will be
