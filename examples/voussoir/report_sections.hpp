@@ -56,6 +56,10 @@ struct LargestConvergence {
 /// How much would come off by other ways of looking for it; empty: that was not looked at.
 [[nodiscard]] std::string marginal_sentence(const RunResults& results);
 
+/// What is left out of a table, and where it is; empty: nothing.
+[[nodiscard]] std::string left_out(std::size_t all, std::size_t shown_of_them,
+                                   const std::string& file);
+
 // Sections of a run; without a body where there is nothing to say.
 [[nodiscard]] html::Section picture_section(const RunResults& results);
 [[nodiscard]] html::Section strength_section(const RunResults& results);

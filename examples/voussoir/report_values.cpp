@@ -95,4 +95,11 @@ std::string shown_count(std::size_t count, const std::string& thing) {
   return grouped(std::to_string(count)) + "\u00a0" + thing + (count == 1 ? "" : "s");
 }
 
+std::string left_out(std::size_t all, std::size_t shown_of_them, const std::string& file) {
+  return all <= shown_of_them
+             ? ""
+             : html::paragraph("The first " + std::to_string(shown_of_them) + " of " +
+                               std::to_string(all) + "; all of them are in " + file + ".");
+}
+
 }  // namespace voussoir::program
