@@ -45,12 +45,17 @@ std::string limit_text(const SafetySettings& settings) {
 
 std::string factor_text(double factor) { return significant_text(factor, 4); }
 
+/// Over the picture of what falls.
+std::string mechanism_title(const Input& input, double factor) {
+  return (input.title.empty() ? "Factor of safety" : input.title) +
+         ": what falls with the strength of joints over " + factor_text(factor);
+}
+
 /// What falls, in 2-D or 3-D.
 template <class Geometry>
 std::string mechanism_picture(const Input& input, const TunnelAtFactor<Geometry>& falling) {
   TunnelPictureText words;
-  words.title = (input.title.empty() ? "Factor of safety" : input.title) +
-                ": what falls with the strength of joints over " + factor_text(falling.factor);
+  words.title = mechanism_title(input, falling.factor);
   if constexpr (std::is_same_v<Geometry, Spatial>) {
     words.axes = {"right", "along", "up"};
     words.from = input.picture.from;
@@ -128,7 +133,9 @@ SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings
   answer.bracket = bracket_factor(trial, settings.search);
   if (falling) {
     answer.fallen = falling->solver.fallen_measure();
-    answer.mechanism = laid_blocks_svg(input, *falling);
+    Input titled = input;
+    titled.title = mechanism_title(input, answer.bracket.falls);
+    answer.mechanism = laid_blocks_svg(titled, *falling);
   }
   if (wants_limit)
     answer.limit =
