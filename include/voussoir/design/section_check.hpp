@@ -110,8 +110,15 @@ class SectionCheck {
 
   [[nodiscard]] const ConcreteSection& section() const { return capacity_.section(); }
 
-  /// Of thrust and moment by the method of the section, or of shear if that is more.
+  /// Of thrust and moment by the method of the section, or of shear if that is more. Nothing, of
+  /// forces below a millionth of f_cd b h, in moments times h: what an equilibrium leaves over in a
+  /// lining that carries nothing may be tension, of which plain concrete bears no part.
   [[nodiscard]] SectionUtilisation utilisation(const SectionForces& load) const {
+    const ConcreteSection& s = section();
+    const double least = 1e-6 * s.design_strength() * s.width * s.thickness;
+    if (std::max({std::abs(load.thrust), std::abs(load.moment) / s.thickness,
+                  std::abs(load.shear)}) <= least)
+      return {};
     const SectionUtilisation bent = section().method == SectionMethod::en1992
                                         ? capacity_.utilisation(load)
                                         : edge_stress_utilisation(section(), load);
