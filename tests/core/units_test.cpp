@@ -124,7 +124,8 @@ TEST_SUITE("core/units") {
         {"5 GPa", dimension::stiffness_per_area, "is a stress, not a stiffness per area"},
         {"35 deg", dimension::number, "is an angle, not a fraction"},
         {"40 %", dimension::angle, "is a fraction, not an angle"},
-        {"3 m^4", dimension::length, "is a quantity in m^4, not a length"},
+        {"3 m^5", dimension::length, "is a quantity in m^5, not a length"},
+        {"864 cm^4", dimension::area, "is a second moment, not an area"},
         // 26 kN/m^3 over 9.80665 m/s^2, the standard gravity
         {"26 kN/m^3", dimension::density, "is a unit weight: density 2651 kg/m^3"},
         {"0.027 MN/m3", dimension::density, "is a unit weight: density 2753 kg/m^3"},
@@ -188,7 +189,9 @@ TEST_SUITE("core/units") {
     CHECK(format_quantity(5400, dimension::time) == "1.5 h");
     CHECK(format_quantity(2592000, dimension::time) == "30 d");
     CHECK(format_quantity(1.728e15, dimension::viscosity_per_area) == "20 GPa*d/m");
-    CHECK(format_quantity(3, {0, 4, 0, 0}) == "3 m^4");
+    CHECK(format_quantity(3, {0, 5, 0, 0}) == "3 m^5");
+    CHECK(format_quantity(864e-8, dimension::second_moment) == "864 cm^4");
+    CHECK(format_quantity(144e-6, dimension::section_modulus) == "144 cm^3");
     CHECK(format_quantity(HUGE_VAL, dimension::length) == "inf");
     CHECK(format_quantity(std::nan(""), dimension::length) == "nan");
   }
