@@ -27,9 +27,9 @@ namespace voussoir::design {
 
 /// What the sides of a model can do, the base apart, which bears what it must.
 enum class SideForces {
-  /// Rollers push as hard as they must, at right angles; elastic ground bears any force: how much
-  /// they do hangs on how far the rock moves, which rigid blocks do not tell. Among that is what the
-  /// model does: the bound is one.
+  /// Rollers push as hard as they must, at right angles; elastic ground bears any force. How hard
+  /// they do hangs on how far the rock moves, which rigid blocks do not tell. What the model does
+  /// is among it: the bound is one.
   any,
   /// They push as in situ and no harder. A bound where the in-situ stress goes on acting, and an
   /// estimate elsewhere: rock that arches may press its sides harder.
