@@ -43,8 +43,6 @@ Word word_of(const RunResults& r) {
     return {Tone::doubtful, "Undecided: no equilibrium was found"};
   }
   if (verdict == "collapse") return {Tone::bad, "The tunnel collapses"};
-  if (verdict == "stable after rockfall")
-    return {Tone::doubtful, "The tunnel stands after rockfall"};
   if (verdict == "stable without its lining")
     return {Tone::doubtful, "The tunnel stands without its lining, which came off"};
   if (verdict == "undecided") return {Tone::doubtful, "Undecided: no equilibrium was found"};
@@ -52,8 +50,14 @@ Word word_of(const RunResults& r) {
   const bool lining_fails = r.run.contains("lining") && r.run["lining"].is_object() &&
                             r.run["lining"].contains("bears_it") &&
                             !holds_at(r.run, "/lining/bears_it");
-  if (lining_fails || is_over("/bolts/of_its_strength"))
-    return {Tone::bad, "The tunnel stands, but a support carries more than it bears"};
+  const bool is_exceeded = lining_fails || is_over("/bolts/of_its_strength");
+  const std::string exceeded = " a support carries more than it bears";
+  if (verdict == "stable after rockfall") {
+    const std::string stands = "The tunnel stands after rockfall";
+    return is_exceeded ? Word{Tone::bad, stands + ", and" + exceeded}
+                       : Word{Tone::doubtful, stands};
+  }
+  if (is_exceeded) return {Tone::bad, "The tunnel stands, but" + exceeded};
   if (verdict == "stable") return {Tone::good, "The tunnel stands"};
   return {Tone::plain, "Verdict: " + verdict};
 }

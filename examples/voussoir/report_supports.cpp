@@ -117,9 +117,9 @@ std::string lining_table(const RunResults& r) {
   const std::vector<LiningColumn> columns =
       r.is_spatial() ? std::vector<LiningColumn>{{"lining", "lining", "", -1},
                                                  {"member", "member", "", -1},
-                                                 {"x_m", "right", "m", 2},
-                                                 {"y_m", "along", "m", 2},
-                                                 {"z_m", "up", "m", 2},
+                                                 {"x_m", "x", "m", 2},
+                                                 {"y_m", "y", "m", 2},
+                                                 {"z_m", "z", "m", 2},
                                                  {"thrust_kN", "thrust", "kN", 0},
                                                  {"shear_kN", "shear", "kN", 1},
                                                  {"moment_kNm", "moment", "kN m", 2}}

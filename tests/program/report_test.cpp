@@ -204,6 +204,18 @@ TEST_SUITE("program/report") {
                              ? "The tunnel collapses"
                              : "The tunnel stands after rockfall"));
     CHECK(has(page.text, "it has no supports"));
+    // Where a support carries more than it bears besides, the head says so too.
+    const Folder folder;
+    auto beyond = nlohmann::ordered_json::parse(run.files.at("run.json"));
+    beyond["verdict"] = "stable after rockfall";
+    beyond["bolts"]["of_its_strength"] = 1.2;
+    std::filesystem::create_directory(folder / "out");
+    (void)write_file(folder / "out/run.json", beyond.dump(2));
+    const Outcome outcome = run_program({"report", folder / "out"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(has(sound_page(read_file(folder / "out/report.html")).text,
+              "The tunnel stands after rockfall, and a support carries more than it bears"));
   }
 
   TEST_CASE("what an input says is text, whatever it looks like") {
