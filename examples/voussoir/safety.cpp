@@ -20,7 +20,7 @@ namespace voussoir::program {
 
 namespace {
 
-const char* word_of(TrialOutcome outcome) {
+const char* word_of(TrialOutcome outcome) {  // in files
   switch (outcome) {
     case TrialOutcome::stands:
       return "stands";
@@ -92,7 +92,10 @@ SafetyAnswer answer_of(const Input& input, const SafetySettings& settings,
                              result.verdict == Verdict::collapse;
     answer.trials.push_back({trial.factor, trial.outcome,
                              ended_early ? "rock comes off" : result.word(), result.reason,
-                             result.fallen, result.convergence.crown});
+                             result.fallen, result.convergence.crown,
+                             trial.outcome == TrialOutcome::falls && !result.failed &&
+                                 result.verdict == Verdict::stable && !result.lost_lining &&
+                                 result.fallen <= settings.tolerated_loss});
   }
   if (safety.falling && !safety.falling->built.stages.empty()) {
     answer.fallen = safety.falling->built.fallen_measure();
@@ -146,12 +149,21 @@ SafetyAnswer safety_of_blocks(const Input& input, const SafetySettings& settings
 }  // namespace
 
 std::string SafetyAnswer::text() const {
+  const auto at_end = std::find_if(trials.begin(), trials.end(), [&](const SafetyTrial& trial) {
+    return trial.factor == bracket.falls;
+  });
+  const bool is_of_support = at_end != trials.end() && at_end->is_of_support;
   if (bracket.stands == 0)
-    return "less than " + factor_text(bracket.falls) + ": falls over every factor tried";
+    return "less than " + factor_text(bracket.falls) +
+           (is_of_support ? ": a support is at its strength" : ": falls") +
+           " over every factor tried";
   if (std::isinf(bracket.falls))
     return "more than " + factor_text(bracket.stands) + ": stands over every factor tried";
   return significant_text(bracket.stands, 3) + ": stands over " + factor_text(bracket.stands) +
-         (is_undecided() ? ", not decided over " : ", falls over ") + factor_text(bracket.falls);
+         (is_undecided()  ? ", not decided over "
+          : is_of_support ? ", a support is at its strength over "
+                          : ", falls over ") +
+         factor_text(bracket.falls);
 }
 
 bool SafetyAnswer::is_undecided() const {
@@ -201,8 +213,8 @@ std::string safety_text(const SafetySettings& settings, const SafetyAnswer& answ
   for (const SafetyTrial& trial : answer.trials) {
     std::string factor = factor_text(trial.factor);
     factor.resize(std::max<std::size_t>(factor.size(), 7), ' ');
-    out +=
-        "strength over " + factor + std::string(" ") + word_of(trial.outcome) + ": " + trial.word;
+    out += "strength over " + factor + std::string(" ") +
+           (trial.is_of_support ? "exceeds" : word_of(trial.outcome)) + ": " + trial.word;
     if (std::isfinite(trial.crown)) out += ", crown " + millimetres_text(trial.crown) + " mm";
     if (trial.fallen > 0) out += text(", %.3g m2 detached", trial.fallen);
     out += "\n";

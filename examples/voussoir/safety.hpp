@@ -20,6 +20,8 @@ struct SafetyTrial {
   std::string reason;  ///< of it, a sentence
   double fallen = 0;   ///< rock that came off, per metre of tunnel [m^2]
   double crown = std::numeric_limits<double>::quiet_NaN();  ///< convergence [m]; laid blocks: none
+  /// It stands, and counts as one that falls because a support is at its strength.
+  bool is_of_support = false;
 };
 
 /// A tunnel in 2-D or 3-D, or laid blocks.
@@ -33,7 +35,8 @@ struct SafetyAnswer {
   std::vector<std::string> warnings;
   double seconds = 0;
 
-  /// "1.24: stands over 1.241, falls over 1.253", or which end there is none of.
+  /// "1.24: stands over 1.241, falls over 1.253" (or what else ends there), or which end there is
+  /// none of.
   [[nodiscard]] std::string text() const;
   /// The factor under which it does not stand was not decided, and counts as one that falls.
   [[nodiscard]] bool is_undecided() const;

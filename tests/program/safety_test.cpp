@@ -222,6 +222,20 @@ TEST_SUITE("program/safety") {
     CHECK(whole.files.at("safety.svg").find("strength of joints over") != std::string::npos);
   }
 
+  TEST_CASE("a support at its strength is not said to fall") {
+    CircleInRock rock{.surcharge = "100 kPa"};
+    const std::string bolts =
+        "[support.bolts]\nlength = \"2 m\"\nspacing = \"30 deg\"\nstiffness = \"0.2 GN/m\"\n"
+        "yield_force = \"10 kN\"\n";
+    // What rock moves elastically is too much for them, however strong its joints are.
+    const Safety weak = safety_of(rock.text() + bolts, {"--falls-where", "supports"});
+    CHECK(weak.json.at("text") ==
+          "less than 0.05: a support is at its strength over every factor tried");
+    CHECK(weak.outcome.out.find("strength over 1       exceeds: stable, bolts yielded") !=
+          std::string::npos);
+    CHECK(weak.json.at("mechanism").at("detached_m2") == 0.0);
+  }
+
   TEST_CASE("a section and a slice of the same rock have one limit load") {
     // Joints that run along the tunnel: the slice, 2 m thick, is the section made thick. One is a
     // linear programme, the other has a cone for each corner of a contact.
