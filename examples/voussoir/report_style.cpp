@@ -204,7 +204,7 @@ const std::string_view script = R"js(
   document.addEventListener("click", function (event) {
     var spot = event.target.closest ? event.target.closest("#diagram [data-says]") : null;
     if (!spot) return;
-    var wanted = numbers(spot.getAttribute("data-says").split("\n")[0]);
+    var wanted = numbers(spot.getAttribute("data-says").split("\n")[0].replace("no lining", "lining 0"));
     document.querySelectorAll("#diagram tbody tr").forEach(function (row) {
       var is_it = numbers(row.cells[0].textContent + " " + row.cells[1].textContent) === wanted;
       row.classList.toggle("chosen", is_it);
