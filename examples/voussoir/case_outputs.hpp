@@ -21,7 +21,7 @@ struct CaseOutputs {
 /// @param results  of all cases, in the order of the plan
 /// sweep: sweep.csv, and with several realisations sweep_means.csv; realisations: realisations.csv,
 /// .json and .svg; diagram: interaction.csv and .svg, with several realisations of the mean, and
-/// interaction_quantile.svg and interaction_rockfall.svg.
+/// interaction.json, interaction_quantile.svg and interaction_rockfall.svg.
 [[nodiscard]] CaseOutputs outputs_of(const CasePlan& plan,
                                      const std::vector<TunnelResult>& results);
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <string>
+#include <voussoir/core/version.hpp>
 #include <voussoir/drawing/number_text.hpp>
 #include <voussoir/io/csv_table.hpp>
 #include <voussoir/io/interaction_picture.hpp>
@@ -16,6 +18,7 @@
 
 #include "case_statistics.hpp"
 #include "outputs.hpp"
+#include "run_folder.hpp"
 
 namespace voussoir::program {
 
@@ -362,6 +365,19 @@ std::string realised_summary(const CasePlan& plan, const std::vector<Place>& pla
   return out + closing_text(plan, results);
 }
 
+/// What the diagram is of: with several realisations it has a run id of its own, and says here to
+/// which tunnel it belongs.
+std::string realised_json(const CasePlan& plan) {
+  const nlohmann::ordered_json json = {
+      {"schema", 1},
+      {"program", std::string("voussoir ") + VOUSSOIR_VERSION_STRING},
+      {"title", plan.input().title},
+      {"tunnel_id", RunId("tunnel").add(plan.input()).text()},
+      {"first_seed", plan.input().model.seed},
+      {"realisations", plan.parts().realisations}};
+  return json.dump(2) + "\n";
+}
+
 }  // namespace
 
 CaseOutputs diagram_outputs(const CasePlan& plan, const std::vector<TunnelResult>& results) {
@@ -377,6 +393,7 @@ CaseOutputs diagram_outputs(const CasePlan& plan, const std::vector<TunnelResult
   InteractionQuantity quantile = InteractionQuantity::crown_convergence(diameter);
   quantile.name += ", " + fixed_text(100 * reported_quantile, 0) + " % quantile";
   CaseOutputs outputs;
+  outputs.files["interaction.json"] = realised_json(plan);
   outputs.files["interaction.csv"] = realised_csv(plan, places);
   outputs.files["interaction.svg"] =
       realised_svg(plan, places, "Mean convergence of the crown" + over, std::nullopt,

@@ -34,7 +34,7 @@ const std::vector<FileGroup>& groups() {
       {"realisations", {"realisations.json", "realisations.csv", "realisations.svg"}},
       {"design", {"design.json", "design.csv", "design.svg"}},
       {"diagram",
-       {"interaction.csv", "interaction.svg", "interaction_quantile.svg",
+       {"interaction.json", "interaction.csv", "interaction.svg", "interaction_quantile.svg",
         "interaction_rockfall.svg"}},
       {"sweep", {"sweep.csv", "sweep_means.csv", "sweep.svg"}}};
   return all;

@@ -434,6 +434,14 @@ TEST_SUITE("program/report") {
     REQUIRE(run_program({"report", both, "-q"}).status == 0);
     const Page diagram = sound_page(read_file(both + "/report.html"));
     CHECK(has(diagram.text, "Interaction diagram"));
+    // Of several realisations it has an id of its own, and says of which tunnel it is.
+    const std::string several = folder / "several";
+    REQUIRE(run_program({"run", file, "--out", several, "-q"}).status != 2);
+    REQUIRE(run_program({"diagram", file, "-n", "2", "--out", several, "-q"}).status != 2);
+    REQUIRE(run_program({"report", several, "-q"}).status == 0);
+    CHECK(has(sound_page(read_file(several + "/report.html")).text, "Interaction diagram"));
+    std::filesystem::remove(several + "/interaction.json");
+    CHECK(has(run_program({"report", several, "-q"}).err, "interaction.csv is of another run"));
     for (const char* const name : {"realisations.json", "realisations.csv", "realisations.svg"})
       std::filesystem::copy(many + "/" + name, both + "/" + name);
     const Outcome all = run_program({"report", both, "-q"});
