@@ -8,9 +8,9 @@
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/random.hpp>
 #include <voussoir/design/limit_load.hpp>
-#include <voussoir/geometry/mass_properties.hpp>
 
 #include "support/degree.hpp"
+#include "support/laid_limit_problem.hpp"
 #include "support/laid_problem.hpp"
 #include "support/near.hpp"
 
@@ -106,35 +106,19 @@ Problem pyramid(int faces, double semi_apical, double turned, double friction) {
 Problem thickened(const LaidProblem& laid, double friction, double thickness) {
   Problem problem;
   const auto at = [](const Vec2& p, double along) { return Vec3(p.x(), along, p.y()); };
-  for (std::size_t b = 0; b < laid.blocks.size(); ++b) {
-    const auto properties = mass_properties(laid.blocks[b]);
-    const Load2 load = laid.dead_load(b);
-    // Anticlockwise in the section is clockwise about its normal, which points away from the eye.
+  // Anticlockwise in the section is clockwise about its normal, which points away from the eye.
+  for (const auto& flat : limit_problem(laid, {}).blocks)
     problem.blocks.push_back(
-        {at(properties.centroid, 0.5 * thickness),
-         laid.weight(b) * thickness,
-         std::sqrt(properties.second_moment.trace() / properties.measure),
-         {thickness * at(load.force, 0), thickness * Vec3(0, -load.moment[0], 0)},
-         !laid.is_fixed(b)});
-  }
+        {at(flat.centre, 0.5 * thickness),
+         flat.weight * thickness,
+         flat.gyration,
+         {thickness * at(flat.load.force, 0), thickness * Vec3(0, -flat.load.moment[0], 0)},
+         flat.is_free});
   for (const FlatJoint& joint : joints_of(laid))
     problem.add_contact(
         joint.a, joint.b,
         {at(joint.p, 0), at(joint.q, 0), at(joint.q, thickness), at(joint.p, thickness)},
         at(joint.normal, 0), {friction, 0, 0});
-  return problem;
-}
-
-LimitProblem<2> flat(const LaidProblem& laid, double friction) {
-  LimitProblem<2> problem;
-  for (std::size_t b = 0; b < laid.blocks.size(); ++b) {
-    const auto properties = mass_properties(laid.blocks[b]);
-    problem.blocks.push_back({properties.centroid, laid.weight(b),
-                              std::sqrt(properties.second_moment.trace() / properties.measure),
-                              laid.dead_load(b), !laid.is_fixed(b)});
-  }
-  for (const FlatJoint& joint : joints_of(laid))
-    problem.add_contact(joint.a, joint.b, {joint.p, joint.q}, joint.normal, {friction, 0, 0});
   return problem;
 }
 
@@ -203,14 +187,15 @@ TEST_SUITE("design/limit_load_3d") {
       LaidProblem stack = random_stack(number);
       stack.add(stack.pushed(Vec2(1, 0), 0.1));
       const double thickness = 0.5 + 0.25 * number;
-      const LimitBound section = limit_load(flat(stack, 0.7), {.width = 1e-5}),
+      const LimitBound section = limit_load(limit_problem(stack, {0.7, 0, 0}), {.width = 1e-5}),
                        thick = limit_load(thickened(stack, 0.7, thickness), {.width = 1e-5});
       CHECK(thick.is_closed() == section.is_closed());
       if (!section.is_closed()) continue;
       CHECK(thick.fails == near(section.fails).epsilon(5e-5));
       CHECK(thick.holds == near(section.holds).epsilon(5e-5));
     }
-    const LimitBound slope = limit_load(flat(toppling_slope(), 1), {.width = 1e-5}),
+    const LimitBound slope =
+                         limit_load(limit_problem(toppling_slope(), {1, 0, 0}), {.width = 1e-5}),
                      thick = limit_load(thickened(toppling_slope(), 1, 3), {.width = 1e-5});
     CHECK(thick.fails == near(slope.fails).epsilon(5e-5));
   }

@@ -9,6 +9,7 @@
 #include <voussoir/design/limit_load.hpp>
 
 #include "support/degree.hpp"
+#include "support/laid_limit_problem.hpp"
 #include "support/laid_problem.hpp"
 #include "support/limit_analysis.hpp"
 #include "support/near.hpp"
@@ -20,20 +21,6 @@ using namespace voussoir::design;
 using namespace voussoir_test;
 
 namespace {
-
-/// Its contacts are found face by face, as those of the simplex are.
-LimitProblem<2> limit_problem(const LaidProblem& laid, const JointStrength& strength) {
-  LimitProblem<2> problem;
-  for (std::size_t b = 0; b < laid.blocks.size(); ++b) {
-    const auto properties = mass_properties(laid.blocks[b]);
-    problem.blocks.push_back({properties.centroid, laid.weight(b),
-                              std::sqrt(properties.second_moment.trace() / properties.measure),
-                              laid.dead_load(b), !laid.is_fixed(b)});
-  }
-  for (const FlatJoint& joint : joints_of(laid))
-    problem.add_contact(joint.a, joint.b, {joint.p, joint.q}, joint.normal, strength);
-  return problem;
-}
 
 LimitBound bound_of(const LaidProblem& laid, const JointStrength& strength) {
   return limit_load(limit_problem(laid, strength), {.width = 1e-6});

@@ -58,8 +58,7 @@ struct NodeUtilisation {
     double age = std::numeric_limits<double>::infinity());
 
 /// Of all nodes that stand, of linings whose concrete is given, in the order of the nodes.
-/// @param begun  stages that have been begun, of `planned_stages`: concrete has the age at which
-/// the
+/// @param begun  stages of `planned_stages` that have been begun: concrete is as old as when the
 ///               last of them loads it
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE std::vector<NodeUtilisation> lining_utilisations(
     const AnalysisInput& input, const SupportChoice& supports, const Tunnel& tunnel,

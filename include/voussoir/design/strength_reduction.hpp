@@ -27,8 +27,9 @@ namespace voussoir::design {
 /// All joints of an input so.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnalysisInput with_weaker_joints(AnalysisInput input,
                                                                       double factor);
-/// Forces at which bolts yield and rupture, what feet bear and what bonds a lining to the rock over
-/// the factor, wherever they are given. What is found of utilisations then is of no use.
+/// Forces at which bolts yield and rupture, what their bond, plate and anchor hold, what feet bear
+/// and what bonds a lining to the rock over the factor, wherever they are given. What is found of
+/// utilisations then is of no use.
 [[nodiscard]] VOUSSOIR_DESIGN_INLINE AnalysisInput with_weaker_supports(AnalysisInput input,
                                                                         double factor);
 

@@ -78,9 +78,8 @@ struct ColumnsOfBodies {
     return sum;
   }
   /// A W A', W the weights of columns, alone or by three.
-  /// @param triples  of the columns from triple.first on, whose weight is R' R, R = triple.root:
-  /// all
-  ///                 three act on the same bodies
+  /// @param triples  columns from triple.first on, whose weight is R' R, R = triple.root; all three
+  ///                 act on the same bodies
   template <class Triples>
   [[nodiscard]] BlockMatrix<Dof> normal_matrix(const std::vector<double>& weights,
                                                const Triples& triples) const {

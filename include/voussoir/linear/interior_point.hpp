@@ -50,9 +50,8 @@ class InteriorPoint {
 
   /// @param progress  asked at every step whether to go on
   /// @return  not solved: the steps were used up, or rounding has stopped it
-  /// @throws InvalidInput  rows that are no bodies, a column of three, one without a bound below,
-  /// or
-  ///                       a cone that is no more than a line
+  /// @throws InvalidInput  rows that are no bodies, a column of three, one without a bound below, a
+  ///                       cone that is no more than a line
   /// @throws Stopped
   /// @cost  20 to 50 factors: 1 s for 5 600 blocks
   [[nodiscard]] LinearSolution operator()(const LinearProgramme& programme,

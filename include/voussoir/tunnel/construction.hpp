@@ -253,8 +253,7 @@ template <class Solver>
     return false;
 }
 
-/// @throws InvalidInput  a stage lasts where nothing creeps or ages, or its duration is out of
-/// range
+/// @throws InvalidInput  a stage lasts where nothing creeps or ages, or not for 0 s or more
 template <class Solver>
 void check_durations(const Solver& solver, const Construction<Solver>& construction) {
   const bool lasts = construction.ages || has_creeping_joints(solver);
