@@ -29,10 +29,13 @@ double length_of_bolt(const BoltsInput& pattern) {
 }
 
 /// What becomes of the bar itself on a curve that ends or goes on.
+/// @param bears            what holds the bar [N]
+/// @param displacement_at  displacement_at(force) where all but that is elastic or slips [m]
+template <class DisplacementAt>
 void add_bar_events(const BarStrength& bar, const BoltCurve& curve, double bears,
-                    PullOutTest& test) {
+                    const DisplacementAt& displacement_at, PullOutTest& test) {
   if (bar.yield_force < bar.rupture_force && bar.yield_force <= bears)
-    test.events.push_back({"the bar yields", curve.extension_at(bar.yield_force), bar.yield_force});
+    test.events.push_back({"the bar yields", displacement_at(bar.yield_force), bar.yield_force});
   if (curve.breaks())
     test.events.push_back({"the bolt is lost", curve.last().extension, curve.last().force});
 }
@@ -49,11 +52,10 @@ PullOutTest bonded_test(const BoltsInput& pattern, const BondedBolt& bolt, doubl
   const double bears = bolt_strength(pattern);
   if (first.force < bears)
     test.events.push_back({"bond begins to slip", first.displacement, first.force});
-  add_bar_events(bolt.strength, curve, all.force, test);
   // The curve is of chords; what is told of the bond and of yield is not.
-  for (PullOutEvent& event : test.events)
-    if (event.force <= all.force && event.what == "the bar yields")
-      event.displacement = pulled.at_force(event.force).displacement;
+  add_bar_events(
+      bolt.strength, curve, all.force,
+      [&](double force) { return pulled.at_force(force).displacement; }, test);
   if (all.force < bears)
     test.events.push_back({"all of the bond slips", all.displacement, all.force});
   if (std::isfinite(bears)) test.enough = bears / bolt.bond_strength;
@@ -69,7 +71,9 @@ PullOutTest end_anchored_test(const BoltsInput& pattern, const EndAnchoredBolt& 
                    .stiffness = curve.stiffness(),
                    .events = {},
                    .curve = curve};
-  add_bar_events(bolt.strength, curve, curve.strength(), test);
+  add_bar_events(
+      bolt.strength, curve, curve.strength(),
+      [&](double force) { return curve.extension_at(force); }, test);
   if (!curve.breaks() && std::isfinite(curve.strength()))
     test.events.push_back({"the anchor slips", curve.last().extension, curve.last().force});
   return test;
