@@ -7,10 +7,8 @@
 #include <utility>
 #include <vector>
 #include <voussoir/core/errors.hpp>
-#include <voussoir/core/ordering.hpp>
 #include <voussoir/dynamics/dynamics.hpp>
-#include <voussoir/model/detail/contact_frames.hpp>
-#include <voussoir/model/detail/former_contacts.hpp>
+#include <voussoir/model/detail/frames_of_bodies.hpp>
 #include <voussoir/model/elastic_edge.hpp>
 #include <voussoir/model/system.hpp>
 
@@ -116,21 +114,14 @@ class Handover {
   }
 
   void carry_contacts(Run& run) const {
-    const std::vector<Pose<dim>> frames = frames_of(run);
-    const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
-    using Former = FormerContacts<dim>;
-    run.carry_on(Former(system_.joints, frames, u), Former(system_.boundary, frames, u),
-                 Former(system_.interface, frames, u));
+    auto [joints, edges, interface] = contacts_by_frames(system_, frames_of(run));
+    run.carry_on(std::move(joints), std::move(edges), std::move(interface));
   }
 
   void carry_supports(Run& run) const {
-    const std::vector<Pose<dim>> frames = frames_of(run);
-    const double* u = system_.has_updated_contacts() ? system_.updated_at().data() : nullptr;
     SupportSet<dim> supports = system_.supports;
-    for (const auto& support : supports) {
-      support->to_frames(frames, u);
-      run.add_support(support);
-    }
+    to_frames(system_, frames_of(run), supports);
+    for (const auto& support : supports) run.add_support(support);
   }
 
   /// Brings a model to where the bodies of a run are.
@@ -148,14 +139,10 @@ class Handover {
                         ? stacked(moved, spin_of(motion.rotation))
                         : zeros<Fixed<dof, 1>>());
     }
-    take(run.joints(), frames, u, system.joints);
-    take(run.walls(), frames, u, system.boundary);
-    take(run.interface(), frames, u, system.interface);
     system.supports = run.supports();
-    for (const auto& support : system.supports) support->from_frames(frames, u.data());
     system.displacement = std::move(u);
     system.wall_fraction = run.held();
-    system.set_updated(system.displacement, std::move(turned));
+    take_from_frames(system, run.joints(), run.walls(), run.interface(), frames, std::move(turned));
   }
 
  private:
@@ -170,29 +157,6 @@ class Handover {
       frames.push_back(frame);
     }
     return frames;
-  }
-
-  static void take(const MovingContacts<dim>& moving, const std::vector<Pose<dim>>& frames,
-                   const Eigen::VectorXd& u, typename System::Contacts& group) {
-    using Point = typename System::Contacts::Point;
-    const auto at = [](auto i) { return static_cast<std::size_t>(i); };
-    typename System::Contacts next(group.laws());
-    std::vector<Point> points;
-    for (const int n : order_by_bodies(
-             moving.contacts(), [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
-      const auto& c = moving.contacts()[at(n)];
-      if (c.first == c.last) continue;
-      const std::span of(moving.points().data() + c.first, at(c.last - c.first));
-      points.clear();
-      const auto contact = from_frames(c, frames[at(c.a)], frames[at(c.b)], u.data(), of,
-                                       [&](const ReferencePoint<dim>& p) {
-                                         points.push_back({p, {}});
-                                       });
-      for (std::size_t k = 0; k < points.size(); ++k)
-        points[k].state = moving.state_of(at(c.first) + k);
-      next.add(contact, points);
-    }
-    group = std::move(next);
   }
 
   const System& system_;

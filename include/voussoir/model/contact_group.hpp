@@ -86,10 +86,18 @@ class ContactGroup {
   void add(int a, int b, const Area& area, const Vec<dim>& centre_a, const Vec<dim>& centre_b,
            std::span<const FacetPoint<dim>> at, int law = 0);
   /// Adds a contact as it is, but for the place of its points.
-  void add(Contact contact, std::span<const Point> points) {
+  /// @param uncounted  of the overlap of its bodies, see `MovingContact` [m]
+  void add(Contact contact, std::span<const Point> points, double uncounted = 0) {
     contact.set_points(static_cast<int>(points_.size()), points.size());
     for (const Point& p : points) points_.push_back(p);
     contacts_.push_back(contact);
+    if (uncounted == 0) return;
+    uncounted_.resize(contacts_.size(), 0.0);
+    uncounted_.back() = uncounted;
+  }
+  /// Of the overlap of the bodies of a contact, that presses on no spring [m].
+  [[nodiscard]] double uncounted(std::size_t contact) const {
+    return contact < uncounted_.size() ? uncounted_[contact] : 0.0;
   }
 
   /// Calls visit(contact, points) for every contact; both may be changed, but for their number, and
@@ -264,10 +272,12 @@ class ContactGroup {
       points_.move_down(static_cast<std::size_t>(c.first), end, c.count);
       c.first = static_cast<int>(end);
       end += c.count;
+      if (k < uncounted_.size()) uncounted_[kept] = uncounted_[k];
       contacts_[kept++] = c;
     }
     contacts_.erase(contacts_.begin() + static_cast<std::ptrdiff_t>(kept), contacts_.end());
     points_.truncate(end);
+    if (uncounted_.size() > kept) uncounted_.resize(kept);
   }
 
  private:
@@ -332,6 +342,7 @@ class ContactGroup {
 
   std::vector<Law> laws_;
   std::vector<Contact> contacts_;
+  std::vector<double> uncounted_;  ///< of the first contacts; of those behind it is 0
   Points points_;
 };
 

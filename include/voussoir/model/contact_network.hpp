@@ -5,11 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/contact/smooth_wall.hpp>
+#include <voussoir/core/progress.hpp>
 #include <voussoir/model/contact_tracker.hpp>
 #include <voussoir/model/detail/body_rates.hpp>
 #include <voussoir/model/detail/contact_shares.hpp>
@@ -48,6 +50,7 @@ class ContactNetwork {
   using Law = AnyLaw<Dim>;
   using Tracker = ContactTracker<Dim, Detector>;
   using Former = detail::FormerContacts<Dim>;
+  using CutOf = std::function<int(std::size_t, const Vec<Dim>&)>;
 
   /// @param laws  of the joints;  @param wall_stiffness  of the walls [Pa/m]
   /// @param interface_laws  of linings that there are already
@@ -90,13 +93,15 @@ class ContactNetwork {
     std::fill(interface_law_of_.begin() + first, interface_law_of_.end(), number);
   }
 
-  /// The contacts of a model that is set in motion: those that are found first carry them on.
+  /// The contacts of a model that is set in motion: those that are found first carry them on, and
+  /// hold no more energy than they do where the bodies are then; what is found besides exerts
+  /// nothing as it lies.
   /// @param interface  laws numbered as by `set_interface_law`
   void carry_on(Former joints, Former walls, Former interface) {
     former_ = {std::move(joints), std::move(walls), std::move(interface)};
     for (std::size_t kind = 0; kind < groups_.size(); ++kind)
       groups_[kind].adopt(std::move(former_[kind].states));
-    is_everything_new_ = false;
+    carries_on_ = true;
   }
 
   /// Gives every contact that is open by no more than `closed` [m] the traction of a stress field,
@@ -109,11 +114,12 @@ class ContactNetwork {
   /// @param roles   of every body
   /// @param cut_of  cut_of(shape, outward): label of the face of a shape that looks there
   /// @param energy  what springs gain by their new form is added to it
-  template <class CutOf>
+  /// @param progress  asked now and then whether to go on
+  /// @throws Stopped  with contacts that are of no more use
   [[nodiscard]] ContactChange find(Tracker& tracker, const Bodies& bodies,
                                    const std::vector<std::uint32_t>* moved,
-                                   const std::vector<BodyRole>& roles, CutOf&& cut_of,
-                                   UpdateEnergy& energy);
+                                   const std::vector<BodyRole>& roles, const CutOf& cut_of,
+                                   UpdateEnergy& energy, const Progress& progress = {});
 
   /// Other laws for the joints from now on: as many, of the same kind.
   void set_laws(std::vector<Law> laws) { groups_[0].set_laws(std::move(laws)); }
@@ -204,7 +210,6 @@ class ContactNetwork {
 
   using Pair = typename Tracker::Pair;
   /// What one update of contacts goes by, and what comes of it.
-  template <class CutOf>
   struct Update {
     Tracker& tracker;
     const Bodies& bodies;
@@ -230,34 +235,35 @@ class ContactNetwork {
     }
   };
   using Left = detail::LeftContact;
+  /// A contact that carries on a former one: their numbers.
+  struct Heir {
+    std::size_t former;
+    std::int32_t contact;
+    bool has_points;  ///< of it, at places where it had some
+  };
 
   /// Of the springs of a pair's contact [J]; 0 without.
-  template <class U>
-  [[nodiscard]] double energy_of(const U& update, const Pair& pair) {
+  [[nodiscard]] double energy_of(const Update& update, const Pair& pair) {
     return pair.contact < 0
                ? 0.0
                : groups_[update.kind_of(pair)].stored_energy(index(pair.contact), update.bodies);
   }
   /// Gives a pair the contact of its bodies that was nearest to the one found, if any is left.
-  template <class U>
-  void take_nearest(const U& update, std::vector<Left>& left, Pair& pair, const Contact<Dim>& found,
-                    const ContactArea<Dim>* joined);
+  void take_nearest(const Update& update, std::vector<Left>& left, Pair& pair,
+                    const Contact<Dim>& found, const ContactArea<Dim>* joined);
 
-  template <class U>
-  void drop(U& update, const Left& it);
+  void drop(Update& update, const Left& it);
 
   /// Gives a pair the contact that was found.
   /// @param joined  what several pairs have of it, see ContactRenewal
   /// @param held    energy that its springs may have [J]
-  template <class U>
-  void renew(U& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined,
+  void renew(Update& update, Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* joined,
              double held);
 
   /// Puts a contact in the place of the pair's old one, or behind all others.
   /// @param held  energy that its springs may have [J]
   /// @return  true if the contact has kept its place in the lists
-  template <class U>
-  bool put(U& update, Group& group, Pair& pair, const typename Group::Contact& contact,
+  bool put(Update& update, Group& group, Pair& pair, const typename Group::Contact& contact,
            const std::vector<typename Group::Point>& points, double held);
 
   /// Of a joint: the index of its law.
@@ -277,20 +283,23 @@ class ContactNetwork {
     });
   }
   /// Drops what is no longer used, and puts contacts in the order of the pairs.
-  template <class KindOf>
-  void tidy(Tracker& tracker, KindOf&& kind_of) {
+  void tidy(Update& update) {
     for (std::size_t kind = 0; kind < groups_.size(); ++kind)
       groups_[kind].keep([&](auto&& visit) {
-        for (Pair& pair : tracker.pairs())
-          if (pair.contact >= 0 && kind_of(pair) == kind) visit(pair.contact);
+        for (Pair& pair : update.tracker.pairs())
+          if (pair.contact >= 0 && update.kind_of(pair) == kind) visit(pair.contact);
       });
     unused_ = 0;
   }
+  /// Gives the contacts that carry on a former one the shear force that it had, as far as its
+  /// energy goes; one may have become several.
+  void share_out(Update& update);
 
-  std::array<Group, 3> groups_;    ///< joints, walls, interface
-  std::array<Former, 3> former_;   ///< that these carry on
-  bool is_everything_new_ = true;  ///< what is found has no former contact to carry on
-  bool has_started_ = false;       ///< contacts have been found once: what overlaps then is given
+  std::array<Group, 3> groups_;             ///< joints, walls, interface
+  std::array<Former, 3> former_;            ///< that these carry on
+  std::array<std::vector<Heir>, 3> heirs_;  ///< of these, at the update that carries them on
+  bool carries_on_ = false;                 ///< contacts of another store, at the next update
+  bool has_started_ = false;  ///< contacts have been found once: what overlaps then is given
   std::vector<int> law_of_cut_;
   std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
   double viscous_damping_;

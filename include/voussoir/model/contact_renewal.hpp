@@ -108,16 +108,10 @@ class ContactRenewal {
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
       if (is_old || (keeps && is_in_old_area(it.place))) inherit(*old, frame, it.place, point);
-      if (old == nullptr && new_at_rest_) point.zero[0] = std::min(point.zero[0], now.opening);
       points.push_back(point);
     }
     return contact;
   }
-
-  /// From now on contacts that are found overlapping, without one before, exert nothing as they
-  /// lie: those of a model that is set in motion from rest, where blocks that met at an edge have
-  /// come nearer by what the joints between them have closed.
-  void start_at_rest() { new_at_rest_ = true; }
 
   /// Where the bodies of the last contact meet, from the centre of body b, world axes: in the
   /// middle of faces that come down flat, else at the corner or edge that is lowest [m].
@@ -357,7 +351,7 @@ class ContactRenewal {
   Vec<Dim> meeting_place_ = zeros<Vec<Dim>>();
   /// Of the area's second moments over the area [1/m^2]; zero where they are not known: in 2-D.
   Fixed<Dim - 1, Dim - 1> inverse_spread_ = zeros<Fixed<Dim - 1, Dim - 1>>();
-  bool keeps_history_ = false, new_at_rest_ = false;
+  bool keeps_history_ = false;
 };
 
 }  // namespace voussoir::detail

@@ -93,14 +93,8 @@ class SystemState {
   [[nodiscard]] bool has_updated_contacts() const { return updated_at_.size() > 0; }
   /// The displacement at which they were; empty if never.
   [[nodiscard]] const Eigen::VectorXd& updated_at() const { return updated_at_; }
-  /// Takes note that contacts and supports are now those of the present displacement.
-  void set_updated() {
-    std::vector<Rotation<dim>> turned;
-    for (int b = 0; b < body_count(); ++b) turned.push_back(pose(b).rotation);
-    set_updated(displacement, std::move(turned));
-  }
-  /// The same of another displacement.
-  /// @param turned  how every body lay there
+  /// Takes note that contacts and supports are now those of this displacement.
+  /// @param turned  how every body lies there
   void set_updated(Eigen::VectorXd updated_at, std::vector<Rotation<dim>> turned) {
     turned_ = std::move(turned);
     updated_at_ = std::move(updated_at);

@@ -312,7 +312,8 @@ class CarryOver {
       std::vector<typename Group::Point> points;
     };
     std::vector<Target> targets;
-    for (const Contact& c : from.contacts()) {
+    for (std::size_t n = 0; n < from.contacts().size(); ++n) {
+      const Contact& c = from.contacts()[n];
       targets.clear();
       for (int k = c.first; k < c.last(); ++k) {
         const auto& p = from.points()[index(k)];
@@ -331,7 +332,7 @@ class CarryOver {
         next.b = t.bodies.second;
         next.arm_a = c.arm_a - moved_centre(c.a, next.a);
         next.arm_b = c.arm_b - moved_centre(c.b, next.b);
-        moved.add(next, t.points);
+        moved.add(next, t.points, from.uncounted(n));
       }
     }
     to = std::move(moved);

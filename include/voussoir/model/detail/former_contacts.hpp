@@ -55,8 +55,7 @@ template <int Dim, class Points>
 /// The contacts of one kind that bodies had before, in their frames, to be carried on by those that
 /// are found now.
 ///
-/// What is remembered of point k is named by the number -2 - k, and lies in `states`, or wherever
-/// whoever asks has it.
+/// What is remembered of point k is named by the number -2 - k, and lies in `states`.
 template <int Dim>
 class FormerContacts {
  public:
@@ -66,34 +65,29 @@ class FormerContacts {
 
   FormerContacts() = default;
 
-  /// @param contacts, points  in the axes of the reference configuration
-  /// @param frames    of all bodies: where they are there
-  /// @param u         displacement there; null: zero
-  template <class ReferencePoints>
-  FormerContacts(const std::vector<ReferenceContact<Dim>>& contacts, const ReferencePoints& points,
-                 const std::vector<Pose<Dim>>& frames, const double* u) {
-    contacts_.reserve(contacts.size());
-    points_.reserve(points.size());
-    for (const ReferenceContact<Dim>& c : contacts) {
+  /// @param frames  of all bodies: where they are in the reference configuration of the group
+  /// @param u       displacement there; null: zero
+  template <class Geometry>
+  FormerContacts(const ContactGroup<Geometry>& group, const std::vector<Pose<Dim>>& frames,
+                 const double* u)
+      : states(group.points().states()) {
+    contacts_.reserve(group.contacts().size());
+    points_.reserve(group.points().size());
+    for (std::size_t n = 0; n < group.contacts().size(); ++n) {
+      const ReferenceContact<Dim>& c = group.contacts()[n];
       const Pose<Dim>&a = frames[index(c.a)], &b = frames[index(c.b)];
       Contact contact = to_frames(c, a);
+      contact.uncounted = group.uncounted(n);
       const auto at = contact.place(a, b);
       contact.first = static_cast<std::int32_t>(points_.size());
       for (int k = c.first; k < c.last(); ++k)
-        points_.push_back(to_frames<Dim>(c, points[index(k)], at, b, u, FormerPoint{-2 - k}));
+        points_.push_back(
+            to_frames<Dim>(c, group.points().place(index(k)), at, b, u, FormerPoint{-2 - k}));
       contact.last = static_cast<std::int32_t>(points_.size());
       contacts_.push_back(contact);
       bodies_.emplace_back(std::minmax(c.a, c.b));
     }
     order_ = order_of_pairs(bodies_, static_cast<int>(frames.size()));
-  }
-
-  /// Contacts and points of a group, with what their laws remember.
-  template <class Geometry>
-  FormerContacts(const ContactGroup<Geometry>& group, const std::vector<Pose<Dim>>& frames,
-                 const double* u)
-      : FormerContacts(group.contacts(), group.points(), frames, u) {
-    states = group.points().states();
   }
 
   StateColumn states;
@@ -102,6 +96,11 @@ class FormerContacts {
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] std::span<const Point> points_of(const Contact& c) const {
     return {points_.data() + c.first, index(c.last - c.first)};
+  }
+
+  /// What is remembered of a point, if the states are here.
+  [[nodiscard]] AnyState state_of(std::size_t point) const {
+    return states.value(index(-2 - points_[point].state.number));
   }
 
   /// The contact of these bodies that is nearest to a place, its normal turned by less than 60

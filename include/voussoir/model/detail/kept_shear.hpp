@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -30,28 +29,19 @@ void match_shear(const Vec<Dim - 1>& wanted, Points& points, ShearNow&& shear_no
   for (auto& p : points) p.initial.tangential = *initial++;
 }
 
-/// Gives the new points of a contact in motion the shear force of the old ones, or of what they
-/// share of a contact that was common to several pairs the part that their area is of it.
+/// Gives the new points of a contact in motion the shear force of the old ones.
 /// @param old_points  of `old` alone
-/// @param was_common  other new contacts may carry on `old` too
 template <int Dim, class Group>
 void keep_shear(const Group& group, const typename Group::Contact& old,
-                std::span<const typename Group::Point> old_points, bool was_common,
+                std::span<const typename Group::Point> old_points,
                 const typename Group::Contact& contact, const std::vector<MovingBody<Dim>>& bodies,
                 std::vector<typename Group::Point>& points) {
-  const auto area_of = [](const auto& of) {
-    double sum = 0;
-    for (const auto& p : of) sum += p.weight;
-    return sum;
-  };
   const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
     const auto at = c.place(bodies[static_cast<std::size_t>(c.a)].pose,
                             bodies[static_cast<std::size_t>(c.b)].pose);
     return group.shear_of(c, of, at);
   };
-  Vec<Dim - 1> before = shear_of(old, old_points);
-  if (was_common) before *= std::min(1.0, area_of(points) / area_of(old_points));
-  match_shear<Dim>(before, points, [&] { return shear_of(contact, points); });
+  match_shear<Dim>(shear_of(old, old_points), points, [&] { return shear_of(contact, points); });
 }
 
 }  // namespace voussoir::detail

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
+#include <span>
 #include <utility>
 #include <vector>
 #include <voussoir/model/contact_network.hpp>
@@ -41,15 +41,15 @@ void ContactNetwork<Dim, Detector>::prescribe(const Bodies& bodies, StressAt&& s
 }
 
 template <int Dim, class Detector>
-template <class CutOf>
 ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies& bodies,
                                                   const std::vector<std::uint32_t>* moved,
                                                   const std::vector<BodyRole>& roles,
-                                                  CutOf&& cut_of, UpdateEnergy& energy) {
+                                                  const CutOf& cut_of, UpdateEnergy& energy,
+                                                  const Progress& progress) {
+  StopCheck stop(progress);
   // Bodies may have come since.
   rates_.resize(bodies.size());
-  Update<std::decay_t<CutOf>> update{tracker, bodies, roles,
-                                     cut_of,  energy, !sums_.is_listed(bodies.size())};
+  Update update{tracker, bodies, roles, cut_of, energy, !sums_.is_listed(bodies.size())};
   detail::ContactShares<Dim, Tracker> shares(tracker);
   std::vector<Left> left;
   const auto leave = [&](Pair& pair) {
@@ -61,6 +61,7 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
   tracker.update(
       bodies, moved,
       [&](Pair& pair, const Contact<Dim>& found) {
+        stop();
         if (tracker.is_shared(pair)) {
           leave(pair);
           shares.add(pair, found, update.common_cut(pair, found));
@@ -82,17 +83,19 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
         spare = std::max(0.0, spare - energy_of(update, pair));
       },
       [&](Pair& pair, const Contact<Dim>& found, const ContactArea<Dim>* area) {
+        stop();
         const double held = energy_of(update, pair) + spare;
         renew(update, pair, found, area, held);
         spare = std::max(0.0, held - energy_of(update, pair));
       });
   for (const Left& it : left)
     if (it.contact >= 0) drop(update, it);
+  share_out(update);
   former_ = {};
-  is_everything_new_ = has_started_ = true;
+  carries_on_ = false;
+  has_started_ = true;
   if (update.relisted) {
-    if (unused_ > size() / 16)
-      tidy(tracker, [&](const Pair& pair) { return update.kind_of(pair); });
+    if (unused_ > size() / 16) tidy(update);
     list(bodies.size());
   }
   return update.relisted  ? ContactChange::renumbered
@@ -101,8 +104,7 @@ ContactChange ContactNetwork<Dim, Detector>::find(Tracker& tracker, const Bodies
 }
 
 template <int Dim, class Detector>
-template <class U>
-void ContactNetwork<Dim, Detector>::take_nearest(const U& update, std::vector<Left>& left,
+void ContactNetwork<Dim, Detector>::take_nearest(const Update& update, std::vector<Left>& left,
                                                  Pair& pair, const Contact<Dim>& found,
                                                  const ContactArea<Dim>* joined) {
   const std::pair<int, int> wanted =
@@ -126,8 +128,7 @@ void ContactNetwork<Dim, Detector>::take_nearest(const U& update, std::vector<Le
 }
 
 template <int Dim, class Detector>
-template <class U>
-void ContactNetwork<Dim, Detector>::drop(U& update, const Left& it) {
+void ContactNetwork<Dim, Detector>::drop(Update& update, const Left& it) {
   Group& group = groups_[it.kind];
   update.energy.given -= group.stored_energy(index(it.contact), update.bodies);
   auto& contact = group.contacts()[index(it.contact)];
@@ -138,8 +139,7 @@ void ContactNetwork<Dim, Detector>::drop(U& update, const Left& it) {
 }
 
 template <int Dim, class Detector>
-template <class U>
-void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<Dim>& found,
+void ContactNetwork<Dim, Detector>::renew(Update& update, Pair& pair, const Contact<Dim>& found,
                                           const ContactArea<Dim>* joined, double held) {
   const Tracker& tracker = update.tracker;
   const Bodies& bodies = update.bodies;
@@ -157,7 +157,6 @@ void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<D
                              detail::middle_of<Dim>(found, joined) + from);
   const std::vector<typename Group::Point>& old_points = known ? group.points() : former.points();
   detail::ContactRenewal<Dim> renewal(bodies, old_points);
-  if (!is_everything_new_) renewal.start_at_rest();
   const bool is_centred =
       known ? old->is_centred : kind == 2 && old != nullptr && old->last - old->first == 1;
   typename Group::Contact contact = renewal.run(found, from, tracker.shapes(), owner, a, b,
@@ -169,30 +168,104 @@ void ContactNetwork<Dim, Detector>::renew(U& update, Pair& pair, const Contact<D
     contact.law = law_of(update.cut_of(owner, of_a ? found.normal : Vec<Dim>(-found.normal)));
   else if (kind == 2)
     contact.law = std::max(interface_law_of(a), interface_law_of(b));  // one of the two is rock
+  const bool is_heir = !known && renewal.keeps_history();
   // As far in as it was: what shear there is depends on how much of it is pressed.
-  if (known && renewal.keeps_history()) detail::uncount(old->uncounted, contact, points);
-  if (renewal.keeps_history())
-    detail::keep_shear<Dim>(group, *old, known ? group.points_of(*old) : former.points_of(*old),
-                            !known, contact, bodies, points);
+  if (renewal.keeps_history()) detail::uncount(old->uncounted, contact, points);
+  if (known && renewal.keeps_history())
+    detail::keep_shear<Dim>(group, *old, group.points_of(*old), contact, bodies, points);
   if (!points.empty()) {
     const auto impact = detail::Impact<Dim>::at(contact, renewal.meeting_place(), bodies);
     const double per_area = group.law_of(contact).joint_normal_stiffness();
     if (has_started_) {
       contact.least_area = known && held > 0 ? old->least_area : impact.least_area(per_area);
       detail::widen(contact, points);
-      detail::limit_energy<Dim>(group, contact, bodies, points, held);
     }
+    if ((has_started_ || carries_on_) && !is_heir)
+      detail::limit_energy<Dim>(group, contact, bodies, points, held);
     if (viscous_damping_ > 0 && !points.empty())
       contact.viscosity = impact.viscosity(viscous_damping_, per_area * detail::area_of(points));
   }
   const bool in_place = put(update, group, pair, contact, points, held);
+  if (is_heir)
+    heirs_[kind].push_back({index(old - former.contacts().data()), pair.contact,
+                            std::any_of(points.begin(), points.end(),
+                                        [](const auto& p) { return p.state.number != -1; })});
   update.relisted = update.relisted || !in_place;
   update.changed = true;
 }
 
 template <int Dim, class Detector>
-template <class U>
-bool ContactNetwork<Dim, Detector>::put(U& update, Group& group, Pair& pair,
+void ContactNetwork<Dim, Detector>::share_out(Update& update) {
+  using Shear = Vec<Dim - 1>;
+  using Points = std::vector<typename Group::Point>;
+  const auto place = [&](const typename Group::Contact& c) {
+    return c.place(update.bodies[index(c.a)].pose, update.bodies[index(c.b)].pose);
+  };
+  Points points;
+  for (std::size_t kind = 0; kind < groups_.size(); ++kind) {
+    Group& group = groups_[kind];
+    const Former& former = former_[kind];
+    std::vector<Heir> heirs = std::exchange(heirs_[kind], {});
+    std::stable_sort(heirs.begin(), heirs.end(),
+                     [](const Heir& x, const Heir& y) { return x.former < y.former; });
+    const auto shear_of = [&](const typename Group::Contact& c, const auto& of) {
+      return group.shear_of(c, of, place(c));
+    };
+    const auto store = [&](const typename Group::Contact& c, std::size_t at) {
+      std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(at), c.last - c.first,
+                  group.points().begin() + c.first);
+    };
+    for (auto first = heirs.begin(), last = first; first != heirs.end(); first = last) {
+      while (last != heirs.end() && last->former == first->former) ++last;
+      const auto& old = former.contacts()[first->former];
+      // visit(contact, where its points begin among those of all)
+      const auto each = [&](auto&& visit) {
+        std::size_t at = 0;
+        for (auto heir = first; heir != last; ++heir) {
+          const auto& c = group.contacts()[index(heir->contact)];
+          if (!heir->has_points) continue;
+          visit(c, at);
+          at += index(c.last - c.first);
+        }
+      };
+      points.clear();
+      each([&](const auto& c, std::size_t) {
+        const auto of = group.points_of(c);
+        points.insert(points.end(), of.begin(), of.end());
+      });
+      detail::match_shear<Dim>(shear_of(old, former.points_of(old)), points, [&] {
+        Shear sum = zeros<Shear>();
+        each([&](const auto& c, std::size_t at) {
+          sum += shear_of(c, std::span<const typename Group::Point>(points).subspan(
+                                 at, index(c.last - c.first)));
+        });
+        return sum;
+      });
+      each(store);
+      double held = group.stored_energy(old, former.points_of(old), place(old));
+      for (auto heir = first; heir != last; ++heir) {
+        auto& c = group.contacts()[index(heir->contact)];
+        const auto of = group.points_of(c);
+        if (of.empty()) continue;
+        points.assign(of.begin(), of.end());
+        detail::limit_energy<Dim>(group, c, update.bodies, points, held);
+        if (points.empty()) {
+          c.last = c.first;
+          ++unused_;
+          continue;
+        }
+        store(c, 0);
+        const double now = group.stored_energy(c, group.points_of(c), place(c));
+        update.energy.held += held;
+        update.energy.made += std::max(0.0, now - held);
+        held = std::max(0.0, held - now);
+      }
+    }
+  }
+}
+
+template <int Dim, class Detector>
+bool ContactNetwork<Dim, Detector>::put(Update& update, Group& group, Pair& pair,
                                         const typename Group::Contact& contact,
                                         const std::vector<typename Group::Point>& points,
                                         double held) {
