@@ -12,12 +12,14 @@
 #include <vector>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/io/paraview_files.hpp>
+#include <voussoir/rockmass/laid_blocks.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 #include "io/xml_check.hpp"
+#include "support/blocks.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/near.hpp"
 
@@ -418,7 +420,7 @@ TEST_SUITE("io/paraview_files") {
     // Two cubes 3 mm apart on a base that is moved by 5 mm: contacts are renewed, and the two are
     // near enough to be watched.
     const auto box = [](const Vec3& low, const Vec3& high) {
-      return ConvexPolyhedron::box(low, high);
+      return voussoir_test::brick(0.5 * (low + high), high - low);
     };
     Cavern blocks(
         laid_blocks<Spatial>({box({-3, -1, -1}, {3, 1, 0}), box({-1, -0.5, 0}, {0, 0.5, 1}),

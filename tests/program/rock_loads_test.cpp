@@ -2,9 +2,11 @@
 // Loads on blocks of the rock around a tunnel, from an input file to results, in 2-D and 3-D.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 #include <voussoir/core/vec.hpp>
@@ -14,6 +16,7 @@
 #include "input.hpp"
 #include "run_results.hpp"
 #include "support/near.hpp"
+#include "support/reference.hpp"
 
 namespace rock_loads_test {
 
@@ -78,20 +81,25 @@ TEST_SUITE("program/rock_loads") {
       // How many joints lie between the two.
       const Input input = read_input_text(text(pressed), "case.toml", ".", {});
       int between = 0;
-      const auto count = [&](const auto& bodies, int up) {
-        const auto middle = [&](std::size_t load) {
-          const auto block =
-              after.json.at("loads").at(load).at("block").template get<std::size_t>();
-          return bodies.at(block).properties.centroid[up];
+      const auto count = [&](const auto& bodies, auto top, auto bottom) {
+        const auto height_at = [&](const auto& place) {
+          for (const auto& body : bodies)
+            for (const auto& part : body.parts)
+              if (part.contains(place)) return body.properties.centroid[place.size() - 1];
+          FAIL("no block");
+          return 0.0;
         };
-        for (const auto& body : bodies)
-          if (body.properties.centroid[up] > middle(1) && body.properties.centroid[up] <= middle(0))
-            ++between;
+        const double above = height_at(top), below = height_at(bottom);
+        for (const auto& body : bodies) {
+          const double height = body.properties.centroid[top.size() - 1];
+          if (height > below && height <= above) ++between;
+        }
       };
+      using namespace voussoir;
       if (spatial)
-        count(voussoir::program::described_spatial_rock(input).mass.bodies, 2);
+        count(program::described_spatial_rock(input).mass.bodies, Vec3(0, 1, 9.7), Vec3(0, 1, 5));
       else
-        count(voussoir::program::described_rock(input).mass.bodies, 1);
+        count(program::described_rock(input).mass.bodies, Vec2(0, 9.7), Vec2(0, 5));
       REQUIRE(between > 1);
       const voussoir::Vec3 nearer =
           (moved(after, 0) - moved(before, 0)) - (moved(after, 1) - moved(before, 1));
@@ -155,16 +163,60 @@ TEST_SUITE("program/rock_loads") {
       return results_of(text + load(R"("0.1 m", "2.3 m")", force));
     };
     const Results stands = pulled(R"("0 kN/m", "-1 kN/m")"),
-                  falls = pulled(R"("0 kN/m", "-3 MN/m")");
+                  falls = pulled(R"("0 kN/m", "-30 MN/m")");
     REQUIRE(stands.json.at("stages").size() == 2);
     CHECK_FALSE(stands.json.at("loads")[0].at("came_off").get<bool>());
     CHECK(falls.json.at("loads")[0].at("came_off").get<bool>());
     CHECK(falls.outcome.status != 0);
-    CHECK(falls.outcome.out.find("load     (0, -3000) kN/m at (0.1, 2.3) m, on block ") !=
+    CHECK(falls.outcome.out.find("load     (0, -3e+04) kN/m at (0.1, 2.3) m, on block ") !=
           std::string::npos);
     CHECK(stands.files.at("blocks.svg").find("Load: (0, -1) kN/m at") != std::string::npos);
     CHECK(stands.files.at("report.html").find("Load on a block: (0, -1) kN/m at") !=
           std::string::npos);
+  }
+
+  TEST_CASE("a bolt across joints that slip carries the load by its dowels, as its law says") {
+    // A block of 2 m x 1 m in the wall of a square tunnel, on joints without friction; the joint
+    // behind it opens. All that holds it against a pull of 500 kN/m is a bolt through its middle:
+    //   F = sum of K_s s + T s / l,  T = K_a (l - l0),  l^2 = l0^2 + s^2 between anchors
+    const double pull = 500e3, shear_stiffness = 50e6, axial_stiffness = 1e6, apart = 2 * 0.0336;
+    const std::string none = R"("0 N/m", "0 N/m")";
+    const std::string text =
+        "[model]\nwidth = \"20 m\"\nbelow_invert = \"8 m\"\n[tunnel]\nshape = \"polygon\"\n"
+        "vertices = [[\"-2 m\", \"-2 m\"], [\"2 m\", \"-2 m\"], [\"2 m\", \"2 m\"], [\"-2 m\", \"2 "
+        "m\"]]\ncover = \"8 m\"\n[rock]\ndensity = \"2700 kg/m^3\"\n[stress]\nK0 = 0.5\n[joint]\n"
+        "kn = \"5 GPa/m\"\nks = \"5 GPa/m\"\nfriction = \"30 deg\"\n[[joint_set]]\nlaw = "
+        "\"coulomb\"\nkn = \"5 GPa/m\"\nks = \"5 GPa/m\"\nfriction = \"0 deg\"\n[[joint_set]]\n"
+        "[joints]\nfile = \"traces.csv\"\nfirst_set = 0\n[blocks]\nmin_inscribed_radius = \"0.2 "
+        "m\"\n[boundary]\nsides = \"rollers\"\nbase = \"rollers\"\n[support.bolts]\nbars = "
+        "[[[\"3 m\", \"1.5 m\"], [\"3 m\", \"-1.5 m\"]]]\nstiffness = \"1 MN/m\"\nlaw = "
+        "\"axial-shear\"\nshear_stiffness = \"50 MN/m\"\n[[stage]]\nname = \"excavation\"\n"
+        "wall_traction = 0\ninstall = [\"bolts\"]\n[[stage]]\nname = \"load\"\nwall_traction = 0\n" +
+        load(R"("3 m", "0.01 m")", R"("-500 kN/m", "0 kN/m")") +
+        // Nothing acts at these: they tell how the joints have slipped.
+        load(R"("3 m", "0.499 m")", none) + load(R"("3 m", "0.501 m")", none) +
+        load(R"("3 m", "-0.499 m")", none) + load(R"("3 m", "-0.501 m")", none) + exact;
+    const Results r = results_of(text, {},
+                                 {{"traces.csv",
+                                   "1.5,0.5,4,0.5,0\n1.5,-0.5,4,-0.5,0\n"
+                                   "4,-0.5,4,0.5,1\n"}});
+    REQUIRE(r.outcome.status == 0);
+    std::vector<double> axial;  // of the two crossings
+    std::istringstream rows(r.files.at("bolts.csv"));
+    for (std::string line; std::getline(rows, line);)
+      if (const auto cells = csv_fields(line); cells.front() == "1")
+        axial.push_back(1e3 * std::stod(cells.at(6)));
+    REQUIRE(axial.size() == 2);
+    double borne = 0;
+    for (const std::size_t upper : {0, 1}) {
+      const double slip = (moved(r, 2 + 2 * upper) - moved(r, 1 + 2 * upper)).x(),
+                   length = std::hypot(apart, slip);
+      CAPTURE(slip);
+      CHECK(slip > 3e-3);
+      CHECK(axial[upper] == near(axial_stiffness * (length - apart)).epsilon(0.03));
+      borne += shear_stiffness * slip + axial[upper] * slip / length;
+    }
+    CHECK(borne == near(pull).epsilon(1e-4));
   }
 
   TEST_CASE("what cannot be loaded is refused with place and remedy before anything is computed") {
