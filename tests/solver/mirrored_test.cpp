@@ -259,6 +259,11 @@ TEST_SUITE("solver/mirrored") {
     CHECK(check_seeds(1, 20, lined_drift).off == 0);
   }
 
+  TEST_CASE("seeds nobody picked in 3-D: six chambers and six drifts [long]") {
+    CHECK(check_seeds(2001, 2006, chamber).off == 0);
+    CHECK(check_seeds(2001, 2006, lined_drift).off == 0);
+  }
+
   // The figures of docs/decisions.md; some minutes: --no-skip -tc='table of*'
   TEST_CASE("table of chambers and drifts in 3-D: all images, three frictions" * doctest::skip()) {
     struct Row {
