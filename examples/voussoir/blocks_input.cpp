@@ -18,6 +18,7 @@
 #include <voussoir/rockmass/domain.hpp>
 
 #include "input_document.hpp"
+#include "rock_loads.hpp"
 
 namespace voussoir::program {
 
@@ -28,9 +29,8 @@ constexpr std::size_t most_bytes = 10'000'000;
 /// Of one kind that are shown: a file whose units are wrong has thousands.
 constexpr int most_shown = 10;
 
-constexpr Range load_range{.low = -1e12, .high = 1e12};  // per metre [N/m], [N m/m]
-constexpr Range way_range{.low = -1000, .high = 1000};   // of a fixed block [m]
-constexpr Range part_range{.low = -10, .high = 10};      // of the weight [-]
+constexpr Range way_range{.low = -1000, .high = 1000};  // of a fixed block [m]
+constexpr Range part_range{.low = -10, .high = 10};     // of the weight [-]
 
 const std::string corners_form =
     R"(3 to 100 corners of a convex polygon, either way round, such as [["0 m", "0 m"], ["2 m", "0 m"], ["1 m", "1 m"]])";
@@ -67,27 +67,6 @@ std::string convex_fault(std::vector<Point>& vertices) {
     return std::string("is no block: ") + fault.what();
   }
   return "";
-}
-
-/// A force or a moment per metre, which have the dimensions of other quantities.
-std::optional<double> per_metre(const Value& value, const Dimension& dimension, const char* what,
-                                const std::string& form) {
-  if (value.node().kind != Node::Kind::text) {
-    value.refuse("has no unit", form);
-    return std::nullopt;
-  }
-  try {
-    const Quantity quantity = parse_quantity(value.node().text);
-    if (quantity.dimension != dimension)
-      value.refuse(std::string("is not ") + what, form);
-    else if (!load_range.contains(quantity.value))
-      value.refuse("is outside the accepted range", "up to 1e12 N; " + form);
-    else
-      return quantity.value;
-  } catch (const UnitError& error) {
-    value.refuse(error.complaint(), form);
-  }
-  return std::nullopt;
 }
 
 /// The name of a block as a key has it: a text, or a whole number that stands for its digits.
@@ -346,13 +325,13 @@ class Reader {
     if (const auto value = s.find("force", Need::optional, force_form))
       if (const auto pair = value->as_list(2, 2, force_form)) {
         const auto x =
-            per_metre(pair->at(0), dimension::stiffness, "a force per metre", force_form);
+            load_value(pair->at(0), dimension::stiffness, "a force per metre", force_form);
         const auto y =
-            per_metre(pair->at(1), dimension::stiffness, "a force per metre", force_form);
+            load_value(pair->at(1), dimension::stiffness, "a force per metre", force_form);
         if (x && y) load.force = {*x, *y};
       }
     if (const auto value = s.find("moment", Need::optional, moment_form))
-      load.moment = per_metre(*value, dimension::force, "a moment per metre", moment_form)
+      load.moment = load_value(*value, dimension::force, "a moment per metre", moment_form)
                         .value_or(load.moment);
     if (!s.has("force") && !s.has("moment"))
       s.complain("force", "is missing, and so is moment", force_form + ", or " + moment_form);
@@ -423,13 +402,6 @@ void read_laid_blocks(Section& file, Input& input, const std::filesystem::path& 
                     "either [[block]] or [blocks] file, with [rock], [joint], [[load]], [seismic], "
                     "[[displacement]], [loading] and [run]; or [tunnel] with joints that cut rock");
   Reader(file, input.laid.emplace(), directory).read();
-}
-
-void refuse_loads_on_blocks(Section& file) {
-  for (const char* key : {"block", "load", "displacement", "seismic", "loading"})
-    if (file.find(key, Need::optional))
-      file.complain(key, "needs blocks that are laid: blocks that joints cut have no names",
-                    "[[block]] or [blocks] file in place of [tunnel]");
 }
 
 }  // namespace voussoir::program

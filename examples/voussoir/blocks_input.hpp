@@ -18,7 +18,4 @@ namespace voussoir::program {
 /// @param directory  where `blocks.file` is relative to
 void read_laid_blocks(Section& file, Input& input, const std::filesystem::path& directory);
 
-/// Refuses the tables of laid blocks in a file that has none.
-void refuse_loads_on_blocks(Section& file);
-
 }  // namespace voussoir::program

@@ -19,6 +19,7 @@
 #include "plausibility.hpp"
 #include "regular_file.hpp"
 #include "rock_input.hpp"
+#include "rock_loads.hpp"
 #include "support_input.hpp"
 #include "survey.hpp"
 
@@ -171,7 +172,7 @@ void read_all(Section& file, Input& input, const std::filesystem::path& director
       if (!is_round && i == 0) stage.part = SectionPart{};
     });
   file.table("picture", [&](Section& s) { read_picture(s, input); });
-  refuse_loads_on_blocks(file);
+  read_rock_loads(file, input);
   file.optional_table("diagram", [&](Section& s) { read_diagram(s, input.diagram.emplace()); });
   file.optional_table("criteria", [&](Section& s) { read_criteria(s, input.criteria); });
   file.optional_table("costs", [&](Section& s) { read_costs(s, input.costs.emplace()); });

@@ -22,6 +22,7 @@
 #include "design_criteria.hpp"
 #include "joint_laws.hpp"
 #include "plausibility.hpp"
+#include "rock_loads.hpp"
 
 namespace voussoir::program {
 
@@ -572,6 +573,7 @@ void check_together(Checker& checker, Input& input) {
   check_size(checker, input);
   check_bolts(checker, input);
   check_stages(checker, input);
+  check_rock_loads(checker, input);
   check_diagram(checker, input);
   check_criteria(checker, input);
 }

@@ -269,4 +269,42 @@ std::string verdict_lines(const EquilibriumReport& last, const LossText& loss, d
   return out;
 }
 
+namespace {
+
+std::string numbers_text(const nlohmann::json& list, const std::string& format) {
+  std::string words;
+  for (const nlohmann::json& number : list)
+    words += (words.empty() ? "(" : ", ") + text(format.c_str(), number.get<double>());
+  return words + ")";
+}
+
+}  // namespace
+
+std::vector<std::string> load_sentences(const nlohmann::json& loads) {
+  std::vector<std::string> lines;
+  for (const nlohmann::json& load : loads) {
+    const bool is_spatial = load.contains("force_kN");
+    std::string line = numbers_text(load.at(is_spatial ? "force_kN" : "force_kN_per_m"), "%.4g") +
+                       (is_spatial ? " kN" : " kN/m");
+    const nlohmann::json moment =
+        is_spatial ? load.at("moment_kNm") : nlohmann::json{load.at("moment_kNm_per_m")};
+    bool turns = false;
+    for (const nlohmann::json& part : moment) turns = turns || part.get<double>() != 0;
+    if (turns)
+      line +=
+          " and a moment of " + (is_spatial ? numbers_text(moment, "%.4g") + " kN m"
+                                            : text("%.4g kN m/m", moment.front().get<double>()));
+    line += " at " + numbers_text(load.at("at_m"), "%.4g") + " m";
+    if (!load.at("came_on").get<bool>())
+      line += ", which did not come on: the construction ended before";
+    else if (load.at("came_off").get<bool>())
+      line += ", on block " + std::to_string(load.at("block").get<int>()) + ", which came off";
+    else
+      line += ", on block " + std::to_string(load.at("block").get<int>()) + ", which moved " +
+              numbers_text(load.at("displacement_mm"), "%.3g") + " mm there";
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 }  // namespace voussoir::program

@@ -54,6 +54,9 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// "crown 1.2 mm, springings 0.3 and 0.2 mm, invert 0.9 mm"
 [[nodiscard]] std::string convergence_text(const Convergence& c);
 
+/// Of `loads` in run.json a line for each, as on screen, in the report and under the picture.
+[[nodiscard]] std::vector<std::string> load_sentences(const nlohmann::json& loads);
+
 /// How much would come off otherwise; empty where that is the same.
 /// @param unit  "m2", "m3"
 [[nodiscard]] std::string margin_text(const std::optional<RockfallRange>& range,

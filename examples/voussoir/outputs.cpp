@@ -23,6 +23,7 @@
 #include "bolts_strength.hpp"
 #include "lining_strength.hpp"
 #include "output_parts.hpp"
+#include "rock_loads.hpp"
 #include "survey.hpp"
 
 namespace voussoir::program {
@@ -224,6 +225,7 @@ std::string run_json(const Input& input, const RunResult& run) {
   if (!input.openings.empty())
     json["openings"] = openings_json(other_convergences(input, run.tunnel));
   if (input.survey) json["survey"] = survey_json(input);
+  if (!input.loads.empty()) json["loads"] = loads_json(input, run);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "area_m2");
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {
@@ -282,6 +284,8 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
         "On elastic ground: convergence is counted against the opening as a whole, which rises by " +
         millimetres_text(run.convergence().rise) + " mm; the colours have that in them.");
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
+  for (const std::string& load : load_sentences(loads_json(input, run)))
+    text.remarks.push_back("Load: " + load + ".");
   text.bolt_strengths = bolt_strengths(input, run.tunnel);
   text.node_utilisations = strength_by_node(lining_utilisations(input, run));
   return draw_tunnel(run.tunnel, run.built, text);
@@ -317,6 +321,8 @@ std::string run_summary(const Input& input, const RunResult& run) {
     out += run.fallen_measure() > 0 ? " (-: the wall there is detached)"
                                     : " (-: there is no wall there)";
   out += "\n" + opening_lines(other_convergences(input, run.tunnel));
+  for (const std::string& load : load_sentences(loads_json(input, run)))
+    out += "load     " + load + "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +

@@ -287,6 +287,8 @@ Section basis_section(const RunResults& r) {
                         shown(number_at(run, "/rock/vertical_stress_at_centre_kPa")) + " kPa.");
     if (const std::string boundary = boundary_sentence(run); !boundary.empty())
       sentences.push_back(boundary);
+    for (const std::string& load : load_sentences(list_at(run, "/loads")))
+      sentences.push_back("Load on a block: " + load + ".");
   }
   sentences.push_back("Models: " + words_at(run, "/models") + ".");
   for (const char* const place : {"/rock/joints_read"})

@@ -15,6 +15,7 @@
 #include "mapped_rock.hpp"
 #include "output_parts.hpp"
 #include "outputs.hpp"
+#include "rock_loads.hpp"
 #include "survey.hpp"
 
 // What the program writes of a run in 3-D.
@@ -128,6 +129,7 @@ std::string run_json(const Input& input, const SpatialRunResult& run) {
   if (!input.openings.empty())
     json["openings"] = openings_json(other_convergences(input, run.tunnel));
   if (input.survey) json["survey"] = survey_json(input);
+  if (!input.loads.empty()) json["loads"] = loads_json(input, run);
   if (const auto range = run.rockfall()) json["rockfall"] = rockfall_json(*range, "volume_m3");
   if (run.tunnel.bolt_count() > 0)
     json["bolts"] = {{"strength", strength_json(bolt_strengths(input, run.tunnel))},
@@ -176,6 +178,8 @@ std::string blocks_svg(const Input& input, const SpatialRunResult& run) {
   words.strip_width = strip_width_of(input);
   if (run.fallen_measure() > 0) words.remarks.push_back(with_superscripts(rockfall_sentence(run)));
   for (const std::string& warning : run.rock_warnings) words.remarks.push_back("Rock: " + warning);
+  for (const std::string& load : load_sentences(loads_json(input, run)))
+    words.remarks.push_back("Load: " + load + ".");
   words.bolt_strengths = bolt_strengths(input, run.tunnel);
   return draw_tunnel(run.tunnel, run.built, words);
 }
@@ -236,6 +240,8 @@ std::string run_summary(const Input& input, const SpatialRunResult& run) {
     out += "marginal " + margin + " come off\n";
   out += "wall     of the middle third: " + convergence_text(c) + "\n" +
          opening_lines(other_convergences(input, run.tunnel));
+  for (const std::string& load : load_sentences(loads_json(input, run)))
+    out += "load     " + load + "\n";
   if (run.tunnel.bolt_count() > 0)
     out += "bolts    " + std::to_string(run.tunnel.bolt_count()) + " with up to " +
            text("%.0f kN", 1e-3 * e.largest_bolt_force) +

@@ -12,12 +12,14 @@
 #include <vector>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/io/paraview_files.hpp>
+#include <voussoir/rockmass/laid_blocks.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
 #include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/opening.hpp>
 
 #include "io/xml_check.hpp"
+#include "support/blocks.hpp"
 #include "support/jointed_mass.hpp"
 #include "support/near.hpp"
 
@@ -412,6 +414,34 @@ TEST_SUITE("io/paraview_files") {
       slipped += apart > visible_slip;
     }
     CHECK(slipped > 0);
+  }
+
+  TEST_CASE("joints: a contact that was found across a gap is none, in no file") {
+    // Two cubes 3 mm apart on a base that is moved by 5 mm: contacts are renewed, and the two are
+    // near enough to be watched.
+    const auto box = [](const Vec3& low, const Vec3& high) {
+      return voussoir_test::brick(0.5 * (low + high), high - low);
+    };
+    Cavern blocks(
+        laid_blocks<Spatial>({box({-3, -1, -1}, {3, 1, 0}), box({-1, -0.5, 0}, {0, 0.5, 1}),
+                              box({0.003, -0.5, 0}, {1, 0.5, 1})}),
+        CoulombJoint({1e9, 1e9, 40 * degree}), {.density = 2700, .is_laid = true});
+    blocks.fix(0);
+    const Acceptance renewed{.displacement_limit = 0.1, .contact_update_limit = 2e-3};
+    REQUIRE(blocks.equilibrium(0, TwoLevel(), renewed).verdict == Verdict::stable);
+    blocks.displace({{0, Vec3(0.005, 0, 0)}});
+    REQUIRE(blocks.equilibrium(0, TwoLevel(), renewed).verdict == Verdict::stable);
+    const auto states = joint_states(blocks);
+    const auto across = std::find_if(states.begin(), states.end(), [](const JointState<3>& joint) {
+      return std::min(joint.a, joint.b) == 1 && std::max(joint.a, joint.b) == 2;
+    });
+    REQUIRE(across != states.end());
+    CHECK(across->report.is_open);
+    CHECK(across->report.opening == near(0.003).epsilon(1e-6));
+    const auto areas = joint_areas(blocks);
+    CHECK(areas.size() == 2);  // on the base
+    for (const JointArea& joint : areas) CHECK(std::min(joint.state.a, joint.state.b) == 0);
+    CHECK(joint_grid(areas).cell_count() == 2);
   }
 
   TEST_CASE("joints: the polygons of a contact are its area, in its plane, between its blocks") {

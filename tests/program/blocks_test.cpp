@@ -203,7 +203,9 @@ TEST_SUITE("program/blocks") {
         write_file(folder / "tunnel.toml", InputText{}.text() + "[[load]]\nblock = 1\n");
     const Outcome refused = run_program({"run", tunnel, "--out", folder / "out"});
     CHECK(refused.status == 2);
-    CHECK(refused.err.find("needs blocks that are laid") != std::string::npos);
+    CHECK(refused.err.find("load[0].block belongs to blocks that are laid only") !=
+          std::string::npos);
+    CHECK(refused.err.find("load[0].at is missing") != std::string::npos);
     const Outcome swept = run_program({"sweep", write_file(folder / "stack.toml", loaded), "--vary",
                                        "seismic.kh=0.1, 0.2", "--out", folder / "out"});
     CHECK(swept.status == 2);

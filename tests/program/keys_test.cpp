@@ -120,7 +120,8 @@ std::vector<Base> bases() {
        "[run]\nmethod = \"explicit\"\n[diagram]\nspacing = [\"20 deg\", \"none\"]\n"
        "thickness = [\"0 cm\", \"20 cm\"]\n[criteria]\nconvergence = \"20 mm\"\n"
        "[costs]\nbolt_per_metre = 20\nconcrete_per_m3 = 400\n"},
-      {ground + joints + horseshoe + replaced(supports, spring, cable)},
+      {ground + joints + horseshoe + replaced(supports, spring, cable) +
+       "[[load]]\nat = [\"0 m\", \"9 m\"]\nforce = [\"1 kN/m\", \"0 kN/m\"]\n"},
       {ground + joints + horseshoe + replaced(supports, spring, end_anchored)},
       {ground + joints + horseshoe + supports + ribs +
        "[[stage]]\nwall_traction = 0.5\n"

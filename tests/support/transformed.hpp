@@ -78,7 +78,7 @@ template <class Geometry>
 struct Disagreement {
   bool same_blocks = false;  ///< as many, each with its image
   bool same_fallen = false;
-  double difference = 0;  ///< of translations, over the largest of a block [-]
+  double difference = 0;  ///< of translations of blocks that stand, over the largest [-]
 };
 
 template <class Solver, int Dim>
@@ -98,6 +98,7 @@ template <class Solver, int Dim>
   double largest = 0;
   for (std::size_t b = 0; b < twin.size(); ++b) {
     const auto k = static_cast<Eigen::Index>(b);
+    if (one.system().body(static_cast<int>(b)).is_gone) continue;
     const Vec<Dim> u = one.system().displacement.template segment<Dim>(dof * k);
     const Vec<Dim> v = other.system().displacement.template segment<Dim>(dof * twin[b]);
     result.difference = std::max(result.difference, (map.turn * u - v).norm());

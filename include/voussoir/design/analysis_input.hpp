@@ -41,6 +41,19 @@ struct RunInput {
   std::optional<std::int64_t> max_steps;  ///< > 0
 };
 
+/// A load on the block of rock in which a point lies: a hanger, a prop, a footing.
+struct LoadInput {
+  Vec2 at = Vec2::Zero();  ///< where the force acts: of the section, from the tunnel's centre [m]
+  double place = 0;        ///< 3-D: along the axis of the tunnel, 0 or more [m]
+  /// 2-D: to the right and up [N/m]. 3-D: to the right, along the model, up [N].
+  Vec3 force = Vec3::Zero();
+  /// 2-D: the first, anticlockwise [N m/m]. 3-D: about these axes, right-handed [N m].
+  Vec3 moment = Vec3::Zero();
+  /// With which it comes on, after which nothing is excavated; none: the last, and in rounds along
+  /// the tunnel the last advance.
+  std::optional<std::size_t> stage = {};
+};
+
 /// A whole analysis of a tunnel in jointed rock, in 2-D or 3-D, as plain data: what the program
 /// reads from a file, and what a program of one's own may fill in. `run_tunnel` and
 /// `run_spatial_tunnel` compute it.
@@ -67,6 +80,7 @@ struct AnalysisInput {
   /// Stages excavate the section in parts. Otherwise the first excavates all of it, and the others
   /// nothing.
   bool has_rounds = false;
+  std::vector<LoadInput> loads;
   RunInput run;
 
   [[nodiscard]] bool is_spatial() const { return model.dimension == 3; }

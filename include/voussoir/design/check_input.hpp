@@ -14,6 +14,7 @@
 #include <voussoir/design/bodies.hpp>
 #include <voussoir/design/construction_plan.hpp>
 #include <voussoir/design/openings.hpp>
+#include <voussoir/design/placed_loads.hpp>
 
 /// What an analysis needs before anything is computed. Models and geometry check their own values
 /// when they are made; here is what only the parts together can tell, and what would pass for
@@ -149,6 +150,8 @@ VOUSSOIR_DESIGN_INLINE void check_input(const AnalysisInput& input, int dimensio
   detail::check_openings(input);
   detail::check_joints(input);
   detail::check_stages(input);
+  if (const auto fault = fault_of_loads(input))
+    throw InvalidInput(message({"load ", fault->load, ": ", fault->text}));
 }
 
 VOUSSOIR_DESIGN_INLINE std::optional<BoltOutside> bolt_outside(

@@ -14,6 +14,7 @@
 #include <voussoir/design/bodies.hpp>
 #include <voussoir/design/models.hpp>
 #include <voussoir/design/openings.hpp>
+#include <voussoir/design/placed_loads.hpp>
 #include <voussoir/design/planned_stages.hpp>
 #include <voussoir/rockmass/statistics.hpp>
 #include <voussoir/tunnel/bolt_pattern.hpp>
@@ -314,6 +315,7 @@ VOUSSOIR_DESIGN_INLINE Construction<Tunnel> construction_of(const AnalysisInput&
     }
   }
   detail::age_linings(input, supports, construction);
+  load_blocks(input, construction);
   return construction;
 }
 
@@ -404,6 +406,7 @@ VOUSSOIR_DESIGN_INLINE Construction<SpatialTunnel> construction_of(const Analysi
       work.add(entry, 0, stage);
     }
     detail::age_linings(input, supports, construction);
+    load_blocks(input, construction);
     return construction;
   }
   const int rounds = input.round_count();
@@ -419,6 +422,7 @@ VOUSSOIR_DESIGN_INLINE Construction<SpatialTunnel> construction_of(const Analysi
       }
   }
   detail::age_linings(input, supports, construction);
+  load_blocks(input, construction);
   return construction;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -44,8 +45,36 @@ class SetsBetween {
 
 }  // namespace detail
 
-/// All contacts of rock with rock, numbered as `joint_states` has them. One without a width (edges
-/// or corners that touch) has no polygon.
+namespace detail {
+
+/// How far two blocks have moved apart where they touch, at most [m]; 0: nowhere.
+template <class Solver>
+[[nodiscard]] double moved_apart(const Solver& solver, const JointArea& joint) {
+  double apart = 0;
+  for (const std::vector<Vec3>& polygon : joint.polygons)
+    for (const Vec3& p : polygon) {
+      const Vec3 jump =
+          solver.displacement_of(joint.state.b, p) - solver.displacement_of(joint.state.a, p);
+      apart = std::max(apart, dot_product(joint.state.normal, jump));
+    }
+  return apart;
+}
+
+}  // namespace detail
+
+/// Whether a contact was found across a gap, where blocks that moved came near each other: it is
+/// open by more than they have moved apart since the rock was in situ, and is no joint.
+template <class Solver>
+requires(Solver::dim == 3)
+    [[nodiscard]] bool is_across_gap(const Solver& solver, const JointArea& joint) {
+  constexpr double no_gap = 1e-6;  // of joints that carry nothing [m]
+  // 2: of a part of the area alone.
+  return joint.state.report.is_open &&
+         joint.state.report.opening > no_gap + 2 * detail::moved_apart(solver, joint);
+}
+
+/// All joints of rock with rock, in the order of `joint_states`: its contacts but for those across
+/// a gap. One without a width (edges or corners that touch) has no polygon.
 template <class Solver>
 requires(Solver::dim == 3) [[nodiscard]] std::vector<JointArea> joint_areas(const Solver& solver) {
   std::vector<JointArea> areas;
@@ -68,6 +97,7 @@ requires(Solver::dim == 3) [[nodiscard]] std::vector<JointArea> joint_areas(cons
         polygon.push_back(areas[k].state.centre + p.x() * along + p.y() * across);
     }
   }
+  std::erase_if(areas, [&](const JointArea& joint) { return is_across_gap(solver, joint); });
   return areas;
 }
 

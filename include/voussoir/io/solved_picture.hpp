@@ -238,21 +238,13 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
 }
 
 /// Whether a joint has slipped by more than `visible_slip`, or its blocks have moved apart by more
-/// than that. Contacts that were found across a gap, where blocks that moved came near each other,
-/// are open as well, and are no joints that have opened.
+/// than that.
 template <class Solver>
 requires(Solver::dim == 3)
     [[nodiscard]] bool has_slipped_or_opened(const Solver& solver, const JointArea& joint) {
   const ContactReport& report = joint.state.report;
   if (!report.is_open) return report.plastic_slip > visible_slip;
-  double apart = 0;
-  for (const std::vector<Vec3>& polygon : joint.polygons)
-    for (const Vec3& p : polygon) {
-      const Vec3 jump =
-          solver.displacement_of(joint.state.b, p) - solver.displacement_of(joint.state.a, p);
-      apart = std::max(apart, dot_product(joint.state.normal, jump));
-    }
-  return apart > visible_slip && report.opening <= 2 * apart;  // 2: of a part of the area alone
+  return !is_across_gap(solver, joint) && detail::moved_apart(solver, joint) > visible_slip;
 }
 
 /// The joints of which `has_slipped_or_opened` is true; without slivers, which are too narrow to be

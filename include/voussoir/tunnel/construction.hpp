@@ -24,6 +24,7 @@
 #include <voussoir/tunnel/lining_ribs.hpp>
 #include <voussoir/tunnel/lining_ring.hpp>
 #include <voussoir/tunnel/measurements.hpp>
+#include <voussoir/tunnel/placed_load.hpp>
 
 namespace voussoir {
 
@@ -68,8 +69,8 @@ struct LiningStiffening {
 
 /// One stage, in this order: linings that stand age; rock is taken out; bolts and linings are
 /// installed where the rock is then, free of force but for pretension; the walls lose traction
-/// until the stage's part of it is left, and the rock and its supports come to rest; then joints
-/// creep for as long as it lasts.
+/// until the stage's part of it is left, loads on blocks come on as far as that, and the rock and
+/// its supports come to rest; then joints creep for as long as it lasts.
 template <class Solver>
 struct ConstructionStage {
   using Opening = typename Solver::Geometry::Opening;
@@ -81,6 +82,7 @@ struct ConstructionStage {
   std::vector<Round<typename Solver::Geometry>> rounds;
   std::vector<BoltInstallation<Solver>> bolts;
   std::vector<LiningInstallation<Solver>> linings;
+  std::vector<PlacedLoad<Solver::dim>> loads;  ///< after these nothing more is excavated
 
   ConstructionStage& excavate(Opening opening, double smallest_piece = of_the_rock) {
     rounds.push_back({std::move(opening), smallest_piece});
@@ -92,6 +94,10 @@ struct ConstructionStage {
   }
   ConstructionStage& install_lining(LiningInstallation<Solver> lining) {
     linings.push_back(std::move(lining));
+    return *this;
+  }
+  ConstructionStage& load_block(PlacedLoad<Solver::dim> load) {
+    loads.push_back(std::move(load));
     return *this;
   }
 };
@@ -308,6 +314,7 @@ void carry_out(Solver& solver, const ConstructionStage<Solver>& stage, const Pro
   for (const auto& lining : stage.linings)
     (void)solver.install_lining(frame_of(solver, lining), lining.sections, lining.interface_law,
                                 lining.feet);
+  for (const auto& load : stage.loads) (void)add_load_at(solver, load);
 }
 
 }  // namespace detail

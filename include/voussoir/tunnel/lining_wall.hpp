@@ -70,6 +70,13 @@ class LiningOnWall {
   /// many parts these have been cut is no matter of the lining. Not of those on rock with these: in
   /// motion they are contacts of two shapes, of which one alone would go on from the one at rest.
   void join_neighbours(std::vector<LiningContact<Geometry>>& contacts) const {
+    // Again and again: one that comes late may lie between two that did not meet.
+    for (std::size_t before = contacts.size() + 1; contacts.size() < before;) {
+      before = contacts.size();
+      join_once(contacts);
+    }
+  }
+  void join_once(std::vector<LiningContact<Geometry>>& contacts) const {
     std::vector<LiningContact<Geometry>> joined;
     for (LiningContact<Geometry>& contact : contacts) {
       bool is_taken = false;

@@ -102,7 +102,10 @@ class InitialModel {
       bodies.push_back({p.centroid, weight, gyration, true});
       measures.push_back(p.measure);
     }
-    bodies.push_back({zeros<Vec<dim>>(), 0.0, 1.0, false, false});
+    // In the model, wherever that lies: seen from a body kilometres away a block in motion has its
+    // place to no more than 1e-12 m, and forces by that never come to rest.
+    bodies.push_back({smaller_of(larger_of(zeros<Vec<dim>>(), mass_.domain.low), mass_.domain.high),
+                      0.0, 1.0, false, false});
     measures.push_back(0.0);
     system_.add_bodies(bodies);
     for (int b = 0; b < ground(); ++b) system_.load[dof * b + dim - 1] = -system_.body(b).weight;
