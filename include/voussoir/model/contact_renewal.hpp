@@ -32,7 +32,7 @@ namespace voussoir::detail {
 /// The weights of its points are their shares of the whole of the faces that lie over one another,
 /// whatever the depth: which part of them is pressed follows from the motion (`PressedPart`). Faces
 /// that are all open by more than the reach make no contact: what closes between two updates is
-/// within reach at the first of them.
+/// within reach at the first of them. Nor does an area that is none but for rounding.
 template <int Dim>
 class ContactRenewal {
  public:
@@ -92,7 +92,9 @@ class ContactRenewal {
     if (keeps) find_gradient(*old, frame);
     meet_at(found, joined, normal, reach, pose_b.position);
     points.clear();
-    if (found.touch != Touch::edge_edge && lowest_of(found.polygon, joined, normal) - face > reach)
+    if (found.touch != Touch::edge_edge &&
+        (is_rounding(found.measure, a, b) ||
+         lowest_of(found.polygon, joined, normal) - face > reach))
       return contact;
     for (const WeightedPoint& it : places_) {
       if (!(it.weight > 0)) continue;
@@ -133,6 +135,14 @@ class ContactRenewal {
     Pose<Dim> near = bodies_[static_cast<std::size_t>(b)].pose;
     near.position -= from_;
     return near;
+  }
+  /// Whether a length or area is none: all that there is of it is rounding, as where faces meet
+  /// along an edge. Stresses are forces over it, and may then be anything.
+  [[nodiscard]] bool is_rounding(double measure, int a, int b) const {
+    constexpr double rounding = 1e-12;  // of the smaller body
+    const double radius = std::min(bodies_[static_cast<std::size_t>(a)].radius,
+                                   bodies_[static_cast<std::size_t>(b)].radius);
+    return !(measure > rounding * (Dim == 2 ? radius : radius * radius));
   }
   /// normal . x of the points of the face that has this normal [m].
   [[nodiscard]] static double normal_reach(const PlacedShape<Dim>& shape, const Vec<Dim>& normal) {
