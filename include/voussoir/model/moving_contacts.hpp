@@ -134,9 +134,8 @@ class MovingContacts {
     detail::visit_pressed<Dim>(
         points.size(), c.outline, [&](std::size_t k) { return points[k]; },
         [&](const Point& p) { return p.load(at); },
-        [&](std::size_t k, const PointLoad<Dim>& load) {
-          return release_of(c, load, points[k].state);
-        },
+        detail::PointsOfAny(law_of(c).model(),
+                            [&](std::size_t k) { return memory(points[k].state); }),
         visit);
   }
   /// Sum of the shear forces of such points [N].

@@ -49,6 +49,19 @@ class LawModelOf final : public LawModel<Dim> {
     else
       return {voussoir::release_opening<Dim>(law_, load, as_state(state)), 0, 0, {}};
   }
+  [[nodiscard]] bool dilates() const override {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.dilates();
+    else
+      return false;
+  }
+  [[nodiscard]] PointLift lift([[maybe_unused]] const PointLoad<Dim>& load,
+                               [[maybe_unused]] const void* state) const override {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.lift(load, as_state(state));
+    else
+      return {};
+  }
   bool commit_point(const PointLoad<Dim>& load, void* state) const override {
     return detail::commit_point<Dim>(law_, load, *static_cast<State*>(state));
   }
