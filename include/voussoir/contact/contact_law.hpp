@@ -78,6 +78,14 @@ struct PointLoad {
   [[nodiscard]] bool is_lifted() const { return lift > 0; }
   /// How far it has parted, lifted or not [m].
   [[nodiscard]] double parted() const { return motion.opening + (lift > 0 ? lift : 0.0); }
+  /// What it is, nothing having moved, once the history has been brought up to date: that knows of
+  /// the lift.
+  [[nodiscard]] PointLoad committed() const {
+    PointLoad now = *this;
+    now.motion.opening = parted();
+    if (lift > 0) now.lift = 0;
+    return now;
+  }
 };
 
 /// How far a point would lift a joint by the slip since the last commit.

@@ -137,11 +137,7 @@ class MohrCoulombJoint {
     // It slips on at once to what it still carries: a spring left at the peak would come back to it
     // as soon as the joint is pressed, with energy from nowhere. What it held in shear and in
     // tension beyond that is lost: nothing moves meanwhile.
-    PointLoad<Dim> there = load;
-    if (there.lift >= 0) {  // it is in the history now
-      there.motion.opening += there.lift;
-      there.lift = 0;
-    }
+    const PointLoad<Dim> there = load.committed();
     const double held = stored_energy(there, state);
     state.failed = true;
     (void)commit(there, state);

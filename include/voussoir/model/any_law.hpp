@@ -103,6 +103,8 @@ template <int Dim, class State>
 struct MovingContactPoint;
 template <int Dim>
 struct Reaction;
+template <int Dim>
+struct StepCrossings;
 struct Dissipation;
 
 namespace detail {
@@ -141,6 +143,7 @@ struct ReactionTask {
   const MovingBody<Dim>* bodies = nullptr;
   Reaction<Dim>* reactions = nullptr;  ///< of contact `first` and those behind it
   Dissipation* lost = nullptr;
+  StepCrossings<Dim>* crossings = nullptr;  ///< null: nobody asks for them
 };
 
 /// A contact law behind functions that are called at run time: those of many contacts at once where

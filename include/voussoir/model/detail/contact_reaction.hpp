@@ -21,7 +21,7 @@ namespace voussoir::detail {
 template <int Dim, class Law>
 double commit_again(const Law& law, const PointLoad<Dim>& before, const PointLoad<Dim>& now,
                     typename Law::template State<Dim>& state) {
-  const double held = law.stored_energy(before, state);
+  const double held = law.stored_energy(before.committed(), state);
   (void)law.commit(now, state);
   return held - law.stored_energy(now, state);
 }

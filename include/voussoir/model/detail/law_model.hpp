@@ -11,6 +11,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/model/any_law.hpp>
 #include <voussoir/model/detail/contact_reaction.hpp>
+#include <voussoir/model/detail/crossing.hpp>
 #include <voussoir/model/detail/law_steps.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
@@ -82,8 +83,11 @@ class LawModelOf final : public LawModel<Dim> {
     Reaction<Dim>* reactions = task.reactions;
     for (std::size_t k = task.first; k < task.last; ++k) {
       const MovingContact<Dim>& c = task.contacts[k];
-      *reactions++ = reaction(of_type(task.laws[c.law]), c, task.points, states, task.bodies[c.a],
-                              task.bodies[c.b], *task.lost);
+      const Law& law = of_type(task.laws[c.law]);
+      const auto &a = task.bodies[c.a], &b = task.bodies[c.b];
+      *reactions++ = reaction(law, c, task.points, states, a, b, *task.lost);
+      if (task.crossings != nullptr)
+        add_crossing(law, c, task.points, states, a, b, *task.crossings);
     }
   }
 
