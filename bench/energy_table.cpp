@@ -24,6 +24,7 @@
 #include <voussoir/tunnel/construction.hpp>
 
 #include "failure_cases.hpp"
+#include "support/flat_drop.hpp"
 #include "support/loose_blocks.hpp"
 
 namespace {
@@ -88,52 +89,19 @@ int loose_blocks(int argc, char** argv) {
   return 0;
 }
 
-/// A block of 0.4 to 2 m that comes down flat from 1 mm to 1 m, half of them near the edge of the
-/// floor and half along it at up to 2 m/s: for 3 000 steps of half the stable one.
+/// See `voussoir_test::FlatDrop`, for 3 000 steps of half the stable one.
 template <int Dim>
 Line drop_flat(int number, double safety) {
-  Random random(static_cast<std::uint64_t>(number), 5100 + Dim);
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * random.uniform();
-  };
-  const double normal = std::pow(10.0, between(9, 10));
-  const CoulombJoint joint(
-      {normal, normal * between(0.1, 1), between(0, 45) * voussoir_test::degree});
-  Dynamics<Dim, CoulombJoint> run(joint, {.safety = safety});
-  Vec<Dim> size, middle = zeros<Vec<Dim>>(), floor = all_entries<Dim>(8), below = middle;
-  for (int k = 0; k < Dim; ++k) size[k] = between(0.4, 2);
-  floor[Dim - 1] = 1;
-  below[Dim - 1] = -0.5;
-  for (int k = 0; k < Dim - 1; ++k) middle[k] = between(-1, 1);
-  middle[Dim - 1] = 0.5 * size[Dim - 1] + std::pow(10.0, between(-3, 0));
-  if (random.below(2) == 0) middle[0] = 4 - 0.45 * size[0] * random.uniform();
-  const auto box = [](const Vec<Dim>& centre, const Vec<Dim>& lengths) {
-    if constexpr (Dim == 2)
-      return voussoir_test::rectangle(centre, lengths[0], lengths[1]);
-    else
-      return voussoir_test::brick(centre, lengths);
-  };
-  run.add_fixed_block(box(below, floor));
-  const int block = run.add_block(box(middle, size), 2700);
-  Vec<Dim> velocity = zeros<Vec<Dim>>();
-  if (random.below(2) == 0) velocity[0] = between(-2, 2);
-  run.set_velocity(block, velocity);
-  const double kinetic = run.kinetic_energy();
+  voussoir_test::FlatDrop<Dim> drop(number, safety);
   Line line;
-  double stake = 0, most = 0;
   try {
-    for (int k = 0; k < std::lround(15 / safety); ++k) {
-      run.advance_steps(100);
-      const EnergyBalance now = run.energy();
-      stake = std::max(stake, kinetic + now.gravity);
-      most = std::max(most, now.above_start());
-      line.made = most / stake;
-      line.given = now.made_by_updates / stake;
-      line.updates = now.contact_updates / stake;
-    }
+    line.made = drop.most_above(static_cast<int>(std::lround(15 / safety)));
   } catch (const NumericalFault& fault) {
     line.fault = fault.what();
   }
+  const EnergyBalance now = drop.run.energy();
+  line.given = now.made_by_updates / drop.stake;
+  line.updates = now.contact_updates / drop.stake;
   return line;
 }
 

@@ -131,8 +131,7 @@ TEST_SUITE("dynamics/free_motion") {
     CHECK(measured == voussoir_test::near(period).epsilon(1e-5));  // interpolation 1e-2 s of 12 s
   }
 
-  TEST_CASE("two blocks that meet exchange their velocities, as the scheme keeps energy") {
-    // m_eff = m / 2, contact time pi sqrt(m_eff / k).
+  TEST_CASE("two blocks that meet exchange their velocities, however long the step") {
     const auto lost = [](double safety) {
       double worst = 0;
       for (const double gap : {1e-3, 1.13e-3, 1.29e-3, 1.41e-3}) {  // other phases of the steps
@@ -146,9 +145,9 @@ TEST_SUITE("dynamics/free_motion") {
       }
       return worst;
     };
-    const double coarse = lost(0.2), fine = lost(0.05);
-    CHECK(coarse < 2e-2);
-    CHECK(fine < coarse / 8);  // second order: 16, but the phases of the steps differ
+    // Steps that closed and opened the joint left 1e-2 at 0.2 of the stable one. What is left is
+    // the rounding of 1e-9 m, by which a joint is pressed in, beside 1 m.
+    for (const double safety : {0.05, 0.2, 0.5}) CHECK(lost(safety) < 1e-6);
   }
 
   TEST_CASE("a dashpot of ratio zeta lets a block bounce with the known restitution") {

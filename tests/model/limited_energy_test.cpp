@@ -193,7 +193,13 @@ void check(const Law& law, double from) {
         if (const double way = joint.limit(touching, 0); has_let_go && way > 0) {
           auto apart = found;
           for (auto& p : apart) p.zero[0] -= way + 1e-6;
-          CHECK(joint.limit(apart, 0, way + 1e-6) == voussoir_test::near(way).epsilon(1e-6));
+          const double left = joint.limit(apart, 0, way + 1e-6);
+          // The slip of one that dilates may lift it into contact before they touch.
+          if constexpr (HasLift<Law, Dim>)
+            CHECK((law.dilates() ? left >= way * (1 - 1e-6)
+                                 : left == voussoir_test::near(way).epsilon(1e-6)));
+          else
+            CHECK(left == voussoir_test::near(way).epsilon(1e-6));
           CHECK(joint.energy(apart) == 0);
         }
         counted_again += joint.energy(again) > (1 + 1e-3) * most ? 1 : 0;

@@ -296,9 +296,6 @@ TEST_SUITE("model/pressed_part") {
   }
 
   TEST_CASE("nothing jumps as a joint opens: neither forces nor their moments") {
-    const CoulombJoint law({k_n, 1e9, 30 * degree});
-    auto plane = joint<Planar>(law, line, {0.2, -0.5}, {0.2, 0.6});
-    auto space = joint<Spatial>(law, patch, {0.3, 0.2, -0.4}, {0.6, 0.5, 0.9});
     const auto check = [&](auto& group, int dof) {
       Random random(9, static_cast<std::uint64_t>(dof));
       for (int n = 0; n < 20; ++n) {
@@ -317,8 +314,50 @@ TEST_SUITE("model/pressed_part") {
         }
       }
     };
-    check(plane, 3);
-    check(space, 6);
+    const auto check_law = [&](const auto& law) {
+      auto plane = joint<Planar>(law, line, {0.2, -0.5}, {0.2, 0.6});
+      auto space = joint<Spatial>(law, patch, {0.3, 0.2, -0.4}, {0.6, 0.5, 0.9});
+      check(plane, 3);
+      check(space, 6);
+    };
+    check_law(CoulombJoint({k_n, 1e9, 30 * degree}));
+    // One that lifts may be held shut by that while it opens.
+    for (const double cohesion : {0.0, 1e5})
+      check_law(MohrCoulombJoint({.joint_normal_stiffness = k_n,
+                                  .joint_shear_stiffness = 1e9,
+                                  .friction_angle = 35 * degree,
+                                  .cohesion = cohesion,
+                                  .dilation_angle = 20 * degree,
+                                  .dilation_limit = 1e-4,
+                                  .residual_cohesion = cohesion}));
+  }
+
+  TEST_CASE("a joint that is pressed at an edge lifts all over by the slip of what is pressed") {
+    // Rigid in shear: it lifts by tan(psi) times the slip wherever its points are, so that
+    // N = k_n (p + d)^2 / (2 theta), p the closure at its pressed end, at a third of what is
+    // pressed.
+    const double psi = 10 * degree, slip = 3e-5, theta = 2e-4, p = 1e-5;
+    const MohrCoulombJoint law({.joint_normal_stiffness = k_n,
+                                .joint_shear_stiffness = 1e14,
+                                .friction_angle = 35 * degree,
+                                .dilation_angle = psi,
+                                .dilation_limit = 1e-2});
+    auto group = joint<Planar>(law, line, {0.2, -0.5}, Vec2(line.centre()));
+    const double length = line.length(), closure = p + std::tan(psi) * slip;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(6);
+    u[3] = slip;
+    u[4] = theta * 0.5 * length - p;
+    u[5] = theta;
+    const Eigen::VectorXd f = forces_of(group, u);
+    const double force = 0.5 * k_n * closure * closure / theta;
+    // Elastic slip is tan(phi) k_n p / k_s, 1e-4 of the slip at most.
+    CHECK(f[4] == voussoir_test::near(force).epsilon(2e-4));
+    CHECK(f[5] ==
+          voussoir_test::near(-force * (0.5 * length - closure / (3 * theta))).epsilon(2e-4));
+    CHECK(std::abs(f[3]) == voussoir_test::near(force * std::tan(35 * degree)).epsilon(2e-4));
+    // And it stays lifted: no force changes by the commit.
+    CHECK(group.commit(u.data()) == 0);
+    CHECK((forces_of(group, u) - f).norm() < 1e-9 * f.norm());
   }
 
   TEST_CASE("in 2-D a bond that cracks from both ends bears what fibres of it bear") {
@@ -491,6 +530,39 @@ TEST_SUITE("model/pressed_part") {
                                  .maximum_closure = 2e-4,
                                  .damage_coefficient = std::numeric_limits<double>::infinity()}),
               1e5);
+  }
+
+  TEST_CASE("nor does one of a joint that lifts as it slips") {
+    for (const double dilation : {3 * degree, 12 * degree, 30 * degree}) {
+      CAPTURE(dilation);
+      MohrCoulombJoint::Params lifting{.joint_normal_stiffness = k_n,
+                                       .joint_shear_stiffness = 1e9,
+                                       .friction_angle = 35 * degree,
+                                       .dilation_angle = dilation,
+                                       .dilation_limit = 5e-3,
+                                       .residual_friction_angle = 30 * degree};
+      check_law(MohrCoulombJoint(lifting), 1e5);
+      check_law(MohrCoulombJoint(lifting), 0);
+      lifting.dilation_limit = 2e-4;  // it is used up on the way
+      check_law(MohrCoulombJoint(lifting), 1e5);
+      lifting.cohesion = 2e5;
+      check_law(MohrCoulombJoint(lifting), 1e5);
+      lifting.tensile_strength = 1e5;
+      check_law(MohrCoulombJoint(lifting), 1e5);
+      check_law(MohrCoulombJoint(lifting), 0);
+    }
+    for (const double damage : {1.0, 2.0})
+      for (const double initial : {0.0, 1e5, 1e6}) {
+        CAPTURE(damage);
+        CAPTURE(initial);
+        check_law(BartonBandisJoint({.roughness = 10,
+                                     .wall_strength = 100e6,
+                                     .residual_friction_angle = 28 * degree,
+                                     .initial_stiffness = 20e9,
+                                     .maximum_closure = 2e-4,
+                                     .damage_coefficient = damage}),
+                  initial);
+      }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <voussoir/contact/barton_bandis_joint.hpp>
@@ -117,6 +118,24 @@ class AnyJointOf {
         return law.release_opening(load, own);
       else
         return BondRelease<Dim>{voussoir::release_opening<Dim>(law, load, own), 0, 0, {}};
+    });
+  }
+  [[nodiscard]] bool dilates() const {
+    return visit([](const auto& law) {
+      if constexpr (requires { law.dilates(); })
+        return law.dilates();
+      else
+        return false;
+    });
+  }
+  /// Nothing where its type does not dilate.
+  template <int Dim>
+  [[nodiscard]] PointLift lift(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    return detail::visit_numbered(law_, [&]<std::size_t Number>(const auto& law) {
+      if constexpr (HasLift<std::decay_t<decltype(law)>, Dim>)
+        return law.lift(load, state.template as<Number>());
+      else
+        return PointLift{};
     });
   }
   /// Nothing where its type does not creep.

@@ -41,7 +41,7 @@ namespace voussoir {
 /// to phi_r, below which nothing slips, mostly that of the curve's beginning, tan(phi_r) sigma_n /
 /// (0.3 delta_p). Closure and elastic slip each have a potential of their own, k_s only grows,
 /// under an unchanged force, and what dilation lifts, the friction pays: no path of a point gains
-/// energy (docs/theory.md, "Rough joints"; a joint that lifts and is open from an edge still does).
+/// energy (docs/theory.md, "Rough joints").
 /// The source's stiffness follows the stress of the moment; with that a joint sheared under low
 /// stress, pressed, sheared back and unloaded gives 271 J/m2 where 109 were stored.
 ///
@@ -202,11 +202,26 @@ class BartonBandisJoint {
     return closure(load.initial.normal / load.weight) + state.dilation;
   }
 
+  [[nodiscard]] bool dilates() const {
+    return roughness_ > 0 && !std::isinf(p_.damage_coefficient);
+  }
+  /// In the mean over a joint each point has the weight of its normal force, which the lift works
+  /// against.
+  template <int Dim>
+  [[nodiscard]] PointLift lift(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const double stiffness = shear_stiffness(load, state), from = displacement(load, state),
+                 stress = this->stress(elastic_closure(load, state)),
+                 tried = state.force(load, initial_shear(load), stiffness).norm() / load.weight;
+    if (tried <= stress * tan_residual_ || tried <= strength(stress, from))
+      return {stress * load.weight, 0};
+    return {stress * load.weight, slip_under(stress, tried, stiffness, from).lift};
+  }
+
   /// The area under the closure curve, and T^2 / (2 k_s w).
   template <int Dim>
   [[nodiscard]] double stored_energy(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const Response<Dim> now = respond(load, state);
-    const double v = std::max(0.0, elastic_closure(load, state) + now.lift),
+    const double v = std::max(0.0, elastic_closure(load, state) + (load.lift < 0 ? now.lift : 0.0)),
                  on_curve = std::min(v, largest_closure_);
     const double r = on_curve / p_.maximum_closure, beyond = v - on_curve;
     // Integral of K V / (1 - V/Vm): -K Vm^2 (ln(1 - r) + r).
@@ -227,7 +242,7 @@ class BartonBandisJoint {
     const bool is_past_peak = roughness_ > 0 && now.displacement > peak_slip_;
     return {.normal = now.stress * load.weight,
             .shear = now.shear.norm(),
-            .opening = load.motion.opening,
+            .opening = load.parted(),
             .plastic_slip = plastic.norm(),
             .damage = is_past_peak
                           ? 1 - detail::MobilisedRoughness::at(now.displacement / peak_slip_)
@@ -320,14 +335,15 @@ class BartonBandisJoint {
   [[nodiscard]] Response<Dim> respond(const PointLoad<Dim>& load, const State<Dim>& state) const {
     const double stiffness = shear_stiffness(load, state), closed = elastic_closure(load, state);
     Response<Dim> r{stress(closed), state.force(load, initial_shear(load), stiffness),
-                    displacement(load, state)};
+                    displacement(load, state), std::max(0.0, load.lift)};
     const double spring = r.shear.norm(), tried = spring / load.weight;
     // No strength is below that of phi_r: nearly everywhere, and without a logarithm.
     if (tried <= r.stress * tan_residual_ || tried <= strength(r.stress, r.displacement)) return r;
-    const Slip slip = slide(closed, tried, stiffness, r.displacement);
+    const Slip slip = load.lift < 0 ? slide(closed, tried, stiffness, r.displacement)
+                                    : slip_under(r.stress, tried, stiffness, r.displacement);
     r.stress = slip.stress;
     r.displacement = slip.displacement;
-    r.lift = slip.lift;
+    if (load.lift < 0) r.lift = slip.lift;
     r.slips = r.stress > 0;  // what an open joint slips wears no teeth
     r.shear *= spring > 0 ? std::min(1.0, slip.shear / tried) : 0.0;
     return r;
@@ -337,45 +353,46 @@ class BartonBandisJoint {
     double stress, shear;  ///< [Pa]
     double displacement, lift;
   };
+  /// Slip under a normal stress that is known. @see slide
+  [[nodiscard]] Slip slip_under(double stress, double tried, double stiffness, double from) const {
+    Slip s{stress, 0, 0, 0};
+    const double angle = roughness_angle(stress);
+    // A spring stiffer than the curve is at phi_r before its 0.3 of the peak slip.
+    const double start =
+        std::max(from, std::min(stress * tan_residual_ / stiffness,
+                                detail::MobilisedRoughness::knots[0].ratio * peak_slip_));
+    const double over = std::max(0.0, tried - stress * friction(angle, start));
+    s.displacement = start + over / stiffness;
+    const double now = friction(angle, s.displacement);
+    s.shear = std::min(stress * now, tried);
+    if (std::isinf(p_.damage_coefficient)) return s;
+    const double part =
+        detail::MobilisedRoughness::mean(start / peak_slip_, s.displacement / peak_slip_);
+    if (part == 0) return s;
+    const double steepness = elementary::tangent(part * angle / p_.damage_coefficient);
+    // No more than its friction pays for.
+    s.lift = std::min(over * steepness, now * (tried - s.shear)) / stiffness;
+    return s;
+  }
   /// Slip of a joint of which a spring tries more than its strength.
   /// @param closed  its closure without further dilation [m], below 0: it would be open
   /// @param tried   shear of the spring without further slip [Pa]
   [[nodiscard]] Slip slide(double closed, double tried, double stiffness, double from) const {
-    const auto slip_under = [&](double stress) {
-      Slip s{stress, 0, 0, 0};
-      const double angle = roughness_angle(stress);
-      // A spring stiffer than the curve is at phi_r before its 0.3 of the peak slip.
-      const double start =
-          std::max(from, std::min(stress * tan_residual_ / stiffness,
-                                  detail::MobilisedRoughness::knots[0].ratio * peak_slip_));
-      const double over = std::max(0.0, tried - stress * friction(angle, start));
-      s.displacement = start + over / stiffness;
-      const double now = friction(angle, s.displacement);
-      s.shear = std::min(stress * now, tried);
-      if (std::isinf(p_.damage_coefficient)) return s;
-      const double part =
-          detail::MobilisedRoughness::mean(start / peak_slip_, s.displacement / peak_slip_);
-      if (part == 0) return s;
-      const double steepness = elementary::tangent(part * angle / p_.damage_coefficient);
-      // No more than its friction pays for.
-      s.lift = std::min(over * steepness, now * (tried - s.shear)) / stiffness;
-      return s;
-    };
     // The lift presses the joint shut, and the more it does the less it slips and lifts: the root
     // of closure(sigma) - closed - lift(sigma) lies between no lift, or where an open joint begins
     // to close, and what that lift or the friction alone would hold.
     double low = stress(closed);
-    Slip s = slip_under(low);
+    Slip s = slip_under(low, tried, stiffness, from);
     double before = std::max(0.0, -closed) - s.lift;
     if (!(before < 0)) return closed > 0 ? s : Slip{0, 0, from, 0};
     double high = std::min(stress(closed + s.lift), tried / tan_residual_);
-    s = slip_under(high);
+    s = slip_under(high, tried, stiffness, from);
     double beyond = closure(high) - closed - s.lift;
     bool was_low = false;
     // Illinois' false position. The lift returned is that of the stress returned, to rounding.
     for (int k = 0; k < 100 && beyond > 0 && high - low > 1e-14 * high; ++k) {
       const double next = low - (high - low) * before / (beyond - before);
-      s = slip_under(next);
+      s = slip_under(next, tried, stiffness, from);
       const double error = closure(next) - closed - s.lift;
       if (std::abs(error) <= 1e-13 * p_.maximum_closure) break;
       if (error < 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <voussoir/core/lane_pair.hpp>
 #include <voussoir/core/roles.hpp>
@@ -70,6 +71,27 @@ struct PointLoad {
   double whole_over_part = 1;  ///< weight of the whole joint over that of its pressed part [-]
   /// Of a law that says how far its bond holds: see `release_opening`.
   PointBond<Dim> bond = {};
+  /// Of a law that says how it dilates: by how much slip has lifted the whole joint since the last
+  /// commit [m]. `motion.opening` is less by that. < 0: nothing is said, the point lifts by itself.
+  double lift = -1;
+
+  [[nodiscard]] bool is_lifted() const { return lift > 0; }
+  /// How far it has parted, lifted or not [m].
+  [[nodiscard]] double parted() const { return motion.opening + (lift > 0 ? lift : 0.0); }
+  /// What it is, nothing having moved, once the history has been brought up to date: that knows of
+  /// the lift.
+  [[nodiscard]] PointLoad committed() const {
+    PointLoad now = *this;
+    now.motion.opening = parted();
+    if (lift > 0) now.lift = 0;
+    return now;
+  }
+};
+
+/// How far a point would lift a joint by the slip since the last commit.
+struct PointLift {
+  double weight = 0;  ///< of the point in the mean over the joint, >= 0 [N]
+  double lift = 0;    ///< >= 0 [m]
 };
 
 /// Two contact points in 2-D side by side, as `PointLoad` and `PointForce` have one.
@@ -149,6 +171,16 @@ concept HasRelease = HasBond<Law, Dim> || requires(const Law law, const PointLoa
   { law.release_opening(load, state) } -> std::same_as<double>;
 };
 
+/// Optional, for a law whose slip lifts the joint (dilation): a contact then has one lift for all
+/// of its points (`detail::press`). `dilates()`: whether it ever does; `lift`: see `PointLift`,
+/// with `PointLoad::lift` as given and no more.
+template <class Law, int Dim>
+concept HasLift = requires(const Law law, const PointLoad<Dim>& load,
+                           const typename Law::template State<Dim>& state) {
+  { law.dilates() } -> std::same_as<bool>;
+  { law.lift(load, state) } -> std::same_as<PointLift>;
+};
+
 [[nodiscard]] constexpr double opening_of(double release) { return release; }
 template <int Dim>
 [[nodiscard]] constexpr double opening_of(const BondRelease<Dim>& release) {
@@ -166,6 +198,39 @@ template <int Dim, class Law>
   else
     return load.initial.normal / (law.joint_normal_stiffness() * load.weight);
 }
+
+namespace detail {
+
+/// What a law says of the points of one contact.
+/// @tparam StateOf  state_of(k) is what it remembers of point k
+template <int Dim, class Law, class StateOf>
+class PointsOf {
+ public:
+  PointsOf(const Law& law, const StateOf& state_of) : law_(law), state_of_(state_of) {}
+
+  /// See `release_opening`.
+  [[nodiscard]] auto release(std::size_t k, const PointLoad<Dim>& load) const {
+    return release_opening<Dim>(law_, load, state_of_(k));
+  }
+  [[nodiscard]] bool dilates() const {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.dilates();
+    else
+      return false;
+  }
+  [[nodiscard]] PointLift lift(std::size_t k, const PointLoad<Dim>& load) const {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.lift(load, state_of_(k));
+    else
+      return {};
+  }
+
+ private:
+  const Law& law_;
+  const StateOf& state_of_;
+};
+
+}  // namespace detail
 
 /// Whether a point that nothing presses in situ carries tension.
 template <int Dim, class Law>
@@ -206,7 +271,9 @@ template <int Dim, class Law>
 /// that has damage to tell of, or whose shear stiffness is not one number (see
 /// `report_from_force`); `double release_opening(const PointLoad<Dim>&, const State<Dim>&) const`,
 /// for one whose normal force is not linear; the same with a `BondRelease<Dim>` for one that holds
-/// tension: it then finds in `PointLoad::bond` what of the bond is left, and remembers it.
+/// tension: it then finds in `PointLoad::bond` what of the bond is left, and remembers it;
+/// `bool dilates() const` and `PointLift lift(const PointLoad<Dim>&, const State<Dim>&) const` for
+/// one that dilates: it then finds in `PointLoad::lift` by how much the joint has lifted.
 ///
 /// Models: CoulombJoint (rock joints, lining interface), MohrCoulombJoint, BartonBandisJoint,
 /// BurgersJoint, SmoothWall (edge of the domain).
@@ -294,7 +361,7 @@ template <int Dim, class Law>
   if (stiffness > 0) plastic += (force.tangential - load.initial.tangential) / stiffness;
   return {.normal = force.normal,
           .shear = force.tangential.norm(),
-          .opening = load.motion.opening,
+          .opening = load.parted(),
           .plastic_slip = plastic.norm(),
           .is_open = force.normal == 0,
           .is_slipping = slips_on(law, load, state, law.joint_shear_stiffness())};

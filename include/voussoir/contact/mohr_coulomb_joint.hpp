@@ -23,6 +23,8 @@ namespace voussoir {
 /// reached its strength has failed: from the next commit on cohesion and friction are the residual
 /// ones, and there is no tensile strength. With c = sigma_t = psi = 0 it is a CoulombJoint.
 ///
+/// All points of a joint lift it by one way, d (`PointLoad::lift`); one that is alone as above.
+///
 /// Tension breaks a joint from where it opens most: what has opened by more than the bond stretches
 /// (sigma_t / k_n) has lost tensile strength and cohesion, the rest still bears (`bonded_part`).
 /// What fails in shear lets all of the joint go in tension.
@@ -51,8 +53,9 @@ class MohrCoulombJoint {
 
   template <int Dim>
   struct State : ShearSpring<Dim> {
-    double path = 0;  ///< Q [m]
-    double bond = 1;  ///< what is left of it, over the whole joint [-]
+    double path = 0;      ///< Q [m]
+    double dilation = 0;  ///< d [m]
+    double bond = 1;      ///< what is left of it, over the whole joint [-]
     BondFront<Dim> front;
     bool failed = false;
   };
@@ -117,8 +120,9 @@ class MohrCoulombJoint {
     const Response<Dim> now = respond(load, state);
     double lost =
         state.commit(load, load.initial.tangential, p_.joint_shear_stiffness, now.force.tangential);
-    lost -= now.force.normal * (dilation(state.path + now.slip) - dilation(state.path));
+    lost -= now.force.normal * now.lift;
     state.path += now.slip;  // what an open joint slips wears no teeth
+    state.dilation += now.lift;
     if (std::isfinite(load.bond.stretch)) {
       const double torn =
           load.weight * load.whole_over_part * std::max(0.0, state.bond - load.bond.area);
@@ -133,10 +137,11 @@ class MohrCoulombJoint {
     // It slips on at once to what it still carries: a spring left at the peak would come back to it
     // as soon as the joint is pressed, with energy from nowhere. What it held in shear and in
     // tension beyond that is lost: nothing moves meanwhile.
-    const double held = stored_energy(load, state);
+    const PointLoad<Dim> there = load.committed();
+    const double held = stored_energy(there, state);
     state.failed = true;
-    (void)commit(load, state);
-    return lost + held - stored_energy(load, state);
+    (void)commit(there, state);
+    return lost + held - stored_energy(there, state);
   }
 
   /// Where the normal spring, lifted by the dilation so far, carries nothing, and how far its bond
@@ -145,9 +150,25 @@ class MohrCoulombJoint {
   [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
                                                  const State<Dim>& state) const {
     const double opening =
-        load.initial.normal / (p_.joint_normal_stiffness * load.weight) + dilation(state.path);
+        load.initial.normal / (p_.joint_normal_stiffness * load.weight) + state.dilation;
     if (state.failed) return {opening, 0, state.bond, state.front};
     return {opening, p_.tensile_strength / p_.joint_normal_stiffness, state.bond, state.front};
+  }
+
+  [[nodiscard]] bool dilates() const { return tan_dilation_ > 0; }
+  /// In the mean over a joint each point has the weight of its strength: the work of friction,
+  /// which is no less than that times the slip, pays for the lift of all, tan(psi) being no more
+  /// than tan(phi).
+  template <int Dim>
+  [[nodiscard]] PointLift lift(const PointLoad<Dim>& load, const State<Dim>& state) const {
+    const PointForce<Dim> trial = elastic_force(load, state);
+    const double strength =
+        std::max(0.0, cohesion(load, state) + friction_coefficient(state.failed) * trial.normal);
+    const double shear = trial.tangential.norm();
+    const bool opens = trial.normal < -tensile_strength(load, state);
+    if (!(shear > strength)) return {opens ? 0.0 : strength, 0};
+    const double slip = (shear - strength) / (p_.joint_shear_stiffness * load.weight);
+    return {opens ? 0.0 : strength, dilation(state.path + slip) - dilation(state.path)};
   }
 
   /// N^2 / (2 k_n w) + T^2 / (2 k_s w)
@@ -180,9 +201,11 @@ class MohrCoulombJoint {
   struct Response {
     PointForce<Dim> force;
     double slip = 0;     ///< new plastic slip [m]
+    double lift = 0;     ///< new dilation [m]
     bool opens = false;  ///< tensile strength reached, or open
   };
 
+  /// Of a point that lifts by itself [m].
   [[nodiscard]] double dilation(double path) const {
     return tan_dilation_ * std::min(path, p_.dilation_limit);
   }
@@ -193,7 +216,7 @@ class MohrCoulombJoint {
                                               const State<Dim>& state) const {
     const double w = load.weight;
     return {load.initial.normal -
-                p_.joint_normal_stiffness * w * (load.motion.opening - dilation(state.path)),
+                p_.joint_normal_stiffness * w * (load.motion.opening - state.dilation),
             state.force(load, load.initial.tangential, p_.joint_shear_stiffness)};
   }
   /// Part of what carries the point's load that is bonded, 0 to 1.
@@ -241,16 +264,20 @@ class MohrCoulombJoint {
     // Below zero too: slip on the way to an opening may hold the joint shut.
     const double over = shear - (cohesion + mu * r.force.normal);
     if (over > 0) {
-      const double left = tan_dilation_ == 0 ? 0.0 : std::max(0.0, p_.dilation_limit - state.path);
-      r.slip = over / (ks + mu * kn * tan_dilation_);
-      if (r.slip > left) r.slip = (over - mu * kn * tan_dilation_ * left) / ks;
-      r.force.normal += kn * tan_dilation_ * std::min(r.slip, left);
+      const bool by_itself = tan_dilation_ > 0 && load.lift < 0;
+      const double left = by_itself ? std::max(0.0, p_.dilation_limit - state.path) : 0.0;
+      const double steep = by_itself ? tan_dilation_ : 0.0;
+      r.slip = over / (ks + mu * kn * steep);
+      if (r.slip > left) r.slip = (over - mu * kn * steep * left) / ks;
+      r.lift = steep * std::min(r.slip, left);
+      r.force.normal += kn * r.lift;
       r.force.tangential *= shear > 0 ? std::max(0.0, shear - ks * r.slip) / shear : 0.0;
     }
     if (r.force.normal < least_normal) {
       r = {};
       r.opens = true;
     }
+    if (load.lift > 0) r.lift = load.lift;
     return r;
   }
   Params p_;

@@ -20,7 +20,7 @@ namespace voussoir {
 ///   T = w_c tau + (w - w_c) (tau - tau_c) / 2
 ///
 /// and at the commit this force is spread over all that is closed. That dissipates energy: on the
-/// random paths of tests/model/pressed_part none is made (joints without dilation).
+/// random paths of tests/model/pressed_part none is made.
 template <int Dim>
 struct ShearSpring {
   Vec<Dim - 1> plastic_slip = zeros<Vec<Dim - 1>>();  ///< q [m]

@@ -13,7 +13,9 @@ namespace voussoir {
 /// shrinks with the square of the step while nothing slides; with the step itself where dashpots
 /// act, whose velocity is half a step old.
 struct EnergyBalance {
-  double kinetic = 0;          ///< stored in the bodies, difference to the beginning
+  /// Stored in the bodies, difference to the beginning; without damping that of the velocities half
+  /// a step before and after, which the steps keep (`Kick::kinetic_rate`).
+  double kinetic = 0;
   double contacts = 0;         ///< stored in the springs of joints, difference to the beginning
   double supports = 0;         ///< stored in bolts and lining, or lost by yielding bolts
   double gravity = 0;          ///< work done by the weight

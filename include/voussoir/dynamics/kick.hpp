@@ -18,9 +18,11 @@ struct StepWork {
 };
 
 /// What one member of a team has summed up in some steps; apart in memory from the others.
+template <int Dim>
 struct alignas(64) MemberSums {
-  Dissipation lost;      ///< `viscosity` only within a step
-  double viscosity = 0;  ///< [J]
+  Dissipation lost;              ///< `viscosity` only within a step
+  StepCrossings<Dim> crossings;  ///< of the present step
+  double viscosity = 0;          ///< [J]
   StepWork work;
   double fastest = 0;  ///< no point of its bodies is faster in the present step [m/s]
 
@@ -55,6 +57,14 @@ class Kick {
   [[nodiscard]] double fastest_gain(const MovingBody<Dim>& body) const {
     return acceleration_.norm() + quotients(torque_, body.inertia).norm() * body.radius;
   }
+  /// K M^-1 K: h^2/8 of it is by how much the kinetic energy at the end of a step h is above that
+  /// of the velocities half a step before and after, v- M v+ / 2, which velocity Verlet keeps
+  /// [J/s^2].
+  [[nodiscard]] double kinetic_rate(const MovingBody<Dim>& body) const {
+    return body.mass * acceleration_.squaredNorm() + torque_.dot(quotients(torque_, body.inertia));
+  }
+  [[nodiscard]] const Vec<Dim>& acceleration() const { return acceleration_; }  ///< [m/s^2]
+  [[nodiscard]] const Spin<Dim>& torque() const { return torque_; }  ///< frame of the body [N m]
   /// Half a step of velocity.
   void kick(MovingBody<Dim>& body, double step) const {
     body.velocity += 0.5 * step * acceleration_;

@@ -224,6 +224,7 @@ class Motion : public MovingBodies<Dim> {
     begin();
     EnergyBalance now = audit_;
     now.kinetic = this->kinetic_energy() - kinetic_given_;
+    now.kinetic -= 0.125 * step_ * step_ * (kinetic_rates() - kinetic_rates_at_start_);
     now.contacts = network_.stored_energy(bodies_) - contacts_at_start_;
     now.supports = supports_.energy(bodies_);
     return now;
@@ -273,6 +274,16 @@ class Motion : public MovingBodies<Dim> {
     else
       (void)freshen();
     are_loads_fresh_ = true;
+    if (steps_ == 0) kinetic_rates_at_start_ = kinetic_rates();
+  }
+  /// Of what moves without damping, see `Kick::kinetic_rate` [J/s^2].
+  [[nodiscard]] double kinetic_rates() const {
+    double sum = 0;
+    if (settings_.local_damping == 0 && settings_.viscous_damping == 0)
+      part_.each_body(bodies_.size(), [&](std::size_t b) {
+        if (bodies_[b].movable()) sum += stepping_.acting()[b].kinetic_rate(bodies_[b]);
+      });
+    return sum;
   }
   /// @return  what contacts lose by that: of bodies that were moved by hand
   Dissipation freshen() {
@@ -375,6 +386,7 @@ class Motion : public MovingBodies<Dim> {
   std::optional<ContactTracker<Dim, Detector>> tracker_;
   EnergyBalance audit_;
   double contacts_at_start_ = 0;
+  double kinetic_rates_at_start_ = 0;  ///< see `kinetic_rates` [J/s^2]
   detail::RunSizes sizes_{};
   double time_ = 0, step_ = 0, stable_step_ = 0;
   std::int64_t steps_ = 0, checked_ = 0;

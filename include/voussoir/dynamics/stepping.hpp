@@ -10,6 +10,7 @@
 #include <vector>
 #include <voussoir/core/thread_team.hpp>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/dynamics/detail/crossing_kicks.hpp>
 #include <voussoir/dynamics/energy_balance.hpp>
 #include <voussoir/dynamics/kick.hpp>
 #include <voussoir/dynamics/moving_part.hpp>
@@ -82,7 +83,10 @@ class Stepping {
   explicit Stepping(unsigned threads)
       : team_(std::make_unique<ThreadTeam>(threads)), alone_(std::make_unique<ThreadTeam>(1)) {}
 
-  void resize(std::size_t bodies) { acting_.resize(bodies); }
+  void resize(std::size_t bodies) {
+    acting_.resize(bodies);
+    crossing_kicks_.resize(bodies);
+  }
   /// What acts on each body, when it was last computed.
   [[nodiscard]] const std::vector<Kick<Dim>>& acting() const { return acting_; }
 
@@ -92,12 +96,12 @@ class Stepping {
     ThreadTeam& team = team_for(forces);
     sums_.assign(team.size(), {});
     team.run([&](unsigned member) {
-      respond(forces, team, member, sums_[member].lost);
+      respond(forces, team, member, sums_[member].lost, nullptr);
       forces.part.each_body(team, member, forces.bodies.size(),
                             [&](std::size_t b) { settle(forces, b); });
     });
     Dissipation lost;
-    for (const MemberSums& of_member : sums_) lost.friction += of_member.lost.friction;
+    for (const MemberSums<Dim>& of_member : sums_) lost.friction += of_member.lost.friction;
     return lost;
   }
 
@@ -122,21 +126,22 @@ class Stepping {
  private:
   /// A member's share of what contacts and supports do to the bodies where they are; all of it is
   /// done when it returns.
-  void respond(const Forces& forces, ThreadTeam& team, unsigned member, Dissipation& lost) {
+  void respond(const Forces& forces, ThreadTeam& team, unsigned member, Dissipation& lost,
+               StepCrossings<Dim>* crossings) {
     const MovingPart& part = forces.part;
     if (part.is_all) {
       const auto contacts = team.share(forces.network.size(), member);
-      forces.network.react(contacts.first, contacts.last, forces.bodies, lost);
+      forces.network.react(contacts.first, contacts.last, forces.bodies, lost, crossings);
     } else {
       const auto share = team.share(part.contacts.size(), member);
       forces.network.react(std::span(part.contacts).subspan(share.first, share.last - share.first),
-                           forces.bodies, lost);
+                           forces.bodies, lost, crossings);
     }
     if (member == 0) forces.supports.act(forces.bodies);
     team.meet();
   }
   /// First half kick, and the drift.
-  void start(const Forces& forces, std::size_t b, double step, MemberSums& sums) {
+  void start(const Forces& forces, std::size_t b, double step, MemberSums<Dim>& sums) {
     MovingBody<Dim>& body = forces.bodies[b];
     acting_[b].kick(body, step);
     acting_[b].add_work(body, step, forces.gravity, forces.applied(b), sums.work);
@@ -149,10 +154,30 @@ class Stepping {
     if (body.movable()) acting_[b].set(body, forces.total(b), forces.local_damping);
   }
   /// Second half kick.
-  void finish(const Forces& forces, std::size_t b, double step, MemberSums& sums) {
+  void finish(const Forces& forces, std::size_t b, double step, MemberSums<Dim>& sums) {
     MovingBody<Dim>& body = forces.bodies[b];
     acting_[b].add_work(body, step, forces.gravity, forces.applied(b), sums.work);
     acting_[b].kick(body, step);
+  }
+
+  /// What contacts whose pressed part has changed in this step need to keep energy: the same for
+  /// any number of members.
+  /// @pre what acts on the bodies is up to date for this member's
+  /// @return  whether any does
+  bool meet_crossings(const Forces& forces, ThreadTeam& team, unsigned member, double step) {
+    const bool any = std::any_of(sums_.begin(), sums_.end(), [](const MemberSums<Dim>& of_member) {
+      return !of_member.crossings.entries.empty();
+    });
+    if (!any) return false;
+    team.meet();
+    if (member == 0) {
+      crossing_kicks_.clear();
+      for (const MemberSums<Dim>& of_member : sums_)
+        for (const auto& entry : of_member.crossings.entries)
+          crossing_kicks_.add(entry, step, forces.bodies, acting_);
+    }
+    team.meet();
+    return true;
   }
 
   /// Where few bodies move, a step is over before the members of a team have met.
@@ -163,7 +188,8 @@ class Stepping {
 
   std::unique_ptr<ThreadTeam> team_, alone_;
   std::vector<Kick<Dim>> acting_;
-  std::vector<MemberSums> sums_;
+  CrossingKicks<Dim> crossing_kicks_;
+  std::vector<MemberSums<Dim>> sums_;
 };
 
 template <int Dim, class Network>
@@ -172,9 +198,11 @@ int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, co
   std::vector<MovingBody<Dim>>& bodies = forces.bodies;
   ThreadTeam& team = team_for(forces);
   sums_.assign(team.size(), {});
+  // Damping takes more than contacts can make that close or open within a step.
+  const bool keeps_energy = forces.local_damping == 0;
   int made = 0;
   team.run([&](unsigned member) {
-    MemberSums& sums = sums_[member];
+    MemberSums<Dim>& sums = sums_[member];
     const auto each = [&](auto&& visit) {
       forces.part.each_body(team, member, bodies.size(), [&](std::size_t b) {
         if (bodies[b].movable()) visit(b);
@@ -186,20 +214,31 @@ int Stepping<Dim, Network>::run(const Forces& forces, int count, double step, co
       each([&](std::size_t b) { start(forces, b, step, sums); });
       team.meet();
       double fastest = 0;
-      for (const MemberSums& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
+      for (const MemberSums<Dim>& of_member : sums_) fastest = std::max(fastest, of_member.fastest);
       way += step * fastest;
-      respond(forces, team, member, sums.lost);
+      sums.crossings.step = step;
+      sums.crossings.entries.clear();
+      respond(forces, team, member, sums.lost, keeps_energy ? &sums.crossings : nullptr);
       sums.viscosity += step * std::exchange(sums.lost.viscosity, 0.0);
-      each([&](std::size_t b) {
-        settle(forces, b);
-        finish(forces, b, step, sums);
-      });
+      if (keeps_energy) {
+        each([&](std::size_t b) { settle(forces, b); });
+        const bool any = meet_crossings(forces, team, member, step);
+        each([&](std::size_t b) {
+          finish(forces, b, step, sums);
+          if (any) crossing_kicks_.kick(bodies[b], b, step);
+        });
+      } else {
+        each([&](std::size_t b) {
+          settle(forces, b);
+          finish(forces, b, step, sums);
+        });
+      }
       if (member == 0) made = k + 1;
       if (way + step * fastest > ways.travel || way + 1.5 * step * fastest > ways.reach) break;
     }
     each([&](std::size_t b) { bodies[b].straighten(); });
   });
-  for (const MemberSums& sums : sums_) sums.add_to(audit);
+  for (const MemberSums<Dim>& sums : sums_) sums.add_to(audit);
   return made;
 }
 

@@ -103,6 +103,8 @@ template <int Dim, class State>
 struct MovingContactPoint;
 template <int Dim>
 struct Reaction;
+template <int Dim>
+struct StepCrossings;
 struct Dissipation;
 
 namespace detail {
@@ -141,6 +143,7 @@ struct ReactionTask {
   const MovingBody<Dim>* bodies = nullptr;
   Reaction<Dim>* reactions = nullptr;  ///< of contact `first` and those behind it
   Dissipation* lost = nullptr;
+  StepCrossings<Dim>* crossings = nullptr;  ///< null: nobody asks for them
 };
 
 /// A contact law behind functions that are called at run time: those of many contacts at once where
@@ -166,6 +169,9 @@ class LawModel {
                                              const void* state) const = 0;
   [[nodiscard]] virtual BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
                                                          const void* state) const = 0;
+  [[nodiscard]] virtual bool dilates() const = 0;
+  /// Nothing for a law that does not dilate.
+  [[nodiscard]] virtual PointLift lift(const PointLoad<Dim>& load, const void* state) const = 0;
   /// See `detail::commit_point` and `detail::tangent_at`.
   virtual bool commit_point(const PointLoad<Dim>& load, void* state) const = 0;
   [[nodiscard]] virtual Stress<Dim> tangent_at(const PointLoad<Dim>& load,
@@ -178,6 +184,27 @@ class LawModel {
 
  private:
   const StateModel& states_;
+};
+
+/// What a law known at run time says of the points of one contact, as `PointsOf` does.
+/// @tparam StateOf  state_of(k) points to what it remembers of point k
+template <int Dim, class StateOf>
+class PointsOfAny {
+ public:
+  PointsOfAny(const LawModel<Dim>& law, StateOf state_of)
+      : law_(law), state_of_(std::move(state_of)) {}
+
+  [[nodiscard]] BondRelease<Dim> release(std::size_t k, const PointLoad<Dim>& load) const {
+    return law_.release_opening(load, state_of_(k));
+  }
+  [[nodiscard]] bool dilates() const { return law_.dilates(); }
+  [[nodiscard]] PointLift lift(std::size_t k, const PointLoad<Dim>& load) const {
+    return law_.lift(load, state_of_(k));
+  }
+
+ private:
+  const LawModel<Dim>& law_;
+  StateOf state_of_;
 };
 
 template <class State>
@@ -239,6 +266,10 @@ class AnyLaw {
   [[nodiscard]] BondRelease<Dim> release_opening(const PointLoad<Dim>& load,
                                                  const AnyState& state) const {
     return model_->release_opening(load, state.of(model_->states()));
+  }
+  [[nodiscard]] bool dilates() const { return model_->dilates(); }
+  [[nodiscard]] PointLift lift(const PointLoad<Dim>& load, const AnyState& state) const {
+    return model_->lift(load, state.of(model_->states()));
   }
   [[nodiscard]] double joint_normal_stiffness() const { return normal_stiffness_; }
   [[nodiscard]] double joint_shear_stiffness() const { return shear_stiffness_; }

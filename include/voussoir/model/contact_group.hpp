@@ -205,7 +205,7 @@ class ContactGroup {
       visit_loads(
           c, u,
           [&](std::size_t k, const auto&, const Vec<dim>& offset, const PointLoad<dim>& load) {
-            is_whole = is_whole && load.whole_over_part == 1;
+            is_whole = is_whole && load.whole_over_part == 1 && !load.is_lifted();
             if (!is_whole) return;
             const Stress<dim> stiffness =
                 law_of(c).model().tangent_at(load, points_.states().at(k));
@@ -252,9 +252,9 @@ class ContactGroup {
         [&](const auto& p) {
           return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
         },
-        [&](std::size_t k, const PointLoad<dim>& load) {
-          return release_opening<dim>(law_of(c), load, points[k].state);
-        },
+        detail::PointsOfAny(
+            law_of(c).model(),
+            [&](std::size_t k) { return points[k].state.of(law_of(c).model().states()); }),
         [&](std::size_t k, const auto&, const PointLoad<dim>& load) {
           sum += law_of(c).force(load, points[k].state).tangential;
         });
@@ -311,8 +311,11 @@ class ContactGroup {
                                                   const double* u) {
     return c.motion(p, c.offset_of(p), u);
   }
-  [[nodiscard]] auto release_of(const Contact& c, std::size_t k, const PointLoad<dim>& load) const {
-    return law_of(c).model().release_opening(load, points_.states().at(k));
+  /// What its law says of the points of a contact.
+  [[nodiscard]] auto said_of(const Contact& c) const {
+    const auto first = static_cast<std::size_t>(c.first);
+    return detail::PointsOfAny(
+        law_of(c).model(), [this, first](std::size_t k) { return points_.states().at(first + k); });
   }
   /// Calls visit(number of the point, point, offset, load) for the points of a contact at
   /// displacement `u`, on its pressed part.
@@ -324,7 +327,7 @@ class ContactGroup {
         [&](const auto& p) {
           return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
         },
-        [&](std::size_t k, const PointLoad<dim>& load) { return release_of(c, first + k, load); },
+        said_of(c),
         [&](std::size_t k, const ReferencePoint<dim>& p, const PointLoad<dim>& load) {
           visit(first + k, p, c.offset_of(p), load);
         });
@@ -391,7 +394,7 @@ int ContactGroup<Geometry>::commit(const double* u) {
           const ReferencePoint<dim> p = points_.place(first + k);
           return PointLoad<dim>{p.weight, p.initial, motion_of(c, p, u)};
         },
-        [&](std::size_t k, const PointLoad<dim>& load) { return release_of(c, first + k, load); },
+        said_of(c),
         [&](std::size_t k, const PointLoad<dim>& load) {
           weakened += commit_point(c, first + k, load) ? 1 : 0;
           return 0.0;

@@ -102,10 +102,9 @@ class ContactKernel {
       requires(Dim == 2) {
     const PlanePoint p = plane_point(k, motion), q = plane_point(k + 1, motion);
     PointLoad<2> loads[2] = {p.load, q.load};
-    const auto release = [&](std::size_t i, const PointLoad<2>& load) {
-      return release_opening<2>(law, load, states_[k + i]);
-    };
-    const auto part = press<2>(loads, {}, release);
+    const auto state_of = [&](std::size_t i) -> const State& { return states_[k + i]; };
+    const PointsOf<2, Law, decltype(state_of)> points(law, state_of);
+    const auto part = press<2>(loads, {}, points);
     if (part.is_whole()) {
       add_point(law, k, p.along, p.height, loads[0], sums);
       add_point(law, k + 1, q.along, q.height, loads[1], sums);
@@ -115,7 +114,7 @@ class ContactKernel {
     }
     if constexpr (std::is_same_v<History, Committing>)
       let_go_of_bond<2>(
-          loads, {}, [&](std::size_t i) { return i == 0 ? p.load : q.load; }, release,
+          loads, {}, [&](std::size_t i) { return i == 0 ? p.load : q.load; }, points,
           [&](std::size_t i, const PointLoad<2>& load) {
             return law.commit(load, states_[k + i]);
           });
@@ -253,16 +252,11 @@ class ContactKernel {
                   Sums& sums) const requires(Dim == 3) {
     const auto first = static_cast<std::size_t>(c.first);
     constexpr std::size_t four = PressedPart<3>::count;
-    if (c.count != four || c.outline.radius == 0 ||
-        !may_be_cut(
-            c.outline,
-            [&](std::size_t k) {
-              return release_opening<3>(law, space_point(first + k, jump, spin).load,
-                                        states_[first + k]);
-            },
-            [&](std::size_t k) {
-              return space_point(first + k, jump, spin).load.motion.opening;
-            })) {
+    const auto state_of = [&](std::size_t k) -> const State& { return states_[first + k]; };
+    const PointsOf<3, Law, decltype(state_of)> all(law, state_of);
+    if (c.count != four || c.outline.radius == 0 || !may_be_cut(c.outline, all, [&](std::size_t k) {
+          return space_point(first + k, jump, spin).load;
+        })) {
       for (std::size_t k = first; k < first + c.count; ++k) {
         const SpacePoint p = space_point(k, jump, spin);
         add_point(law, k, p, p.s, p.t, p.load, sums);
@@ -275,10 +269,7 @@ class ContactKernel {
       points[k] = space_point(first + k, jump, spin);
       loads[k] = points[k].load;
     }
-    const auto release = [&](std::size_t k, const PointLoad<3>& load) {
-      return release_opening<3>(law, load, states_[first + k]);
-    };
-    const auto part = press<3>(loads, c.outline, release);
+    const auto part = press<3>(loads, c.outline, all);
     for (std::size_t k = 0; k < four; ++k) {
       const SpacePoint& p = points[k];
       if (part.is_whole())
@@ -289,7 +280,7 @@ class ContactKernel {
     }
     if constexpr (std::is_same_v<History, Committing>)
       let_go_of_bond<3>(
-          loads, c.outline, [&](std::size_t k) { return points[k].load; }, release,
+          loads, c.outline, [&](std::size_t k) { return points[k].load; }, all,
           [&](std::size_t k, const PointLoad<3>& load) {
             return law.commit(load, states_[first + k]);
           });

@@ -125,18 +125,21 @@ class ContactNetwork {
   void set_laws(std::vector<Law> laws) { groups_[0].set_laws(std::move(laws)); }
 
   /// Computes what contacts first, ..., last - 1 do, history brought up to date.
-  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost) {
+  /// @param crossings  see `MovingContacts::react`
+  void react(std::size_t first, std::size_t last, const Bodies& bodies, Dissipation& lost,
+             StepCrossings<Dim>* crossings = nullptr) {
     std::size_t before = 0;
     for (Group& group : groups_) {
       const std::size_t begin = std::max(first, before),
                         end = std::min(last, before + group.size());
       if (begin < end)
-        group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost);
+        group.react(begin - before, end - before, bodies, &sums_.reaction(begin), lost, crossings);
       before += group.size();
     }
   }
   /// The same of these contacts, in ascending order.
-  void react(std::span<const std::uint32_t> which, const Bodies& bodies, Dissipation& lost) {
+  void react(std::span<const std::uint32_t> which, const Bodies& bodies, Dissipation& lost,
+             StepCrossings<Dim>* crossings = nullptr) {
     std::size_t before = 0;
     auto next = which.begin();
     for (Group& group : groups_) {
@@ -145,7 +148,7 @@ class ContactNetwork {
         const std::size_t first = *next;
         std::size_t last = first;
         for (; next != which.end() && *next == last && last < end; ++next) ++last;
-        group.react(first - before, last - before, bodies, &sums_.reaction(first), lost);
+        group.react(first - before, last - before, bodies, &sums_.reaction(first), lost, crossings);
       }
       before = end;
     }

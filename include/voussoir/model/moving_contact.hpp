@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 #include <voussoir/contact/contact_law.hpp>
 #include <voussoir/core/pose.hpp>
 #include <voussoir/core/vec.hpp>
@@ -14,6 +15,21 @@ template <int Dim>
 struct Reaction {
   Vec<Dim> force;       ///< on b; a gets the opposite [N]
   Spin<Dim> moment[2];  ///< on a and on b, about their centres, world axes [N m]
+};
+
+/// Contacts whose pressed part has changed within a step: velocity Verlet does not keep their
+/// energy
+/// (`detail::CrossingKicks`).
+template <int Dim>
+struct StepCrossings {
+  struct Entry {
+    std::int32_t a, b;    ///< bodies
+    Reaction<Dim> of[2];  ///< normal forces at both ends of the step
+    double power[2];      ///< of these, with the velocities of the step [W]
+    double gained;        ///< by the normal springs in the step [J]
+  };
+  double step = 0;             ///< at whose velocities the bodies came where they are [s]
+  std::vector<Entry> entries;  ///< in the order of contacts
 };
 
 /// What contacts turn into heat.

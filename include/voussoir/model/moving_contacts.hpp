@@ -107,11 +107,12 @@ class MovingContacts {
   /// Forces of contacts first, ..., last - 1 with the bodies at these poses, history brought up to
   /// date.
   /// @param reactions  of these contacts, to be written
+  /// @param crossings  to which those are added that closed or opened in the last step; null: none
   void react(std::size_t first, std::size_t last, const std::vector<MovingBody<Dim>>& bodies,
-             Reaction<Dim>* reactions, Dissipation& lost) {
+             Reaction<Dim>* reactions, Dissipation& lost, StepCrossings<Dim>* crossings = nullptr) {
     if (!(first < last)) return;
     laws_.front().model().react({laws_.data(), contacts_.data(), first, last, points_.data(),
-                                 states_.data(), bodies.data(), reactions, &lost});
+                                 states_.data(), bodies.data(), reactions, &lost, crossings});
   }
   /// Of a point as this contact has it.
   [[nodiscard]] PointForce<Dim> force(const Contact& c, const PointLoad<Dim>& load,
@@ -134,9 +135,8 @@ class MovingContacts {
     detail::visit_pressed<Dim>(
         points.size(), c.outline, [&](std::size_t k) { return points[k]; },
         [&](const Point& p) { return p.load(at); },
-        [&](std::size_t k, const PointLoad<Dim>& load) {
-          return release_of(c, load, points[k].state);
-        },
+        detail::PointsOfAny(law_of(c).model(),
+                            [&](std::size_t k) { return memory(points[k].state); }),
         visit);
   }
   /// Sum of the shear forces of such points [N].

@@ -12,6 +12,7 @@
 #include <voussoir/core/vec.hpp>
 #include <voussoir/model/bonded_part.hpp>
 #include <voussoir/model/contact_outline.hpp>
+#include <voussoir/model/detail/root_of_lift.hpp>
 #include <voussoir/model/moving_contact.hpp>
 #include <voussoir/model/pressed_part.hpp>
 #include <voussoir/model/reference_contact.hpp>
@@ -24,75 +25,138 @@ namespace voussoir::detail {
 VOUSSOIR_INLINE void move_loads(const PressedPart<2>& part, PointLoad<2>* loads);
 VOUSSOIR_INLINE void move_loads(const PressedPart<3>& part, PointLoad<3>* loads);
 
-/// Finds the part that is pressed or bonded, and moves the loads there.
-/// @param release  release(k, load): what `release_opening` says of point k
-template <int Dim, class Release>
-[[nodiscard]] PressedPart<Dim> press(PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
-                                     const Release& release) {
+/// Finds the part that is pressed or bonded, the joint lifted by so much, and moves the loads
+/// there.
+/// @param points  points.release(k, load): what `release_opening` says of point k
+/// @param lift    since the last commit [m], >= 0
+template <int Dim, class Points>
+[[nodiscard]] PressedPart<Dim> press_lifted(PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
+                                            const Points& points, double lift) {
   constexpr std::size_t count = PressedPart<Dim>::count;
   constexpr bool has_bond =
-      std::is_same_v<decltype(release(std::size_t{0}, loads[0])), BondRelease<Dim>>;
+      std::is_same_v<decltype(points.release(std::size_t{0}, loads[0])), BondRelease<Dim>>;
   double pressed_in[count];
   PressedPart<Dim> part;
   if constexpr (has_bond) {
     BondRelease<Dim> of[count];
     for (std::size_t k = 0; k < count; ++k) {
-      of[k] = release(k, loads[k]);
-      pressed_in[k] = of[k].opening - loads[k].motion.opening;
+      of[k] = points.release(k, loads[k]);
+      pressed_in[k] = of[k].opening - loads[k].motion.opening + lift;
     }
     PointBond<Dim> bonds[count];
     part = bonded_part(pressed_in, outline, of, bonds);
     for (std::size_t k = 0; k < count; ++k) loads[k].bond = bonds[k];
   } else {
     for (std::size_t k = 0; k < count; ++k)
-      pressed_in[k] = release(k, loads[k]) - loads[k].motion.opening;
+      pressed_in[k] = points.release(k, loads[k]) - loads[k].motion.opening + lift;
     part = PressedPart<Dim>::of(pressed_in, outline);
   }
-  if (part.is_whole()) return part;
+  if (part.is_whole()) {
+    if (lift > 0)
+      for (std::size_t k = 0; k < count; ++k) loads[k].motion.opening -= lift;
+    return part;
+  }
   move_loads(part, loads);
   // What lets a point go may not be linear along the joint: how far it is pressed in is.
   if constexpr (has_bond)
     for (std::size_t k = 0; k < count; ++k)
-      loads[k].motion.opening = opening_of(release(k, loads[k])) -
+      loads[k].motion.opening = opening_of(points.release(k, loads[k])) -
                                 part.at(k, [&](std::size_t i) { return pressed_in[i]; });
+  else
+    for (std::size_t k = 0; k < count; ++k) loads[k].motion.opening -= lift;
   return part;
+}
+
+/// The part that is pressed or bonded of a joint that dilates. Slip lifts all of it at once, by the
+/// mean of what its points would lift it: rigid bodies ride on it as one, and what each point rubs
+/// pays for its share of that, wherever it is. The lift presses the joint shut, and the more it
+/// does the less slips: it is found for all points together.
+template <int Dim, class Points>
+[[nodiscard]] PressedPart<Dim> press_dilating(PointLoad<Dim>* loads,
+                                              const KeptOutline<Dim>& outline,
+                                              const Points& points) {
+  constexpr std::size_t count = PressedPart<Dim>::count;
+  PointLoad<Dim> of_whole[count];
+  std::copy_n(loads, count, of_whole);
+  double bears = 0;
+  PressedPart<Dim> part;
+  const auto mean_at = [&](double lift) {
+    std::copy_n(of_whole, count, loads);
+    part = press_lifted<Dim>(loads, outline, points, lift);
+    double sum = 0, plain = 0;
+    bears = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      loads[k].lift = lift;
+      const PointLift of = points.lift(k, loads[k]);
+      bears += of.weight;
+      sum += of.weight * of.lift;
+      plain += of.lift / count;
+    }
+    return bears > 0 ? sum / bears : plain;
+  };
+  const double first = mean_at(0);
+  if (!(first > 0)) return part;
+  double deep = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    deep = std::max(
+        deep, std::abs(opening_of(points.release(k, of_whole[k])) - of_whole[k].motion.opening));
+  const double rounding = 1e-13 * deep;
+  if (first <= rounding) return part;
+  (void)root_of_lift(first, rounding, mean_at);
+  // What slips while it is open lifts nothing.
+  if (!(bears > 0)) (void)mean_at(0);
+  return part;
+}
+
+/// Finds the part that is pressed or bonded, and moves the loads there.
+/// @param points  see `PointsOf`
+template <int Dim, class Points>
+[[nodiscard]] PressedPart<Dim> press(PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
+                                     const Points& points) {
+  if (points.dilates()) return press_dilating<Dim>(loads, outline, points);
+  return press_lifted<Dim>(loads, outline, points, 0);
 }
 
 /// To be called when the points of a joint have brought their history up to date. Where one of them
 /// has failed in shear by that, the joint lets go what it held in tension, and they do so again.
 /// @param loads    as they were
 /// @param load_of  load_of(k) of a point of the whole
-/// @param release  see `press`;  @param commit  commit(k, load) is the energy that is lost [J]
+/// @param points   see `PointsOf`;  @param commit  commit(k, load) is the energy that is lost [J]
 /// @return  energy that is lost [J]
-template <int Dim, class LoadOf, class Release, class Commit>
+template <int Dim, class LoadOf, class Points, class Commit>
 double let_go_of_bond(const PointLoad<Dim>* loads, const KeptOutline<Dim>& outline,
-                      const LoadOf& load_of, const Release& release, const Commit& commit) {
+                      const LoadOf& load_of, const Points& points, const Commit& commit) {
   double lost = 0;
-  if constexpr (std::is_same_v<decltype(release(std::size_t{0}, loads[0])), BondRelease<Dim>>) {
+  if constexpr (std::is_same_v<decltype(points.release(std::size_t{0}, loads[0])),
+                               BondRelease<Dim>>) {
     constexpr std::size_t count = PressedPart<Dim>::count;
     bool lets_go = false;
     for (std::size_t k = 0; k < count; ++k)
       lets_go = lets_go || (std::isfinite(loads[k].bond.stretch) &&
-                            release(k, loads[k]).stretch < loads[k].bond.stretch);
+                            points.release(k, loads[k]).stretch < loads[k].bond.stretch);
     if (!lets_go) return lost;
     PointLoad<Dim> again[count];
     for (std::size_t k = 0; k < count; ++k) again[k] = load_of(k);
-    (void)press<Dim>(again, outline, release);
+    (void)press<Dim>(again, outline, points);
     for (std::size_t k = 0; k < count; ++k) lost += commit(k, again[k]);
   }
   return lost;
 }
 
 /// Whether a contact in 3-D may be other than pressed, or open, all over: hardly ever.
-/// @param release  release(k): what `release_opening` says of point k, as it is loaded
-/// @param opening  opening(k) of point k [m]
-template <class Release, class Opening>
-[[nodiscard]] bool may_be_cut(const KeptOutline<3>& outline, const Release& release,
-                              const Opening& opening) {
+/// @param points   see `PointsOf`;  @param load_of  load_of(k) of point k
+/// @return  true, too, of a joint that dilates: all of its points lift it together
+template <class Points, class LoadOf>
+[[nodiscard]] bool may_be_cut(const KeptOutline<3>& outline, const Points& points,
+                              const LoadOf& load_of) {
+  if (points.dilates()) return true;
   double pressed_in[PressedPart<3>::count];
-  for (std::size_t k = 0; k < PressedPart<3>::count; ++k)
-    pressed_in[k] = opening_of(release(k)) - opening(k);
-  constexpr bool has_bond = !std::is_same_v<decltype(release(std::size_t{0})), double>;
+  for (std::size_t k = 0; k < PressedPart<3>::count; ++k) {
+    const PointLoad<3> load = load_of(k);
+    pressed_in[k] = opening_of(points.release(k, load)) - load.motion.opening;
+  }
+  constexpr bool has_bond =
+      !std::is_same_v<decltype(points.release(std::size_t{0}, load_of(std::size_t{0}))), double>;
   return PressedPart<3>::may_be_cut(pressed_in, outline) || (has_bond && pressed_in[0] < 0);
 }
 
@@ -122,10 +186,10 @@ template <int Dim, class State>
 
 /// Calls visit(k, point, load) for the points of a contact, on its pressed part.
 /// @param point_at  point_at(k) is point k as a value;  @param load_of  load_of(point)
-/// @param release   see `press`
-template <int Dim, class PointAt, class LoadOf, class Release, class Visit>
+/// @param of        see `PointsOf`
+template <int Dim, class PointAt, class LoadOf, class Points, class Visit>
 void visit_pressed(std::size_t count, const KeptOutline<Dim>& outline, const PointAt& point_at,
-                   const LoadOf& load_of, const Release& release, Visit&& visit) {
+                   const LoadOf& load_of, const Points& of, Visit&& visit) {
   using Part = PressedPart<Dim>;
   if (count != Part::count) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -141,7 +205,7 @@ void visit_pressed(std::size_t count, const KeptOutline<Dim>& outline, const Poi
     points[k] = point_at(k);
     loads[k] = load_of(points[k]);
   }
-  const Part part = press<Dim>(loads.data(), outline, release);
+  const Part part = press<Dim>(loads.data(), outline, of);
   std::array<Vec<Dim>, Part::count> places;
   for (std::size_t k = 0; k < count; ++k) places[k] = place_in(points[k]);
   for (std::size_t k = 0; k < count; ++k) {

@@ -21,7 +21,7 @@ namespace voussoir::detail {
 template <int Dim, class Law>
 double commit_again(const Law& law, const PointLoad<Dim>& before, const PointLoad<Dim>& now,
                     typename Law::template State<Dim>& state) {
-  const double held = law.stored_energy(before, state);
+  const double held = law.stored_energy(before.committed(), state);
   (void)law.commit(now, state);
   return held - law.stored_energy(now, state);
 }
@@ -81,10 +81,9 @@ template <class Law, class Point, class State>
     PlanePlace at_p = place_of(*p), at_q = place_of(*q);
     const PointLoad<2> of_whole[2] = {load_of(*p, at_p), load_of(*q, at_q)};
     PointLoad<2> loads[2] = {of_whole[0], of_whole[1]};
-    const auto release_of = [&](std::size_t k, const PointLoad<2>& load) {
-      return release_opening<2>(law, load, k == 0 ? state_p : state_q);
-    };
-    const auto part = press<2>(loads, c.outline, release_of);
+    const auto state_of = [&](std::size_t k) -> const State& { return k == 0 ? state_p : state_q; };
+    const PointsOf<2, Law, decltype(state_of)> both(law, state_of);
+    const auto part = press<2>(loads, c.outline, both);
     if (!part.is_whole()) {
       const double first = at_p.tangential, second = at_q.tangential;
       at_p.tangential = part.at(0, first, second);
@@ -93,7 +92,7 @@ template <class Law, class Point, class State>
     react(state_p, at_p, loads[0]);
     react(state_q, at_q, loads[1]);
     lost.friction += let_go_of_bond<2>(
-        loads, c.outline, [&](std::size_t k) { return of_whole[k]; }, release_of,
+        loads, c.outline, [&](std::size_t k) { return of_whole[k]; }, both,
         [&](std::size_t k, const PointLoad<2>& load) {
           return commit_again(law, loads[k], load, k == 0 ? state_p : state_q);
         });
@@ -174,19 +173,15 @@ template <class Law, class Point, class State>
   };
   Point* const first = points + c.first;
   constexpr std::size_t four = PressedPart<3>::count;
-  const auto release_of = [&](std::size_t k, const PointLoad<3>& load) {
-    Point& p = first[k];
-    return release_opening<3>(law, load, states[&p - points]);
-  };
-  const bool is_cut =
-      c.last - c.first == static_cast<std::ptrdiff_t>(four) && c.outline.radius > 0 &&
-      may_be_cut(
-          c.outline, [&](std::size_t k) { return release_of(k, load_of(first[k])); },
-          [&](std::size_t k) { return load_of(first[k]).motion.opening; });
+  const auto state_of = [&](std::size_t k) -> const State& { return states[first + k - points]; };
+  const PointsOf<3, Law, decltype(state_of)> all(law, state_of);
+  const bool is_cut = c.last - c.first == static_cast<std::ptrdiff_t>(four) &&
+                      c.outline.radius > 0 &&
+                      may_be_cut(c.outline, all, [&](std::size_t k) { return load_of(first[k]); });
   if (is_cut) {
     PointLoad<3> loads[four];
     for (std::size_t k = 0; k < four; ++k) loads[k] = load_of(first[k]);
-    const auto part = press<3>(loads, c.outline, release_of);
+    const auto part = press<3>(loads, c.outline, all);
     for (std::size_t k = 0; k < four; ++k) {
       const Vec<3> place =
           part.is_whole()
@@ -195,7 +190,7 @@ template <class Law, class Point, class State>
       react(states[first + k - points], place, first[k].place, loads[k]);
     }
     lost.friction += let_go_of_bond<3>(
-        loads, c.outline, [&](std::size_t k) { return load_of(first[k]); }, release_of,
+        loads, c.outline, [&](std::size_t k) { return load_of(first[k]); }, all,
         [&](std::size_t k, const PointLoad<3>& load) {
           return commit_again(law, loads[k], load, states[first + k - points]);
         });

@@ -11,6 +11,7 @@
 #include <voussoir/core/roles.hpp>
 #include <voussoir/model/any_law.hpp>
 #include <voussoir/model/detail/contact_reaction.hpp>
+#include <voussoir/model/detail/crossing.hpp>
 #include <voussoir/model/detail/law_steps.hpp>
 #include <voussoir/model/moving_body.hpp>
 #include <voussoir/model/moving_contact.hpp>
@@ -49,6 +50,19 @@ class LawModelOf final : public LawModel<Dim> {
     else
       return {voussoir::release_opening<Dim>(law_, load, as_state(state)), 0, 0, {}};
   }
+  [[nodiscard]] bool dilates() const override {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.dilates();
+    else
+      return false;
+  }
+  [[nodiscard]] PointLift lift([[maybe_unused]] const PointLoad<Dim>& load,
+                               [[maybe_unused]] const void* state) const override {
+    if constexpr (HasLift<Law, Dim>)
+      return law_.lift(load, as_state(state));
+    else
+      return {};
+  }
   bool commit_point(const PointLoad<Dim>& load, void* state) const override {
     return detail::commit_point<Dim>(law_, load, *static_cast<State*>(state));
   }
@@ -69,8 +83,11 @@ class LawModelOf final : public LawModel<Dim> {
     Reaction<Dim>* reactions = task.reactions;
     for (std::size_t k = task.first; k < task.last; ++k) {
       const MovingContact<Dim>& c = task.contacts[k];
-      *reactions++ = reaction(of_type(task.laws[c.law]), c, task.points, states, task.bodies[c.a],
-                              task.bodies[c.b], *task.lost);
+      const Law& law = of_type(task.laws[c.law]);
+      const auto &a = task.bodies[c.a], &b = task.bodies[c.b];
+      *reactions++ = reaction(law, c, task.points, states, a, b, *task.lost);
+      if (task.crossings != nullptr)
+        add_crossing(law, c, task.points, states, a, b, *task.crossings);
     }
   }
 

@@ -19,7 +19,7 @@ bool commit_point(const Law& law, const PointLoad<Dim>& load,
                   typename Law::template State<Dim>& state) {
   const PointForce<Dim> before = law.force(load, state);
   law.commit(load, state);
-  const PointForce<Dim> after = law.force(load, state);
+  const PointForce<Dim> after = law.force(load.committed(), state);
   const double change =
       std::abs(after.normal - before.normal) + (after.tangential - before.tangential).norm();
   return change > 1e-9 * (std::abs(before.normal) + before.tangential.norm());
