@@ -129,7 +129,7 @@ const std::vector<Trough> troughs{{40, 45}, {50, 60}, {60, 35}, {70, 40}};
 
 }  // namespace
 
-TEST_SUITE("solver/stressed_wedge") {
+TEST_SUITE("design/stressed_wedge") {
   TEST_CASE("limit analysis gives the closed form with shear across the way") {
     for (const Trough& trough : troughs) {
       CAPTURE(trough.plunge);
