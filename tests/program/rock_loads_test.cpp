@@ -82,10 +82,10 @@ TEST_SUITE("program/rock_loads") {
       const Input input = read_input_text(text(pressed), "case.toml", ".", {});
       int between = 0;
       const auto count = [&](const auto& bodies, auto top, auto bottom) {
-        const auto height_at = [&](const auto& place) {
+        const auto height_at = [&](const auto& point) {
           for (const auto& body : bodies)
             for (const auto& part : body.parts)
-              if (part.contains(place)) return body.properties.centroid[place.size() - 1];
+              if (part.contains(point)) return body.properties.centroid[point.size() - 1];
           FAIL("no block");
           return 0.0;
         };
