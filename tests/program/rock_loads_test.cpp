@@ -208,7 +208,7 @@ TEST_SUITE("program/rock_loads") {
         axial.push_back(1e3 * std::stod(cells.at(6)));
     REQUIRE(axial.size() == 2);
     double borne = 0;
-    for (const std::size_t upper : {0, 1}) {
+    for (const std::size_t upper : {std::size_t{0}, std::size_t{1}}) {
       const double slip = (moved(r, 2 + 2 * upper) - moved(r, 1 + 2 * upper)).x(),
                    length = std::hypot(apart, slip);
       CAPTURE(slip);
