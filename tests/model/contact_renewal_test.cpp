@@ -59,11 +59,13 @@ struct Pile {
   void add(const Vec<Dim>& low, const Vec<Dim>& high) {
     shapes.add(as_block(Domain<Dim>{low, high}), Vec<Dim>::Zero());
   }
+  /// @param share  of the area that is found, as if there were no more of it
   Contact find(std::size_t shape, const Contact* old, const std::vector<Point>& old_points,
-               std::vector<Point>& points) {
+               std::vector<Point>& points, double share = 1) {
     typename FaceContacts::Pair<Dim> detector(shapes);
     typename FaceContacts::Pair<Dim>::Memory memory;
-    const auto found = detector.contact_near(0, shape, memory, 1e-3);
+    auto found = detector.contact_near(0, shape, memory, 1e-3);
+    found.measure *= share;
     const bool of_a = found.touch != Touch::face_b;
     Contact contact = Renewal(bodies, old_points)
                           .run(found, shapes.grid_point(0), shapes, of_a ? 0 : shape, of_a ? 0 : 1,
@@ -121,6 +123,24 @@ TEST_SUITE("model/contact_renewal") {
         CHECK((whole[k] - expected[k]).norm() <= 1e-7);
         CHECK((one[k] + other[k] - expected[k]).norm() <= 1e-7);
       }
+    }
+  }
+
+  TEST_CASE_TEMPLATE("an area that is none but for rounding makes no contact", D, Dimensions<2>,
+                     Dimensions<3>) {
+    Pile<D::dim> pile;
+    pile.bodies[0].radius = 3;
+    pile.bodies[1].radius = 1;  // of the smaller one 1e-12 are the limit
+    std::vector<typename Pile<D::dim>::Point> points;
+    for (const double share : {1.0, 1e-3, 1e-9}) {
+      CAPTURE(share);
+      (void)pile.find(1, nullptr, {}, points, share);
+      CHECK(points.size() >= 2);
+    }
+    for (const double share : {1e-13, 1e-30}) {
+      CAPTURE(share);
+      (void)pile.find(1, nullptr, {}, points, share);
+      CHECK(points.empty());
     }
   }
 

@@ -64,9 +64,6 @@ class ContactShares {
   /// pairs share it, `area` is what all have of it, on the polygon's side, counted as it is from
   /// the grid point of the pair's first shape and with the measure of all, and else null.
   void join(const Visit& take, const Visit& visit);
-  void join(const Visit& visit) {
-    join([](Pair&, const Contact<Dim>&, const ContactArea<Dim>*) {}, visit);
-  }
 
  private:
   struct Share {
