@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,6 +16,7 @@
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/invariants.hpp>
 #include <voussoir/core/ordering.hpp>
+#include <voussoir/geometry/joined_facets.hpp>
 #include <voussoir/geometry/planar.hpp>
 #include <voussoir/geometry/spatial.hpp>
 #include <voussoir/rockmass/carving.hpp>
@@ -186,10 +188,8 @@ class WallFinder {
     for (const auto& group : connected_groups(missing, all_connect, tolerance_))
       add_holes(group, number++);
     if (!faces_.empty()) add_faces_of_holes();
-    if constexpr (dim == 2) {
-      join_faces_of_holes();
-      find_hidden();
-    }
+    add_pieces_of_holes();
+    if constexpr (dim == 2) find_hidden();
     sort();
     return std::move(wall_);
   }
@@ -255,6 +255,11 @@ class WallFinder {
   struct HoleFace {
     Facet facet;
     std::size_t first_hole, end_hole;
+  };
+  /// What of a body bounds one void behind an edge.
+  struct FacesOfHole {
+    int hole = 0;  ///< one of that void
+    std::vector<Facet> facets;
   };
 
   /// Of what is missing, in one piece; nothing if it did not lie at this outline.
@@ -324,52 +329,28 @@ class WallFinder {
         }
   }
   void add_face_of_hole(int body, const Facet& face, std::size_t hole) {
-    const auto e = static_cast<std::size_t>(wall_.holes[hole].edge);
-    auto facet = outline_.template part_between<dim>(std::optional(face), bounds_[hole].low,
-                                                     bounds_[hole].high, tolerance_);
+    const int e = wall_.holes[hole].edge;
+    const auto facet = outline_.template part_between<dim>(std::optional(face), bounds_[hole].low,
+                                                           bounds_[hole].high, tolerance_);
     if (!facet) return;
-    const auto [from, to] = places(e, *facet);
-    const double depth = outline_.depth(e, outline_.in_section(facet->centre()));
-    wall_.pieces.push_back({body, std::move(*facet), static_cast<int>(e), outline_.start(e) + from,
-                            outline_.start(e) + to, std::max(0.0, depth), static_cast<int>(hole)});
+    FacesOfHole& of_hole = faces_of_holes_[{e, body, wall_.holes[hole].group}];
+    of_hole.hole = static_cast<int>(hole);
+    of_hole.facets.push_back(*facet);
   }
 
-  /// Makes one of what lies in line: into which convex parts carving has divided blocks and what
-  /// is missing, which differs in the mirror, is no matter of the wall.
-  void join_faces_of_holes() {
-    std::vector<WallPiece<Geometry>> joined;
-    const auto group = [&](const WallPiece<Geometry>& piece) {
-      return wall_.holes[static_cast<std::size_t>(piece.hole)].group;
-    };
-    const auto meet = [&](const Vec2& a, const Vec2& b) {
-      return length_of(a - b) <= 2 * tolerance_;
-    };
-    for (WallPiece<Geometry>& piece : wall_.pieces) {
-      for (std::size_t k = 0; piece.hole >= 0 && k < joined.size();) {
-        const WallPiece<Geometry>& other = joined[k];
-        const Segment &a = other.facet, &b = piece.facet;
-        const bool is_before = meet(a.end, b.start), is_after = meet(b.end, a.start);
-        const Segment both = is_before ? Segment{a.start, b.end} : Segment{b.start, a.end};
-        const bool is_one = other.hole >= 0 && other.body == piece.body &&
-                            other.edge == piece.edge && group(other) == group(piece) &&
-                            is_before != is_after &&
-                            length_of(nearest_on(both, is_before ? a.end : a.start) -
-                                      (is_before ? a.end : a.start)) <= 2 * tolerance_;
-        if (!is_one) {
-          ++k;
-          continue;
-        }
-        const auto e = static_cast<std::size_t>(piece.edge);
-        piece.facet = both;
-        piece.from = std::min(piece.from, other.from);
-        piece.to = std::max(piece.to, other.to);
-        piece.depth = std::max(0.0, outline_.depth(e, outline_.in_section(both.centre())));
-        joined.erase(joined.begin() + static_cast<std::ptrdiff_t>(k));
-        k = 0;
+  /// Joined: into which convex parts carving has divided blocks and what is missing is no matter of
+  /// the wall.
+  void add_pieces_of_holes() {
+    for (auto& [where, faces] : faces_of_holes_) {
+      const auto& [edge, body, group] = where;
+      const auto e = static_cast<std::size_t>(edge);
+      for (Facet& facet : joined_facets(std::move(faces.facets), tolerance_)) {
+        const auto [from, to] = places(e, facet);
+        const double depth = outline_.depth(e, outline_.in_section(facet.centre()));
+        wall_.pieces.push_back({body, std::move(facet), edge, outline_.start(e) + from,
+                                outline_.start(e) + to, std::max(0.0, depth), faces.hole});
       }
-      joined.push_back(std::move(piece));
     }
-    wall_.pieces = std::move(joined);
   }
 
   /// Where rock overhangs in a hole, what lies behind it is not seen.
@@ -424,8 +405,9 @@ class WallFinder {
   std::vector<bool> is_there_;  ///< of every body
   std::vector<decltype(outline_piece(std::declval<const Opening&>(), 0, mass_.domain))> sides_;
   Wall<Geometry> wall_;
-  std::vector<Bounds> bounds_;                  ///< of every hole
-  std::map<int, std::vector<HoleFace>> faces_;  ///< of what is missing, by their cuts
+  std::vector<Bounds> bounds_;                                ///< of every hole
+  std::map<int, std::vector<HoleFace>> faces_;                ///< of what is missing, by their cuts
+  std::map<std::array<int, 3>, FacesOfHole> faces_of_holes_;  ///< by edge, body and void
 };
 
 }  // namespace detail

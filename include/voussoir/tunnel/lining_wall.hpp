@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 #include <voussoir/core/vec.hpp>
+#include <voussoir/geometry/joined_facets.hpp>
 #include <voussoir/lining/lining_frame.hpp>
 #include <voussoir/rockmass/wall_pieces.hpp>
 #include <voussoir/tunnel/ring_nodes.hpp>
@@ -43,63 +46,35 @@ class LiningOnWall {
   ///                part) for every part, in 3-D between the ribs
   template <class Divide>
   void put_on(LiningFrame<Geometry>& frame, Divide&& divide) {
-    std::vector<LiningContact<Geometry>> of_holes;
+    // Apart: in motion rock and what fills holes are contacts of two shapes, of which one alone
+    // would go on from one at rest that is of both.
+    ByNodeAndBody of_rock, of_holes;
     for (const WallPiece<Geometry>& piece : wall_.pieces) {
       const auto e = static_cast<std::size_t>(piece.edge);
       for (const Facet& on_outline : in_front_of(piece)) {
         const auto [from, to] = places(e, on_outline);
         each_stretch(on_outline, e, from, to, [&](int ring_node, const Facet& part) {
           divide(ring_node, part, [&](int node, const Facet& facet) {
-            if (piece.hole < 0) {
-              frame.contacts.push_back({node, piece.body, facet});
-            } else {
-              of_holes.push_back({node, piece.body, facet});
-              add_fills(frame, piece, node, facet);
-            }
+            (piece.hole < 0 ? of_rock : of_holes)[{node, piece.body}].push_back(facet);
+            if (piece.hole >= 0) add_fills(frame, piece, node, facet);
           });
         });
       }
     }
-    if constexpr (dim == 2) join_neighbours(of_holes);
-    frame.contacts.insert(frame.contacts.end(), of_holes.begin(), of_holes.end());
+    add_joined(frame, of_rock);
+    add_joined(frame, of_holes);
     add_gaps(frame);
   }
 
  private:
-  /// Makes one of contacts of a node and a body that lie side by side in front of holes: into how
-  /// many parts these have been cut is no matter of the lining. Not of those on rock with these: in
-  /// motion they are contacts of two shapes, of which one alone would go on from the one at rest.
-  void join_neighbours(std::vector<LiningContact<Geometry>>& contacts) const {
-    // Again and again: one that comes late may lie between two that did not meet.
-    for (std::size_t before = contacts.size() + 1; contacts.size() < before;) {
-      before = contacts.size();
-      join_once(contacts);
-    }
-  }
-  void join_once(std::vector<LiningContact<Geometry>>& contacts) const {
-    std::vector<LiningContact<Geometry>> joined;
-    for (LiningContact<Geometry>& contact : contacts) {
-      bool is_taken = false;
-      for (std::size_t k = joined.size(); !is_taken && k-- > 0;) {
-        LiningContact<Geometry>& other = joined[k];
-        if (other.node != contact.node || other.body != contact.body) continue;
-        if (std::abs(dot_product(normalized(contact.facet.area_vector()),
-                                 other.facet.end - other.facet.start)) > 2 * tolerance_)
-          continue;
-        const auto meet = [&](const Vec2& a, const Vec2& b) {
-          return length_of(a - b) <= 2 * tolerance_;
-        };
-        is_taken = true;
-        if (meet(other.facet.end, contact.facet.start))
-          other.facet.end = contact.facet.end;
-        else if (meet(contact.facet.end, other.facet.start))
-          other.facet.start = contact.facet.start;
-        else
-          is_taken = false;
-      }
-      if (!is_taken) joined.push_back(std::move(contact));
-    }
-    contacts = std::move(joined);
+  using ByNodeAndBody = std::map<std::array<int, 2>, std::vector<Facet>>;
+
+  /// Makes one contact of what a node and a body share side by side: into how many parts it has
+  /// been cut is no matter of the lining.
+  void add_joined(LiningFrame<Geometry>& frame, ByNodeAndBody& shared) const {
+    for (auto& [who, facets] : shared)
+      for (Facet& facet : joined_facets(std::move(facets), tolerance_))
+        frame.contacts.push_back({who[0], who[1], std::move(facet)});
   }
   /// What of the outline is in front of a piece of wall: itself, or what one sees it through if it
   /// lies behind a hole, where that is not too deep to be filled.
