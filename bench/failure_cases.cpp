@@ -66,7 +66,7 @@ FailureCase failure_case(int number) {
   for (const double dip : dips(random, set_count)) {
     const bool is_right = dip <= 0.5 * std::numbers::pi;
     JointSet& set = sets.emplace_back();
-    set.name = "J" + std::to_string(sets.size());
+    set.name = std::string("J").append(std::to_string(sets.size()));
     set.dip = is_right ? dip : std::numbers::pi - dip;
     set.dip_direction = is_right ? DipDirection::east : DipDirection::west;
     set.dip_deviation = between(random, 1, 5) * degree;

@@ -275,11 +275,12 @@ TEST_SUITE("equilibrium/rock_failure") {
     moduli(2, 2) *= 0.5;
     says(of(CoulombJoint({2e9, 1e9, 60 * degree}), 100, FarField<2>::elastic(moduli)).equilibrium(),
          "the modulus of the ground around (0.004 GPa)");
-    // Very deep: at 5 000 m such rock squeezes, and no elastic answer tells how much.
+    // Very deep: at 3 000 m such rock squeezes, and no elastic answer tells how much.
     const CoulombJoint sound({2e9, 1e9, 60 * degree});
-    says(of(sound, 5000).equilibrium(), "the joint stiffness (k_n = 2 GPa/m");
-    // A limit that is given is taken at its word.
-    CHECK(of(sound, 5000).equilibrium(0, {}, {.displacement_limit = 1}).verdict == Verdict::stable);
+    says(of(sound, 3000).equilibrium(), "the joint stiffness (k_n = 2 GPa/m");
+    // A limit that is given is taken at its word. (At 5 000 m joints that are let go throw blocks
+    // at 100 m/s, and the verdict hangs on how fast the wall is unloaded.)
+    CHECK(of(sound, 3000).equilibrium(0, {}, {.displacement_limit = 1}).verdict == Verdict::stable);
     // The other cap: rock that moves by more than a quarter of its blocks.
     EquilibriumReport report;
     const Solver<> tunnel = of(sound, 100);

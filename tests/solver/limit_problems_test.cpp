@@ -181,8 +181,9 @@ TEST_SUITE("solver/limit_problems") {
     const LaidProblem whole = circular_arch(31, 1.5);
     const double most = limit_factor(whole, tan_friction, whole.pushed(Vec2(1, 0))).value();
     CHECK(arch_stands<Method>(whole, 0));
-    // `Relaxation` sways for longer than its steps allow from 0.92 on, and is undecided.
-    const double sure = std::is_same_v<Method, Relaxation> ? 0.9 : 0.98;
+    // `Relaxation` sways for longer than its 60 000 steps allow from 0.87 on: whether it then finds
+    // the rest hangs on where the motion has left the arch (undecided at 0.9, stable at 0.92).
+    const double sure = std::is_same_v<Method, Relaxation> ? 0.85 : 0.98;
     CHECK(arch_stands<Method>(whole, sure * most));
     CHECK(!arch_stands<Method>(whole, 1.02 * most));
     CHECK(!arch_stands<Method>(circular_arch(31, 1.0), 0));
