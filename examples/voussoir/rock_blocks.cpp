@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <voussoir/core/elementary.hpp>
+#include <voussoir/core/message.hpp>
 #include <voussoir/core/ordering.hpp>
 #include <voussoir/core/version.hpp>
 #include <voussoir/design/construction_plan.hpp>
@@ -146,9 +147,9 @@ std::size_t driven_count(const RockBlocks& rock) {
 std::string sizes_line(const Input& input, const RockBlocks& rock) {
   const WholeBlockSizes& sizes = rock.sizes;
   const std::string unit = " " + size_unit(input);
-  std::string out = "blocks   " + std::to_string(rock.block_count) + " in situ, of which " +
-                    std::to_string(sizes.cut_count()) +
-                    " touch the sides of the model and are left out\n";
+  std::string out =
+      message({"blocks   ", rock.block_count, " in situ, of which ", sizes.cut_count(),
+               " touch the sides of the model and are left out\n"});
   if (sizes.count() == 0) return out + "sizes    none: no block lies whole in the model\n";
   out += "sizes    mean " + figure(sizes.mean()) + unit + ", median " + figure(sizes.median()) +
          unit + "; by " + (input.is_spatial() ? "volume" : "area") + " D10 " +

@@ -71,7 +71,7 @@ class ContactUpdate {
     // From here on nothing stops: the system is as it was or as it will be.
     Eigen::VectorXd before, after;
     system_.forces(system_.displacement, before);
-    ContactUpdateReport report{1, -stored_energy(), 0};
+    ContactUpdateReport report{1, -stored_energy(), of_springs.made, 0};
     to_frames(system_, then_, system_.supports);
     std::vector<Rotation<dim>> turned;
     for (const Pose<dim>& pose : now_) turned.push_back(pose.rotation);
