@@ -121,6 +121,23 @@ TEST_SUITE("equilibrium/rock_failure") {
     tuning.patience *= share;
     return tuning;
   }
+  TEST_CASE("walls are unloaded so slowly that slower unloading sheds the same rock") {
+    // Rock in which more comes off where it is unloaded four times as fast (docs/decisions.md, "The
+    // reference varies what is not physics").
+    const auto opening = circular_opening(5, 36);
+    Solver<> tunnel(jointed_rock(domain_around(opening, 35, 10, 15), 1),
+                    CoulombJoint({5e9, 5e8, 35 * degree}), {.density = density, .k0 = 1}, opening);
+    const auto fallen = [&](double slowness) {
+      Solver<> copy = tunnel;
+      TwoLevel::Params params;
+      params.motion.ramp *= slowness;
+      return copy.equilibrium(0, TwoLevel(params)).fallen;
+    };
+    const std::vector<int> off = fallen(1);
+    REQUIRE(!off.empty());
+    CHECK(fallen(2) == off);
+    CHECK(fallen(0.25).size() > off.size());
+  }
   TEST_CASE("the range of what comes off holds stages with other limits and damping") {
     const Drawn drawn = drawn_tunnel(1);
     const Acceptance asked{.collapse_measure = collapse_measure_of(drawn.opening)};
