@@ -113,6 +113,12 @@ TEST_SUITE("geometry/joined_facets") {
     for (Vec3& v : lower.vertices) v.z() -= 1e-3;
     CHECK(count_of({box(0, 0, 1, 1), behind}) == 2);
     CHECK(count_of({box(0, 0, 1, 1), lower}) == 2);
+    // A sliver and a speck that the tolerance makes a line and a point stay what they are.
+    for (const SpatialFacet& small : {box(0, 0, 1, tolerance), box(0, 0, tolerance, tolerance)}) {
+      const auto made = joined_facets(std::vector<SpatialFacet>{small}, tolerance);
+      REQUIRE(made.size() == 1);
+      CHECK(made[0].measure() == small.measure());
+    }
     CHECK(joined_facets(std::vector<SpatialFacet>{}, tolerance).empty());
   }
 }

@@ -272,7 +272,7 @@ TEST_SUITE("solver/mirrored") {
     CHECK(check_seeds(2001, 2006, lined_drift).off == 0);
   }
 
-  // The figures of docs/decisions.md; some minutes: --no-skip -tc='table of*'
+  // The figures of docs/decisions.md; half an hour and more: --no-skip -tc='table of*'
   TEST_CASE("table of chambers and drifts in 3-D: all images, three frictions" * doctest::skip()) {
     struct Row {
       double friction;

@@ -98,6 +98,7 @@ namespace detail {
   SpatialFacet whole;
   double perimeter = 0;
   const std::vector<std::size_t> outline = convex_outline(places, tolerance);
+  if (outline.size() < 3) return {};  // slivers, no wider than the tolerance
   for (std::size_t last = outline.back(); const std::size_t k : outline) {
     perimeter += length_of(corners[k] - corners[last]);
     whole.vertices.push_back(corners[k]);
@@ -143,16 +144,17 @@ VOUSSOIR_INLINE std::vector<SpatialFacet> joined_facets(std::vector<SpatialFacet
   std::vector<SpatialFacet> made;
   while (!facets.empty()) {
     // The largest tells the plane best, whichever comes first.
-    const SpatialFacet largest =
-        *std::max_element(facets.begin(), facets.end(),
-                          [](const auto& a, const auto& b) { return a.measure() < b.measure(); });
-    const Vec3 normal = normalized(largest.area_vector());
+    std::iter_swap(facets.begin(),
+                   std::max_element(facets.begin(), facets.end(), [](const auto& a, const auto& b) {
+                     return a.measure() < b.measure();
+                   }));
+    const Vec3 normal = normalized(facets.front().area_vector()),
+               at = facets.front().vertices.front();
     const auto others =
-        std::stable_partition(facets.begin(), facets.end(), [&](const SpatialFacet& facet) {
+        std::stable_partition(facets.begin() + 1, facets.end(), [&](const SpatialFacet& facet) {
           return dot_product(normal, facet.area_vector()) > 0 &&
                  std::all_of(facet.vertices.begin(), facet.vertices.end(), [&](const Vec3& v) {
-                   return std::abs(dot_product(normal, v - largest.vertices.front())) <=
-                          2 * tolerance;
+                   return std::abs(dot_product(normal, v - at)) <= 2 * tolerance;
                  });
         });
     std::vector<SpatialFacet> in_plane(facets.begin(), others);
