@@ -146,7 +146,7 @@ std::size_t driven_count(const RockBlocks& rock) {
 }
 std::string sizes_line(const Input& input, const RockBlocks& rock) {
   const WholeBlockSizes& sizes = rock.sizes;
-  const std::string unit = " " + size_unit(input);
+  const std::string unit = message({" ", size_unit(input)});
   std::string out =
       message({"blocks   ", rock.block_count, " in situ, of which ", sizes.cut_count(),
                " touch the sides of the model and are left out\n"});
@@ -237,7 +237,7 @@ std::string rock_blocks_json(const Input& input, const RockBlocks& rock) {
   const WholeBlockSizes& sizes = rock.sizes;
   json curve = json::object(), corrected = json::object();
   for (const int percent : {10, 50, 90}) {
-    const std::string name = key("D" + std::to_string(percent));
+    const std::string name = key(message({"D", percent}));
     curve[name] = number(sizes.size_at(0.01 * percent));
     corrected[name] = number(sizes.true_size_at(0.01 * percent));
   }
