@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
+#include <voussoir/core/message.hpp>
 
 #include "joint_laws.hpp"
 #include "plausibility.hpp"
@@ -45,6 +48,25 @@ double half_of_the_free(const Tunnel& solver) {
   return 0.5 * sum;
 }
 
+/// Blocks that can move and share no joint with another: nothing holds them.
+void warn_of_loose_blocks(const LaidInput& laid, BlocksRun& run) {
+  std::vector<bool> is_held(laid.blocks.size());
+  for (const auto& contact : run.solver.system().joints.contacts())
+    for (const int b : {contact.a, contact.b}) is_held[static_cast<std::size_t>(b)] = true;
+  std::string names;
+  int count = 0;
+  for (std::size_t b = 0; b < laid.blocks.size(); ++b) {
+    if (is_held[b] || laid.blocks[b].fixed) continue;
+    if (++count <= 10) names += (count > 1 ? ", \"" : "\"") + laid.blocks[b].name + "\"";
+  }
+  if (count == 0) return;
+  run.warnings.push_back(message(
+      {"nothing holds ", count == 1 ? "block " : "blocks ", names,
+       count > 10 ? message({" and ", count - 10, " more"}) : std::string(),
+       ": no part of a face lies on one of another block, corners alone do not count; where "
+       "they are meant to touch, write the corners that they share with the same digits"}));
+}
+
 bool stands(const EquilibriumReport& report) {
   return report.verdict == Verdict::stable && report.fallen.empty();
 }
@@ -72,6 +94,7 @@ BlocksRun run_blocks(const Input& input, const Report& report) {
   for (std::size_t b = 0; b < laid.blocks.size(); ++b)
     if (laid.blocks[b].fixed) run.solver.fix(static_cast<int>(b));
   run.warnings = laid.warnings;
+  warn_of_loose_blocks(laid, run);
   Acceptance acceptance;
   acceptance.error_estimate = input.run.tolerance;
   acceptance.unbalance_over_weight = input.run.out_of_balance;

@@ -212,6 +212,29 @@ TEST_SUITE("program/blocks") {
     CHECK(swept.err.find("blocks that are laid") != std::string::npos);
   }
 
+  TEST_CASE("a block that touches at a corner alone, or lies apart, is named") {
+    const std::vector<std::string> loose = {
+        R"([["0 m", "0 m"], ["1 m", "1 m"], ["0 m", "2 m"], ["-1 m", "1 m"]])",
+        R"([["0 m", "1 mm"], ["1 m", "1 mm"], ["1 m", "1 m"]])",
+        R"([["2 m", "0 m"], ["3 m", "0 m"], ["3 m", "1 m"], ["2 m", "1 m"]])"};
+    const std::string base = stack.substr(0, stack.find("[[block]]\nvertices"));
+    REQUIRE(base.size() < stack.size());
+    for (const std::string& vertices : loose) {
+      CAPTURE(vertices);
+      const Folder folder;
+      const Outcome outcome = run_program(
+          {"run",
+           write_file(folder / "case.toml",
+                      base + "[[block]]\nname = \"stone\"\nvertices = " + vertices + "\n"),
+           "--out", folder / "out"});
+      CHECK(outcome.status == 7);
+      CHECK(outcome.out.find("nothing holds block \"stone\": ") != std::string::npos);
+    }
+    const Folder folder;
+    CHECK(run_program({"run", write_file(folder / "case.toml", stack), "--out", folder / "out"})
+              .out.find("nothing holds") == std::string::npos);
+  }
+
   TEST_CASE("a file of blocks: rows of corners, refused with the number of the line") {
     const Folder folder;
     const std::string head =
