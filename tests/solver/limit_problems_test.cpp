@@ -18,8 +18,10 @@
 #include <voussoir/rockmass/laid_blocks.hpp>
 #include <voussoir/solver/solver.hpp>
 #include <voussoir/tunnel/opening.hpp>
+#include <voussoir/tunnel/tunnel_state.hpp>
 
 #include "support/blocks.hpp"
+#include "support/dense_algebra.hpp"
 #include "support/faults.hpp"
 #include "support/laid_problem.hpp"
 #include "support/limit_analysis.hpp"
@@ -146,6 +148,55 @@ double least_stress() {
   return least;
 }
 
+/// Where a slab rests on a base: a rectangle.
+struct Rest {
+  Vec2 middle, size;
+};
+
+/// Forces of a linear joint under a slab that is pressed by a unit weight in the origin: the slab
+/// settles by a plane, and force and both moments balance.
+/// @pre  no corner of a rest lifts: the joint is linear all over
+std::vector<double> forces_on(const std::vector<Rest>& rests) {
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const Rest& rest : rests) {
+    const Eigen::Vector3d place(1, rest.middle.x(), rest.middle.y());
+    const Vec2 own = rest.size.cwiseProduct(rest.size) / 12;
+    moments +=
+        rest.size.prod() * (place * place.transpose() +
+                            Eigen::Vector3d(0, own.x(), own.y()).asDiagonal().toDenseMatrix());
+  }
+  const Eigen::Vector3d plane = voussoir_test::solve(moments, Eigen::Vector3d(1, 0, 0));
+  std::vector<double> forces;
+  for (const Rest& rest : rests) {
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5}) {
+        const Vec2 corner = rest.middle + Vec2(x * rest.size.x(), y * rest.size.y());
+        REQUIRE(plane.dot(Eigen::Vector3d(1, corner.x(), corner.y())) > 0);
+      }
+    forces.push_back(rest.size.prod() *
+                     plane.dot(Eigen::Vector3d(1, rest.middle.x(), rest.middle.y())));
+  }
+  return forces;
+}
+
+/// Of a slab of 1 m x 1 m x 0.2 m over its weight, as a solver has them.
+template <class Method>
+std::vector<double> found_on(const std::vector<Rest>& rests) {
+  std::vector<ConvexPolyhedron> blocks{brick({0, 0, 0.1}, {1, 1, 0.2})};
+  for (const Rest& rest : rests)
+    blocks.push_back(
+        brick({rest.middle.x(), rest.middle.y(), -0.5}, {rest.size.x(), rest.size.y(), 1}));
+  Solver<Method, Spatial> slab(laid_blocks<Spatial>(blocks), CoulombJoint({1e10, 1e10, 0.6}),
+                               {.density = 2500, .is_laid = true});
+  for (std::size_t k = 1; k < blocks.size(); ++k) slab.fix(static_cast<int>(k));
+  REQUIRE(stands(slab));
+  std::vector<double> forces(rests.size());
+  for (const auto& at : joint_states(slab))
+    if (at.a == 0 || at.b == 0)
+      forces[static_cast<std::size_t>(at.a + at.b - 1)] += at.report.normal / (2500 * 9.81 * 0.2);
+  return forces;
+}
+
 }  // namespace
 
 TEST_SUITE("solver/limit_problems") {
@@ -226,6 +277,42 @@ TEST_SUITE("solver/limit_problems") {
     CHECK(gap.fallen() == std::vector<int>{2});
   }
   TEST_CASE_TEMPLATE_APPLY(falls_freely, Procedures);
+
+  TEST_CASE_TEMPLATE_DEFINE(
+      "a slab on three posts, on an L, on a foot 10^6 times as large as another", Method, slabs) {
+    const std::vector<std::vector<Rest>> all = {
+        {{{-0.4, -0.4}, {0.05, 0.05}}, {{0.4, -0.35}, {0.05, 0.05}}, {{0.05, 0.42}, {0.05, 0.05}}},
+        {{{0, -0.15}, {1, 0.7}}, {{-0.25, 0.35}, {0.5, 0.3}}},
+        {{{0.03, 0.02}, {0.6, 0.6}}, {{-0.45, 0.45}, {6e-4, 6e-4}}, {{0.4, -0.4}, {0.05, 0.01}}}};
+    for (const auto& rests : all) {
+      const std::vector<double> expected = forces_on(rests), found = found_on<Method>(rests);
+      for (std::size_t k = 0; k < rests.size(); ++k) {
+        CAPTURE(rests.size());
+        CAPTURE(k);
+        CHECK(found[k] == voussoir_test::near(expected[k]).epsilon(1e-3));
+      }
+    }
+  }
+  TEST_CASE_TEMPLATE_APPLY(slabs, Procedures);
+
+  TEST_CASE_TEMPLATE_DEFINE("a block on an edge or on a corner has no joint, and falls", Method,
+                            edges) {
+    const Rotation<3> edge = rotation_by(Spin<3>(45 * degree, 0, 0));
+    // The diagonal (1, 1, 1) becomes upright.
+    const Rotation<3> corner =
+        rotation_by(Spin<3>(std::acos(std::sqrt(1.0 / 3)) * Vec3(1, -1, 0).normalized()));
+    for (const auto& [turn, height] :
+         {std::pair(edge, std::sqrt(0.5)), {corner, std::sqrt(0.75)}}) {
+      Solver<Method, Spatial> cube(laid_blocks<Spatial>({brick({0, 0, -0.5}, {4, 4, 1}),
+                                                         brick({0, 0, height}, {1, 1, 1}, turn)}),
+                                   CoulombJoint({1e10, 1e10, 0.6}),
+                                   {.density = 2500, .is_laid = true});
+      cube.fix(0);
+      (void)cube.equilibrium();
+      CHECK(cube.fallen() == std::vector<int>{1});
+    }
+  }
+  TEST_CASE_TEMPLATE_APPLY(edges, Procedures);
 
   TEST_CASE("loads and supports that make no sense are refused") {
     using voussoir_test::refusal_of;
