@@ -86,7 +86,7 @@ Section bolt_spacing(Study& study) {
   Plot shed_plot{"bolt_spacing_fallen",
                  "Detached rock between 4 m bolts",
                  "bolt spacing θ_b, degrees",
-                 "m^2 of section",
+                 "m² of section",
                  {shed}};
   shed_plot.y_range = {{0, NAN}};
   section.plots = {crown_plot, force_plot, shed_plot};
