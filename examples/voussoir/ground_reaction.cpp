@@ -66,12 +66,19 @@ std::string word_of(const ReactionPoint& point) {
 
 }  // namespace
 
-GroundReaction ground_reaction(const Input& input, int steps, const Report& report) {
+GroundReaction ground_reaction(const Input& given, int steps, const Report& report) {
+  // Loads act on single blocks, and come on with stages that the bare rock does not have.
+  Input input = given;
+  input.loads.clear();
   GroundReaction reaction;
   const RunResult alone = run_of(bare(input, steps), report);
   reaction.ground = points_of(alone.built);
   reaction.warnings = alone.rock_warnings;
   if (!input.uncertain.empty()) reaction.warnings.push_back(input.uncertain_text());
+  if (!given.loads.empty())
+    reaction.warnings.emplace_back(
+        "[[load]] is left out, with and without support: a ground reaction is of the rock alone; "
+        "`run` knows loads");
   if (input.has_rounds)
     reaction.warnings.emplace_back(
         "the rock without support is taken out at once, not in the rounds of the file");

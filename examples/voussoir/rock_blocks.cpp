@@ -116,6 +116,9 @@ RockBlocks blocks_of(const Input& input, RockIn<Geometry> made,
                             " (blocks.min_wall_area) left out, " + figure(carving.dropped_measure) +
                             " " + size_unit(input) + " in all; the wall is the rock behind");
   for (std::string& text : warnings_about_values(input)) rock.warnings.push_back(std::move(text));
+  if (!input.loads.empty())
+    rock.warnings.emplace_back(
+        "[[load]] is left out: single blocks at the wall carry their own weight; `run` knows loads");
   if (input.survey && !input.survey->left_out.empty())
     rock.warnings.push_back(left_out_text(*input.survey));
   rock.excavated = std::move(excavated);

@@ -175,6 +175,27 @@ TEST_SUITE("program/rock_loads") {
           std::string::npos);
   }
 
+  TEST_CASE("a ground reaction, and single blocks, are without loads, and say so") {
+    // A load of the second stage would otherwise come on in the second step of the bare rock.
+    const std::string text = CircleInRock{}.text() + in_turn;
+    const std::string loaded =
+        text + load(R"("0.1 m", "2.3 m")", R"("0 kN/m", "-300 kN/m")", "stage = \"load\"\n");
+    for (const std::string verb : {"grc", "blocks"}) {
+      CAPTURE(verb);
+      const Folder folder;
+      const auto printed = [&](const std::string& input) {
+        const Outcome outcome =
+            run_program({verb, write_file(folder / "case.toml", input), "--out", folder / "out"});
+        CHECK(outcome.status == 0);
+        return outcome.out;
+      };
+      const std::string said = printed(loaded);
+      const std::size_t at = said.find("warning  [[load]] is left out");
+      REQUIRE(at != std::string::npos);
+      CHECK(said.substr(0, at) + said.substr(said.find('\n', at) + 1) == printed(text));
+    }
+  }
+
   TEST_CASE("a bolt across joints that slip carries the load by its dowels, as its law says") {
     // A block of 2 m x 1 m in the wall of a square tunnel, on joints without friction; the joint
     // behind it opens. All that holds it against a pull of 500 kN/m is a bolt through its middle:
