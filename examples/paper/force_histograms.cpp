@@ -136,9 +136,9 @@ Section force_histograms(Study& study) {
 
   // ---- findings ----
   const std::string gap =
-      "The quasi-static forces are half of the paper's. Sudden excavation with little damping and, as "
-      "long as there was that rule, one point a contact bring three quarters; joints half as stiff, as where a code takes the "
-      "area of a contact from its overlap, bring the rest (docs/bolt-forces.md).";
+      "The quasi-static forces are half of the paper's. Sudden excavation with little damping brings "
+      "some three quarters; joints half as stiff, as where a code takes the area of a contact from "
+      "its overlap, bring the rest (docs/bolt-forces.md).";
   const auto in_range = [](const Sample& s) { return s.mean() > 0.02 && s.mean() < 0.04; };
   const char* ids[3] = {"PF-069", "PF-070", "PF-071"};
   for (std::size_t k = 0; k < 3; ++k) {
