@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <functional>
 #include <string>
 #include <utility>
@@ -218,7 +219,7 @@ void pictures(const std::string& folder) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int main(int count, char** arguments) try {
   if (count > 1) {
     pictures(arguments[1]);
     return 0;
@@ -243,4 +244,7 @@ int main(int count, char** arguments) {
   for (const int courses : {4, 8})
     compare_push("wall of " + std::to_string(courses) + " courses: push [g]", dry_wall(courses, 4),
                  0.7);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "limit_table: %s\n", error.what());
+  return 1;
 }
