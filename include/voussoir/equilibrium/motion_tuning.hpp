@@ -23,10 +23,10 @@ enum class RangeSought {
 /// follow. The stage is over when the blocks that are left are in balance and so slow that none
 /// would come off within `patience`; or when more has come off than a collapse needs. Dashpots at
 /// contacts take the energy out, and not local damping, which takes its part of the blows within a
-/// mechanism and so holds it; contacts follow the blocks wherever they go. The
-/// smallest tenth of the blocks is made as inert as the next, so that slivers do not set the step:
-/// with the smaller half, which halves the number of steps, other blocks came off in one tunnel of
-/// forty. And of thousands of blocks only the few that move are stepped.
+/// mechanism and so holds it; contacts follow the blocks wherever they go. The smallest tenth of
+/// the blocks is made as inert as the next, so that slivers do not set the step: with the smaller
+/// half, which halves the number of steps, other blocks came off in one tunnel of forty. And of
+/// thousands of blocks only the few that move are stepped.
 ///
 /// Held against all blocks in motion, and the same with half the step and half the rate:
 /// tests/equilibrium/rock_failure_test.cpp, bench/failure_table.cpp.
