@@ -30,9 +30,10 @@ struct GroundReaction {
   std::optional<double> equivalent;
   std::vector<std::string> warnings;
 };
+/// Loads on blocks are left out of both, with a warning.
 /// @pre the input is one in 2-D, with a tunnel
 /// @throws as `run_of`
-[[nodiscard]] GroundReaction ground_reaction(const Input& input, int steps, const Report& report);
+[[nodiscard]] GroundReaction ground_reaction(const Input& given, int steps, const Report& report);
 
 /// In 3-D: the wall along the tunnel once it is driven.
 struct ProfilePoint {

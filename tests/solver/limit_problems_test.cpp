@@ -289,6 +289,7 @@ TEST_SUITE("solver/limit_problems") {
       for (std::size_t k = 0; k < rests.size(); ++k) {
         CAPTURE(rests.size());
         CAPTURE(k);
+        // A state is accepted with displacements, and so forces, that are 1e-3 off.
         CHECK(found[k] == voussoir_test::near(expected[k]).epsilon(1e-3));
       }
     }
