@@ -30,6 +30,7 @@ class AllBlocksInMotion {
     double safety = 0.9;         ///< of the stable step
     double duration = 1;         ///< of the unloading [s]
     double limit_share = 1;      ///< of the displacement limit that the rock has
+    bool joint_fibres = false;   ///< see `DynamicsSettings`
   };
   AllBlocksInMotion() = default;
   explicit AllBlocksInMotion(const Params& params) : params_(params) {}
@@ -68,7 +69,8 @@ class AllBlocksInMotion {
     auto run = set_in_motion(system, {.gravity = context.gravity,
                                       .local_damping = params_.local_damping,
                                       .viscous_damping = 0.3,
-                                      .safety = params_.safety});
+                                      .safety = params_.safety,
+                                      .joint_fibres = params_.joint_fibres});
     std::vector<int> gone;
     const auto has_left = [&](int b) {
       return run.body(b).movable() && (run.position(b) - system.body(b).centre).norm() > limit;
@@ -124,7 +126,7 @@ class AllBlocksInMotion {
   Params params_;
 };
 
-/// What is varied, each by itself, from the first on.
+/// What is varied, each by itself, from the first on: the last takes as long as all others.
 struct Variation {
   const char* name;
   AllBlocksInMotion::Params motion;
@@ -136,6 +138,12 @@ inline constexpr Variation variations[] = {
     {"half_step", {.safety = 0.45}},
     {"half_rate", {.duration = 2}},
     {"limit_x3", {.limit_share = 3}},
+    {"fibres", {.joint_fibres = true}},
 };
+/// @param references  0: none, 1: the first, 2: all but the last, 3: all
+[[nodiscard]] constexpr bool is_wanted(std::size_t variation, int references) {
+  return variation == 0 ? references > 0
+                        : references > (variation + 1 < std::size(variations) ? 1 : 2);
+}
 
 }  // namespace voussoir_bench

@@ -52,7 +52,8 @@ bool is_same(const Said& a, const Said& b) {
 
 bool is_decided(const Row& row) {
   std::vector<Said> all;
-  for (const Variation& variation : variations) all.push_back(said(row, variation.name));
+  for (const Variation& variation : variations)
+    if (cell(row, variation.name) != "-") all.push_back(said(row, variation.name));
   if (all.front().verdict == "undecided" || all.front().verdict == "fault") return false;
   for (const Said& a : all)
     for (const Said& b : all)

@@ -9,7 +9,8 @@ namespace voussoir_bench {
 /// Counts over a table of cases that were also followed by the varied reference
 /// (all_blocks_in_motion.hpp), printed on the error stream.
 ///
-///   decided    all variations have one verdict and, where rock falls and the rest stands, areas
+///   decided    all variations that were followed have one verdict and, where rock falls and the
+///   rest stands, areas
 ///              within a tenth of the largest; else the case is marginal by the reference
 ///   agreement  of each procedure with the reference, on those that are decided, by the same
 ///   measure hit rate   of the marginal cases, those that the run itself calls marginal false

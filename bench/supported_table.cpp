@@ -226,10 +226,10 @@ int main(int argc, char** argv) {
             references = argc > 5 ? number_of(argv[5]) : 2,
             every = argc > 6 ? number_of(argv[6]) : 1;
   if (argc > 7 || first < 0 || count < 1 || threads < 1 || steps < 1 || references < 0 ||
-      references > 2 || every < 1)
+      references > 3 || every < 1)
     return std::fputs(
                "usage: supported_table [FIRST >= 0] [COUNT >= 1] [THREADS >= 1] [STEPS >= 1] "
-               "[REFERENCES 0 to 2] [EVERY >= 1]\n       supported_table counts FILE...\n",
+               "[REFERENCES 0 to 3] [EVERY >= 1]\n       supported_table counts FILE...\n",
                stderr),
            2;
   std::vector<std::string> lines = {head()};
@@ -244,7 +244,7 @@ int main(int argc, char** argv) {
                  ranged = build<TwoLevel>(rock, support, steps, with_range());
     std::vector<Answer> motion(std::size(variations));
     for (std::size_t v = 0; v < motion.size(); ++v)
-      if (references > 1 || (references > 0 && v == 0))
+      if (is_wanted(v, references))
         motion[v] =
             build<AllBlocksInMotion>(rock, support, steps, AllBlocksInMotion(variations[v].motion));
     char text[200];

@@ -67,9 +67,15 @@ struct Pile {
     auto found = detector.contact_near(0, shape, memory, 1e-3);
     found.measure *= share;
     const bool of_a = found.touch != Touch::face_b;
+    std::vector<Vec<Dim - 1>> slips;
+    for (int k = 0; old != nullptr && k < old->last; ++k)
+      slips.push_back(old_points[static_cast<std::size_t>(k)]
+                          .motion(old->place(bodies[static_cast<std::size_t>(old->a)].pose,
+                                             bodies[static_cast<std::size_t>(old->b)].pose))
+                          .slip);
     Contact contact = Renewal(bodies, old_points)
                           .run(found, shapes.grid_point(0), shapes, of_a ? 0 : shape, of_a ? 0 : 1,
-                               of_a ? 1 : 0, false, 1e-3, old, points);
+                               of_a ? 1 : 0, false, 1e-3, old, slips, points);
     contact.first = 0;
     contact.last = static_cast<int>(points.size());
     return contact;

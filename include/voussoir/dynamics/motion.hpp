@@ -62,9 +62,11 @@ class Motion : public MovingBodies<Dim> {
          const DynamicsSettings& settings)
       : settings_(settings),
         network_(std::move(laws), wall_stiffness, std::move(interface_laws), std::move(law_of_cut),
-                 settings.viscous_damping),
+                 settings.viscous_damping, settings.joint_fibres),
         stepping_(settings.threads) {
     settings.check();
+    if (Dim == 3 && settings.joint_fibres)
+      throw InvalidInput("joint_fibres: joints are of fibres in 2-D alone");
   }
 
   // ---- what there is ---------------------------------------------------------------------------

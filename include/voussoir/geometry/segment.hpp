@@ -43,6 +43,24 @@ struct Segment {
     const double weight = 0.5 * length();
     return {FacetPoint<2>{-offset, weight}, FacetPoint<2>{offset, weight}};
   }
+
+  /// Eight points by Lobatto's rule, two of them the ends: exact for tractions that are polynomials
+  /// of degree 13. Source: Abramowitz and Stegun (1964), table 25.6.
+  [[nodiscard]] std::array<FacetPoint<2>, 8> lobatto_points() const {
+    constexpr std::array<std::array<double, 2>, 4> rule = {
+        {{1, 1.0 / 28},
+         {0.871740148509607, 0.210704227143506},
+         {0.591700181433142, 0.341122692483504},
+         {0.209299217902479, 0.412458794658704}}};
+    const Vec2 half = 0.5 * (end - start);
+    const double half_length = 0.5 * length();
+    std::array<FacetPoint<2>, 8> points;
+    for (std::size_t k = 0; k < rule.size(); ++k) {
+      points[k] = {-rule[k][0] * half, rule[k][1] * half_length};
+      points[points.size() - 1 - k] = {rule[k][0] * half, rule[k][1] * half_length};
+    }
+    return points;
+  }
 };
 
 /// The parts of a segment on the two sides of a line.

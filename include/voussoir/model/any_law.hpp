@@ -138,7 +138,7 @@ struct ReactionTask {
   const AnyLaw<Dim>* laws = nullptr;
   const MovingContact<Dim>* contacts = nullptr;
   std::size_t first = 0, last = 0;
-  const MovingContactPoint<Dim, FormerPoint>* points = nullptr;
+  MovingContactPoint<Dim, FormerPoint>* points = nullptr;
   void* states = nullptr;
   const MovingBody<Dim>* bodies = nullptr;
   Reaction<Dim>* reactions = nullptr;  ///< of contact `first` and those behind it

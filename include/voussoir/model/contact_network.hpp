@@ -56,12 +56,14 @@ class ContactNetwork {
   /// @param interface_laws  of linings that there are already
   /// @param law_of_cut  for every label of the blocks' faces the index of its law; empty: the first
   /// @param viscous_damping  ratio to critical of the dashpots [-]
+  /// @param joint_fibres  see `DynamicsSettings`
   ContactNetwork(std::vector<Law> laws, double wall_stiffness, std::vector<Law> interface_laws,
-                 std::vector<int> law_of_cut, double viscous_damping)
+                 std::vector<int> law_of_cut, double viscous_damping, bool joint_fibres = false)
       : groups_{Group(std::move(laws)), Group({SmoothWall(wall_stiffness)}),
                 Group(std::move(interface_laws))},
         law_of_cut_(std::move(law_of_cut)),
-        viscous_damping_(viscous_damping) {}
+        viscous_damping_(viscous_damping),
+        joint_fibres_(joint_fibres) {}
 
   [[nodiscard]] const Group& joints() const { return groups_[0]; }
   [[nodiscard]] const Group& walls() const { return groups_[1]; }
@@ -306,6 +308,7 @@ class ContactNetwork {
   std::vector<int> law_of_cut_;
   std::vector<std::int32_t> interface_law_of_;  ///< of every body; -1: it is no node of a lining
   double viscous_damping_;
+  bool joint_fibres_;
   std::size_t unused_ = 0;  ///< contacts without points, and points without contact (as runs)
   detail::ContactSums<Dim> sums_;
   detail::BodyRates<Dim> rates_;

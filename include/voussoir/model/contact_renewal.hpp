@@ -41,13 +41,16 @@ class ContactRenewal {
   using Bodies = std::vector<MovingBody<Dim>>;
 
   /// @param old_points  of the contacts before
-  ContactRenewal(const Bodies& bodies, const std::vector<Point>& old_points)
-      : bodies_(bodies), old_points_(old_points) {}
+  /// @param has_fibres  points are spread over all of the contact; 2-D
+  ContactRenewal(const Bodies& bodies, const std::vector<Point>& old_points,
+                 bool has_fibres = false)
+      : bodies_(bodies), old_points_(old_points), has_fibres_(has_fibres) {}
 
   /// @param found   how the shapes touch, points counted from `from`; `owner`, whose face it is,
   /// belongs to body a
   /// @param reach   points may be so far open [m]
   /// @param old     the contact as it was, or null
+  /// @param slips   of its points now, as the law has them [m]
   /// @param points  its springs are written there
   /// @param is_centred  it has one point in the middle and resists no turning: see `MovingContact`
   /// @param joined  all that several pairs of shapes have of the contact, counted from `from`, with
@@ -55,7 +58,8 @@ class ContactRenewal {
   [[nodiscard]] Contact run(const voussoir::Contact<Dim>& found, const Vec<Dim>& from,
                             const PlacedShapes<Dim>& shapes, std::size_t owner, int a, int b,
                             bool is_centred, double reach, const Contact* old,
-                            std::vector<Point>& points, const ContactArea<Dim>* joined = nullptr) {
+                            const std::vector<Vec<Dim - 1>>& slips, std::vector<Point>& points,
+                            const ContactArea<Dim>* joined = nullptr) {
     const bool of_a = found.touch != Touch::face_b;
     Vec<Dim> normal = of_a ? found.normal : Vec<Dim>(-found.normal);
     // Between faces that are hardly tilted two edges may decide the depth: their normal is off that
@@ -109,7 +113,8 @@ class ContactRenewal {
       const bool is_old = keeps && carries_on(*old, it.place, normal);
       point.zero[0] = now.opening - opening;
       write_at(point.zero.data() + 1, now.slip);
-      if (is_old || (keeps && is_in_old_area(it.place))) inherit(*old, frame, it.place, point);
+      if (is_old || (keeps && is_in_old_area(it.place)))
+        inherit(*old, frame, it.place, slips, point);
       points.push_back(point);
     }
     return contact;
@@ -232,8 +237,20 @@ class ContactRenewal {
       places_.push_back({centre, measure});
       return;
     }
+    if constexpr (Dim == 2)
+      if (has_fibres_) {
+        place_fibres(area, scale);
+        return;
+      }
     for (const FacetPoint<Dim>& p : area.gauss_points())
       places_.push_back({centre + p.offset, scale * p.weight});
+  }
+  void place_fibres(const Segment& facet, double scale) requires(Dim == 2) {
+    for (const FacetPoint<2>& p : facet.lobatto_points())
+      places_.push_back({facet.centre() + p.offset, scale * p.weight});
+  }
+  void place_fibres(const ContactArea<2>& area, double scale) requires(Dim == 2) {
+    for (const Segment& facet : area.facets()) place_fibres(facet, scale);
   }
 
   template <class Area>
@@ -324,7 +341,7 @@ class ContactRenewal {
   }
 
   void inherit(const Contact& old, const Rotation<Dim>& frame, const Vec<Dim>& place,
-               Point& point) const {
+               const std::vector<Vec<Dim - 1>>& slips, Point& point) const {
     const Point* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (auto i = static_cast<std::size_t>(old.first); i < static_cast<std::size_t>(old.last);
@@ -336,10 +353,12 @@ class ContactRenewal {
       }
     }
     if (nearest == nullptr) return;
-    const auto at = old.place(pose(old.a), pose(old.b));
     // Bodies a and b may have changed places, and with them all axes their sign: slip, opening and
     // the force on b along the axes of the contact are the same either way.
-    add_at<Dim - 1>(point.zero.data() + 1, -nearest->motion(at).slip);
+    const Vec<Dim - 1>& slip =
+        slips[static_cast<std::size_t>(nearest - old_points_.data() - old.first)];
+    add_at<Dim - 1>(point.zero.data() + 1, -slip);
+    point.committed.commit(slip);
     Vec<Dim> stress = stress_of(*nearest);
     // No farther than the old contact was long: far outside, a gradient makes any stress.
     const Vec<Dim> way = place - pose(old.b)(nearest->place);
@@ -352,6 +371,7 @@ class ContactRenewal {
 
   const Bodies& bodies_;
   const std::vector<Point>& old_points_;
+  bool has_fibres_;
   std::vector<WeightedPoint> places_;
   Vec<Dim> from_ = zeros<Vec<Dim>>();
   Fixed<Dim, Dim - 1> gradient_ = zeros<Fixed<Dim, Dim - 1>>();  ///< of the initial stress [Pa/m]

@@ -63,6 +63,22 @@ struct MovingContact {
   }
 };
 
+namespace detail {
+
+/// What a point remembers of its slip, besides its law: in 2-D alone (`press_in_motion`).
+template <int Dim>
+struct CommittedSlip {
+  void commit(const Vec<Dim - 1>&) {}
+};
+template <>
+struct CommittedSlip<2> {
+  double slip = 0;  ///< at the last commit, as the law has it [m]
+
+  void commit(const Vec<1>& now) { slip = now[0]; }
+};
+
+}  // namespace detail
+
 /// A point of a contact, fixed in body b.
 /// @tparam State  what the contact law remembers of it, or where that lies
 template <int Dim, class State>
@@ -72,6 +88,7 @@ struct MovingContactPoint {
   double weight;   ///< length or area [m], [m^2]
   PointForce<Dim> initial;
   [[no_unique_address]] State state;
+  [[no_unique_address]] detail::CommittedSlip<Dim> committed;
 
   [[nodiscard]] PointMotion<Dim> motion(const typename MovingContact<Dim>::Place& at) const {
     const Vec<Dim> m = at.base + transposed_product(at.frame_b, place) - zero;

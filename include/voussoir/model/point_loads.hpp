@@ -117,6 +117,38 @@ template <int Dim, class Points>
   return press_lifted<Dim>(loads, outline, points, 0);
 }
 
+/// `press` for a contact in motion. In 3-D it is that.
+///
+/// In 2-D what is added to slips since the last commit is the slip of the rock that is at the
+/// pressed part now, and shear acts there. The points of the closed joint will not do: as bodies
+/// turn by t about a hinge, they move along the face of body a by their distance from the hinge
+/// times (1 - cos t), and the hinge does not slip. Slip is linear along the joint, so the two tell
+/// it.
+/// @param loads  with the slips of the points of the closed joint; afterwards as laws have them:
+///               who brings histories up to date moves `zero` by what these differ
+/// @param at     at(k) is point k
+template <class PointAt, class Points>
+[[nodiscard]] PressedPart<2> press_in_motion(PointLoad<2>* loads, const KeptOutline<2>& outline,
+                                             const PointAt& at, const Points& points) {
+  PointLoad<2> of_whole[2] = {loads[0], loads[1]};
+  const PressedPart<2> part = press<2>(loads, outline, points);
+  if (part.is_whole()) return part;
+  const double then[2] = {at(0).committed.slip, at(1).committed.slip};
+  const double since[2] = {loads[0].motion.slip[0] - then[0], loads[1].motion.slip[0] - then[1]};
+  for (int k = 0; k < 2; ++k) of_whole[k].motion.slip[0] = then[k] + part.at(k, since[0], since[1]);
+  if (points.dilates()) {  // by its slip
+    std::copy_n(of_whole, 2, loads);
+    return press<2>(loads, outline, points);
+  }
+  for (int k = 0; k < 2; ++k) loads[k].motion.slip = of_whole[k].motion.slip;
+  return part;
+}
+template <class PointAt, class Points>
+[[nodiscard]] PressedPart<3> press_in_motion(PointLoad<3>* loads, const KeptOutline<3>& outline,
+                                             const PointAt&, const Points& points) {
+  return press<3>(loads, outline, points);
+}
+
 /// To be called when the points of a joint have brought their history up to date. Where one of them
 /// has failed in shear by that, the joint lets go what it held in tension, and they do so again.
 /// @param loads    as they were
@@ -205,7 +237,12 @@ void visit_pressed(std::size_t count, const KeptOutline<Dim>& outline, const Poi
     points[k] = point_at(k);
     loads[k] = load_of(points[k]);
   }
-  const Part part = press<Dim>(loads.data(), outline, of);
+  Part part;
+  if constexpr (requires { points[0].committed; })
+    part = press_in_motion(
+        loads.data(), outline, [&](std::size_t k) -> const Point& { return points[k]; }, of);
+  else
+    part = press<Dim>(loads.data(), outline, of);
   std::array<Vec<Dim>, Part::count> places;
   for (std::size_t k = 0; k < count; ++k) places[k] = place_in(points[k]);
   for (std::size_t k = 0; k < count; ++k) {

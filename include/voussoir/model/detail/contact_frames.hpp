@@ -50,6 +50,7 @@ template <int Dim>
   Vec<Dim> motion = p.start;
   if (u != nullptr) motion += c.linear_motion(p, u);
   point.zero = stacked(raw.opening - motion[0], raw.slip - part<Dim - 1>(motion, 1));
+  point.committed.commit(part<Dim - 1>(motion, 1));
   return point;
 }
 
@@ -57,11 +58,14 @@ template <int Dim>
 /// @param a, b    its bodies
 /// @param u       displacement of all bodies, from wherever it is counted
 /// @param points  of the contact, at least one
+/// @param shear_at  where their shear acts, if that is not there: in the frame of body b
 /// @param take    take(point): every point, in the order of those given
 template <int Dim, class Points, class Take>
 [[nodiscard]] ReferenceContact<Dim> from_frames(const MovingContact<Dim>& c, const Pose<Dim>& a,
                                                 const Pose<Dim>& b, const double* u,
-                                                const Points& points, Take&& take) {
+                                                const Points& points,
+                                                const std::vector<Vec<Dim>>& shear_at,
+                                                Take&& take) {
   const Rotation<Dim> frame = a.rotation * c.frame;
   ReferenceContact<Dim> contact{};
   contact.set_frame(column(frame, 0), TangentBasis<Dim>(frame.template rightCols<Dim - 1>()));
@@ -79,9 +83,13 @@ template <int Dim, class Points, class Take>
   contact.arm_a = middle - a.position;
   contact.arm_b = middle - b.position;
   const auto at = c.place(a, b);
+  auto shear_place = shear_at.begin();
   for (const auto& p : points) {
     ReferencePoint<Dim> point{};
     point.offset = transposed_product(frame, Vec<Dim>(b(p.place) - middle));
+    // Heights are levers of shear alone.
+    if (!shear_at.empty())
+      point.offset[0] = column(frame, 0).dot(Vec<Dim>(b(*shear_place++) - middle));
     point.weight = p.weight;
     point.initial = p.initial;
     const PointMotion<Dim> motion = p.motion(at);

@@ -83,19 +83,33 @@ template <class Law, class Point, class State>
     PointLoad<2> loads[2] = {of_whole[0], of_whole[1]};
     const auto state_of = [&](std::size_t k) -> const State& { return k == 0 ? state_p : state_q; };
     const PointsOf<2, Law, decltype(state_of)> both(law, state_of);
-    const auto part = press<2>(loads, c.outline, both);
+    const auto part = press_in_motion(
+        loads, c.outline, [p](std::size_t k) -> const Point& { return p[k]; }, both);
     if (!part.is_whole()) {
-      const double first = at_p.tangential, second = at_q.tangential;
-      at_p.tangential = part.at(0, first, second);
-      at_q.tangential = part.at(1, first, second);
+      const PlanePlace first = at_p, second = at_q;
+      at_p = {part.at(0, first.normal, second.normal),
+              part.at(0, first.tangential, second.tangential)};
+      at_q = {part.at(1, first.normal, second.normal),
+              part.at(1, first.tangential, second.tangential)};
     }
     react(state_p, at_p, loads[0]);
     react(state_q, at_q, loads[1]);
     lost.friction += let_go_of_bond<2>(
-        loads, c.outline, [&](std::size_t k) { return of_whole[k]; }, both,
+        loads, c.outline,
+        [&](std::size_t k) {
+          PointLoad<2> load = of_whole[k];
+          load.motion.slip = loads[k].motion.slip;
+          return load;
+        },
+        both,
         [&](std::size_t k, const PointLoad<2>& load) {
           return commit_again(law, loads[k], load, k == 0 ? state_p : state_q);
         });
+    for (int k = 0; k < 2; ++k) {
+      // The law goes on from the slip that it has.
+      p[k].zero[1] += of_whole[k].motion.slip[0] - loads[k].motion.slip[0];
+      p[k].committed.commit(loads[k].motion.slip);
+    }
   } else {
     for (Point* k = p; k != points + c.last; ++k) {
       const PlanePlace at = place_of(*k);

@@ -48,13 +48,20 @@ void take_contacts(const Moving& moving, const std::vector<Pose<Group::dim>>& fr
   const auto at = [](auto i) { return static_cast<std::size_t>(i); };
   Group next(group.laws());
   std::vector<Point> points;
+  std::vector<Vec<Group::dim>> shear_at;
   for (const int n : order_by_bodies(moving.contacts(),
                                      [](const auto& c) { return std::pair<int, int>(c.a, c.b); })) {
     const auto& c = moving.contacts()[at(n)];
     if (c.first == c.last) continue;
     points.clear();
-    const auto contact = from_frames(c, frames[at(c.a)], frames[at(c.b)], u.data(),
-                                     moving.points_of(c), [&](const ReferencePoint<Group::dim>& p) {
+    shear_at.clear();
+    const Pose<Group::dim>&a = frames[at(c.a)], &b = frames[at(c.b)];
+    if constexpr (Group::dim == 2 && requires { moving.laws(); })
+      moving.visit_loads(
+          c, moving.points_of(c), c.place(a, b),
+          [&](std::size_t, const auto& p, const auto&) { shear_at.push_back(p.place); });
+    const auto contact = from_frames(c, a, b, u.data(), moving.points_of(c), shear_at,
+                                     [&](const ReferencePoint<Group::dim>& p) {
                                        points.push_back({p, {}});
                                      });
     for (std::size_t k = 0; k < points.size(); ++k)

@@ -156,11 +156,19 @@ void ContactNetwork<Dim, Detector>::renew(Update& update, Pair& pair, const Cont
             : former.nearest(bodies, a, b, found.normal,
                              detail::middle_of<Dim>(found, joined) + from);
   const std::vector<typename Group::Point>& old_points = known ? group.points() : former.points();
-  detail::ContactRenewal<Dim> renewal(bodies, old_points);
+  detail::ContactRenewal<Dim> renewal(bodies, old_points, kind == 0 && joint_fibres_);
   const bool is_centred =
       known ? old->is_centred : kind == 2 && old != nullptr && old->last - old->first == 1;
-  typename Group::Contact contact = renewal.run(found, from, tracker.shapes(), owner, a, b,
-                                                is_centred, tracker.reach(), old, points, joined);
+  std::vector<Vec<Dim - 1>> slips;
+  if (old != nullptr)
+    group.visit_loads(*old, known ? group.points_of(*old) : former.points_of(*old),
+                      old->place(bodies[index(old->a)].pose, bodies[index(old->b)].pose),
+                      [&](std::size_t, const auto&, const PointLoad<Dim>& load) {
+                        slips.push_back(load.motion.slip);
+                      });
+  typename Group::Contact contact =
+      renewal.run(found, from, tracker.shapes(), owner, a, b, is_centred, tracker.reach(), old,
+                  slips, points, joined);
   contact.is_centred = is_centred;
   if (old != nullptr)
     contact.law = old->law;
