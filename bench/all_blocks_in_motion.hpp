@@ -126,7 +126,7 @@ class AllBlocksInMotion {
   Params params_;
 };
 
-/// What is varied, each by itself, from the first on: the last takes as long as all others.
+/// What is varied, each by itself, from the first on; the last is another rule for joints.
 struct Variation {
   const char* name;
   AllBlocksInMotion::Params motion;

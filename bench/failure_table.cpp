@@ -4,7 +4,7 @@
 // (all_blocks_in_motion.hpp). One line a case as CSV; counts at the end on the error stream.
 //   failure_table [FIRST] [COUNT] [THREADS] [REFERENCES] [EVERY]    default: 0 200 1 2 1; hours
 //   failure_table counts FILE...    of pieces that were written before: cases FIRST, FIRST + EVERY
-// REFERENCES: 0 none, minutes; 1 with nothing varied; 2 varied; 3 by joints of fibres, too.
+// REFERENCES: 0 none, minutes; 1 with nothing varied; 2 varied; 3 with joints of fibres, too.
 #include <chrono>
 #include <cstdio>
 #include <cstring>

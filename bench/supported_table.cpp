@@ -8,7 +8,7 @@
 //   supported_table counts FILE...    of pieces that were written before: cases FIRST, FIRST +
 //   EVERY
 // With STEPS each of the two stages is unloaded in so many equal steps: what hangs on the path.
-// With 1 reference nothing is varied, with 0 there is none: minutes.
+// REFERENCES: 0 none, minutes; 1 with nothing varied; 2 varied; 3 with joints of fibres, too.
 //
 //   bolts    in three of four cases: 0.3 to 0.6 spans long, 0.8 to 2 m apart, over the roof
 //   lining   closed ring, arch on feet, or two arcs with a gap at the crown; 5 to 30 cm of 10 to 30

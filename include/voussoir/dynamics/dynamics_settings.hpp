@@ -15,8 +15,8 @@ struct DynamicsSettings {
   double time_step = 0;        ///< [s]; 0: safety times the stable step
   bool find_contacts = true;   ///< false: the contacts stay those of the beginning
   /// A joint is eight points (`Segment::lobatto_points`), each with the law to itself, in place of
-  /// two on what is pressed of it (`PressedPart`): to see what hangs on that rule. Takes four times
-  /// as long; 2-D alone.
+  /// two on what is pressed of it (`PressedPart`): to see what hangs on that rule. Takes twice as
+  /// long; 2-D alone.
   bool joint_fibres = false;
   double reach = 0;  ///< contacts are listed up to this gap [m]; 0: 2 % of the mean radius
   /// Bodies of a contact move so far before its contact update [m]; 0: a quarter of the reach.
