@@ -9,12 +9,11 @@ namespace voussoir_bench {
 /// Counts over a table of cases that were also followed by the varied reference
 /// (all_blocks_in_motion.hpp), printed on the error stream.
 ///
-///   decided    all variations that were followed have one verdict and, where rock falls and the
-///   rest stands, areas
-///              within a tenth of the largest; else the case is marginal by the reference
-///   agreement  of each procedure with the reference, on those that are decided, by the same
-///   measure hit rate   of the marginal cases, those that the run itself calls marginal false
-///   alarms  of the decided ones, those that it does
+/// *Decided* is a case in which all variations that were followed have one verdict and, where rock
+/// falls and the rest stands, areas within a tenth of the largest; the others are marginal by the
+/// reference. The *agreement* of a procedure is told on those that are decided, by the same
+/// measure. *Hit rate*: those of the marginal cases that the run itself calls so. *False alarms*:
+/// those of the decided ones that it does.
 ///
 /// @param lines       of a CSV table, the head first; others like it are passed over, so that
 ///                    pieces can be put together with `cat`. Of each procedure and variation a

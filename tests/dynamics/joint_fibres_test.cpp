@@ -17,6 +17,7 @@ namespace joint_fibres_test {
 
 using namespace voussoir;
 using voussoir_test::circular_arch;
+using voussoir_test::comes_to_rest;
 using voussoir_test::degree;
 using voussoir_test::rectangle;
 using voussoir_test::reference;
@@ -42,20 +43,7 @@ bool arch_stands(double thickness, bool joint_fibres) {
   auto run = circular_arch(7, thickness)
                  .run(CoulombJoint({2e11, 2e11, 45 * degree}),
                       {.local_damping = 0.7, .joint_fibres = joint_fibres});
-  std::vector<Vec2> start;
-  for (int b = 0; b < run.body_count(); ++b) start.push_back(run.position(b));
-  for (int look = 0; look < 20000; ++look) {
-    run.advance_steps(200);
-    double moved = 0, speed = 0;
-    for (int b = 0; b < run.body_count(); ++b) {
-      moved = std::max(moved, (run.position(b) - start[static_cast<std::size_t>(b)]).norm());
-      speed = std::max(speed, run.velocity(b).norm());
-    }
-    if (moved > 0.05) return false;
-    if (look > 2 && speed < 1e-5) return true;
-  }
-  FAIL("neither rest nor collapse");
-  return false;
+  return comes_to_rest(run, 0.05, 1e-5);
 }
 
 }  // namespace

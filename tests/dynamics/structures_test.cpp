@@ -17,6 +17,7 @@ namespace structures_test {
 
 using namespace voussoir;
 using voussoir_test::circular_arch;
+using voussoir_test::comes_to_rest;
 using voussoir_test::degree;
 using voussoir_test::reference;
 using voussoir_test::toppling_slope;
@@ -24,24 +25,6 @@ using voussoir_test::toppling_slope;
 namespace {
 
 using Run = Dynamics<2, CoulombJoint>;
-
-/// True if the blocks come to rest: speeds below `still` before any has moved by `far`.
-bool comes_to_rest(Run& run, double far, double still) {
-  std::vector<Vec2> start;
-  for (int b = 0; b < run.body_count(); ++b) start.push_back(run.position(b));
-  for (int look = 0; look < 20000; ++look) {
-    run.advance_steps(200);
-    double moved = 0, speed = 0;
-    for (int b = 0; b < run.body_count(); ++b) {
-      moved = std::max(moved, (run.position(b) - start[static_cast<std::size_t>(b)]).norm());
-      speed = std::max(speed, run.velocity(b).norm());
-    }
-    if (moved > far) return false;
-    if (look > 2 && speed < still) return true;
-  }
-  FAIL("neither rest nor collapse");
-  return false;
-}
 
 /// Goodman & Bray (1976).
 bool slope_stands(double tan_phi) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,6 +91,26 @@ struct LaidProblem {
     return made;
   }
 };
+
+/// True if the blocks of a run come to rest: speeds below `still` [m/s] before any has moved by
+/// `far` [m].
+/// @throws std::runtime_error  neither
+template <class Run>
+[[nodiscard]] bool comes_to_rest(Run& run, double far, double still) {
+  std::vector<voussoir::Vec2> start;
+  for (int b = 0; b < run.body_count(); ++b) start.push_back(run.position(b));
+  for (int look = 0; look < 20000; ++look) {
+    run.advance_steps(200);
+    double moved = 0, speed = 0;
+    for (int b = 0; b < run.body_count(); ++b) {
+      moved = std::max(moved, (run.position(b) - start[static_cast<std::size_t>(b)]).norm());
+      speed = std::max(speed, run.velocity(b).norm());
+    }
+    if (moved > far) return false;
+    if (look > 2 && speed < still) return true;
+  }
+  throw std::runtime_error("neither rest nor collapse");
+}
 
 /// Where two blocks touch along faces of both.
 struct FlatJoint {
