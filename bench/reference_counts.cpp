@@ -10,6 +10,7 @@
 #include <sstream>
 #include <voussoir/core/errors.hpp>
 #include <voussoir/core/message.hpp>
+#include <voussoir/equilibrium/rockfall_range.hpp>
 
 #include "all_blocks_in_motion.hpp"
 
@@ -41,13 +42,13 @@ Said said(const Row& row, const std::string& name) {
   return {cell(row, name), std::atof(cell(row, name + "_m2").c_str())};
 }
 
-/// Whether two answers agree: the verdict, and a tenth of the area. Of a collapse the verdict
+/// Whether two answers agree: the verdict, and area but for slivers. Of a collapse the verdict
 /// alone, which is ended at whatever moment its limit is passed.
 bool is_same(const Said& a, const Said& b) {
-  constexpr double tenth = 0.1;
   if (a.verdict != b.verdict) return false;
   return a.verdict == "collapse" ||
-         std::abs(a.fallen - b.fallen) <= tenth * std::max(a.fallen, b.fallen);
+         std::abs(a.fallen - b.fallen) <=
+             voussoir::RockfallRange::slivers * std::max(a.fallen, b.fallen);
 }
 
 bool is_decided(const Row& row) {

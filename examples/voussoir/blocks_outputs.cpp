@@ -203,6 +203,15 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
            opened ? PictureJoint::State::opened : PictureJoint::State::slipped});
     largest = std::max(largest, c.force.norm());
   }
+  for (const BlockLoadInput& load : input.laid->loads) {
+    const auto& body = system.body(load.block);
+    if (body.is_gone) continue;
+    const Vec2 at = load.at ? Vec2((*load.at)[0], (*load.at)[1]) : body.centre;
+    PictureLoad& drawn = picture.loads.emplace_back();
+    drawn = {system.motion_of(load.block)(at), Vec2(load.force[0], load.force[1]), load.moment};
+    drawn.says =
+        detail::words_of(drawn) + (load.is_proportional ? "\ncomes on with the loading" : "");
+  }
   PictureHeader header;
   header.title = input.title.empty() ? "Blocks" : input.title;
   header.lines = {"Verdict: " + verdict_text(input, run) + ". " + run.last().reason + "."};
@@ -210,7 +219,9 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
   for (const PictureBlock& block : picture.blocks)
     seen.insert(seen.end(), block.corners.begin(), block.corners.end());
   const ViewRect world = bounding_rect(seen).value_or(ViewRect{{0, 0}, {1, 1}});
-  const ViewRect wanted = world.grown(0.02 * std::max(world.width(), world.height()));
+  // Room for arrows outside of the blocks.
+  const double margin = picture.loads.empty() ? 0.02 : 0.1;
+  const ViewRect wanted = world.grown(margin * std::max(world.width(), world.height()));
   const double width = picture_width - 2 * picture_margin;
   const double height = std::clamp(width * wanted.height() / wanted.width(), 200.0, 800.0);
   const double top = header.height() + 4;
@@ -243,6 +254,7 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
                        canvas.rectangle({c - Vec2(12, 6), c + Vec2(12, 6)},
                                         {.fill = "url(#hatch)", .stroke = detail::fallen_colour});
                      }});
+  for (LegendItem& item : detail::loads_legend(picture.loads)) items.push_back(std::move(item));
   const Legend legend(std::move(items), width);
   const double foot = frame.high.y();
   SvgCanvas canvas(picture_width, foot + 74 + legend.height(), picture_printed_width, header.title);
@@ -273,6 +285,11 @@ std::string laid_blocks_svg(const Input& input, const BlocksRun& run) {
     canvas.circle(map(c.at), 3, {.fill = force_colour});
   }
   canvas.end_layer();
+  if (!picture.loads.empty()) {
+    canvas.begin_layer("loads");
+    detail::draw_loads(canvas, picture.loads, map);
+    canvas.end_layer();
+  }
   detail::draw_spots(canvas, picture, map);
   canvas.rectangle(frame, {.stroke = "#111"});
   detail::draw_displacement_bar(

@@ -286,6 +286,7 @@ std::string blocks_svg(const Input& input, const RunResult& run) {
   for (const std::string& warning : run.rock_warnings) text.remarks.push_back("Rock: " + warning);
   for (const std::string& load : load_sentences(loads_json(input, run)))
     text.remarks.push_back("Load: " + load + ".");
+  text.loads = loads_in_section(input, run.built.stages.size());
   text.bolt_strengths = bolt_strengths(input, run.tunnel);
   text.node_utilisations = strength_by_node(lining_utilisations(input, run));
   return draw_tunnel(run.tunnel, run.built, text);

@@ -74,6 +74,11 @@ Json vector_json(const Vec3& values, double unit, bool is_spatial) {
   return list;
 }
 
+/// A construction that ended before has loaded nothing.
+bool has_come_on(const Input& input, const LoadInput& load, std::size_t built) {
+  return stage_of(input, load, planned_stages(input, supports_of(input)).size()) < built;
+}
+
 template <class Run>
 Json loads_of(const Input& input, const Run& run) {
   constexpr int dim = std::decay_t<decltype(run.tunnel)>::dim;
@@ -88,9 +93,7 @@ Json loads_of(const Input& input, const Run& run) {
       told["moment_kNm"] = vector_json(load.moment, 1e-3, true);
     else
       told["moment_kNm_per_m"] = 1e-3 * load.moment[0];
-    // A construction that ended before has loaded nothing.
-    const std::size_t planned = planned_stages(input, supports_of(input)).size();
-    told["came_on"] = stage_of(input, load, planned) < run.built.stages.size();
+    told["came_on"] = has_come_on(input, load, run.built.stages.size());
     if (!told["came_on"].template get<bool>()) continue;
     const int block = loaded_block(run.tunnel.mass(), placed);
     told["block"] = block;
@@ -145,6 +148,13 @@ void check_rock_loads(Checker& checker, const Input& input) {
   else
     checker.report(table + ".at", "is no place for it: " + fault->text,
                    "a point of the rock that stays");
+}
+
+std::vector<PlacedLoad<2>> loads_in_section(const Input& input, std::size_t built) {
+  std::vector<PlacedLoad<2>> loads;
+  for (const LoadInput& load : input.loads)
+    if (has_come_on(input, load, built)) loads.push_back(placed_load<2>(input, load));
+  return loads;
 }
 
 Json loads_json(const Input& input, const RunResult& run) { return loads_of(input, run); }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 #include <voussoir/core/units.hpp>
+#include <voussoir/tunnel/placed_load.hpp>
 
 #include "analysis.hpp"
 #include "input.hpp"
@@ -25,6 +28,10 @@ void read_rock_loads(Section& file, Input& input);
 
 /// What loads and stages, openings and the domain must agree on.
 void check_rock_loads(Checker& checker, const Input& input);
+
+/// Those of a section that have come on, for its picture.
+/// @param built  stages, of those planned
+[[nodiscard]] std::vector<PlacedLoad<2>> loads_in_section(const Input& input, std::size_t built);
 
 /// A list, `loads` of run.json: what acts, where, and where the block went.
 [[nodiscard]] nlohmann::json loads_json(const Input& input, const RunResult& run);

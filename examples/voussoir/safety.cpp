@@ -14,6 +14,7 @@
 #include "blocks_outputs.hpp"
 #include "output_parts.hpp"
 #include "plausibility.hpp"
+#include "rock_loads.hpp"
 #include "run_folder.hpp"
 
 namespace voussoir::program {
@@ -60,8 +61,9 @@ std::string mechanism_picture(const Input& input, const TunnelAtFactor<Geometry>
     words.axes = {"right", "along", "up"};
     words.from = input.picture.from;
     words.strip_width = input.linings.empty() ? 0.0 : strip_width(input);
-  } else if (input.linings.size() == 1) {
-    words.lining_thickness = input.linings.front().thickness;
+  } else {
+    if (input.linings.size() == 1) words.lining_thickness = input.linings.front().thickness;
+    words.loads = loads_in_section(input, falling.built.stages.size());
   }
   return draw_tunnel(falling.tunnel, falling.built, words);
 }

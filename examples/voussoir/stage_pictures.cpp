@@ -6,6 +6,8 @@
 #include <voussoir/design/openings.hpp>
 #include <voussoir/io/solved_picture.hpp>
 
+#include "rock_loads.hpp"
+
 namespace voussoir::program {
 
 namespace {
@@ -38,8 +40,9 @@ void StagePictures::add_picture(const Solver& tunnel, const StageResult& stage) 
     text.from = input_->picture.from;
     text.crown_name = "crown, all that is driven";
     text.strip_width = input_->linings.empty() ? 0.0 : strip_width(*input_);
-  } else if (input_->linings.size() == 1) {
-    text.lining_thickness = input_->linings.front().thickness;
+  } else {
+    if (input_->linings.size() == 1) text.lining_thickness = input_->linings.front().thickness;
+    text.loads = loads_in_section(*input_, number);
   }
   pictures_.emplace_back(number, draw_tunnel(tunnel, built, text));
   if (pictures_.size() <= most) return;

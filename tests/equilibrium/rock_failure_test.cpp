@@ -199,23 +199,24 @@ TEST_SUITE("equilibrium/rock_failure") {
     check(0.95, Verdict::collapse, true);  // 1.05 of it
     check(0.8, Verdict::collapse, false);  // 1.25 of it
   }
-  TEST_CASE("a range is marginal where it is more than a tenth and a block, or the verdict turns") {
-    RockfallRange range{1, 1.05, false, 0.2};
+  TEST_CASE("a range is marginal where it is more than a tenth, or the verdict turns") {
+    RockfallRange range{1, 1.1};
     CHECK(!range.is_marginal());
-    range.high = 1.15;
-    CHECK(!range.is_marginal());  // more than a tenth, less than a block
-    range.high = 1.25;
+    range.high = 1.125;
     CHECK(range.is_marginal());
-    CHECK(!RockfallRange{10, 10.9, false, 0.2}.is_marginal());  // more than a block, not a tenth
-    CHECK(RockfallRange{1, 1, true, 0.2}.is_marginal());
-    CHECK(!RockfallRange{10, 30}.is_marginal());  // of a collapse: wherever it is ended
+    CHECK(!RockfallRange{10, 10.9}.is_marginal());
+    CHECK(RockfallRange{1, 1, true}.is_marginal());
+    CHECK(
+        !RockfallRange{10, 30, false, true}.is_marginal());  // of a collapse: wherever it is ended
+    CHECK(RockfallRange{10, 30, true, true}.is_marginal());
     CHECK(!range.is_near_collapse);
-    range.add({2, 2, true, 0.1, true});
-    CHECK(range.is_near_collapse);
+    range.add({2, 2.25, false, true});
     CHECK(range.low == 3);
-    CHECK(range.high == 3.25);
-    CHECK(range.has_other_verdict);
-    CHECK(range.scale == 0.2);
+    CHECK(range.high == 3.375);
+    CHECK(!range.is_marginal());  // the second stage collapsed
+    range.add({1, 1, true, false, true});
+    CHECK(range.is_near_collapse);
+    CHECK(range.is_marginal());
   }
 
   void check_procedures_in_space(const std::vector<std::uint64_t>& numbers) {

@@ -2,10 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 #include <voussoir/io/blocks_picture.hpp>
 #include <voussoir/io/interaction_picture.hpp>
 
@@ -176,6 +180,50 @@ TEST_SUITE("io/blocks_picture") {
     const std::string layer = text.substr(spots, text.find("</g>", spots) - spots);
     CHECK(contains(layer, "fill=\"none\" pointer-events=\"all\">"));
     CHECK_FALSE(contains(layer, "stroke=\""));
+  }
+
+  TEST_CASE("loads are arrows as long as they are large, which end where they act") {
+    BlocksPicture picture = small_picture();
+    const std::string without = draw_blocks_picture(picture);
+    CHECK_FALSE(contains(without, detail::load_colour));
+    picture.loads = {{{0, 3}, {0, -40e3}, 0, "the load"},
+                     {{3, 0}, {-20e3, 0}, 5e3, "the other"},
+                     {{0, not_a_number}, {1e9, 0}}};
+    const std::string text = draw_blocks_picture(picture);
+    CHECK(xml_fault(text) == "");
+    for (const std::string word :
+         {"load, up to 40.0 kN/m", "moment, 5.00 kN m/m", "<title>the load", "<title>the other"})
+      CHECK(contains(text, word));
+    const std::size_t from = text.find("<g id=\"loads\"");
+    REQUIRE(from != std::string::npos);
+    const std::string layer = text.substr(from, text.find("</g>", from) - from);
+    // The white rims are whole arrows.
+    std::vector<std::array<Vec2, 2>> arrows;
+    for (std::size_t at = 0; (at = layer.find("<line ", at)) != std::string::npos; ++at) {
+      const std::string line = layer.substr(at, layer.find("/>", at) - at);
+      if (!contains(line, "white")) continue;
+      const auto number = [&](const std::string& name) {
+        return std::stod(line.substr(line.find(name + "=\"") + name.size() + 2));
+      };
+      arrows.push_back({Vec2(number("x1"), number("y1")), Vec2(number("x2"), number("y2"))});
+    }
+    REQUIRE(arrows.size() == 2);
+    // Down is down on the page; 46 px are the largest, and lengths are written to 0.01 px.
+    const auto& [down, left] = std::pair{arrows[0], arrows[1]};
+    CHECK(Vec2(down[1] - down[0] - Vec2(0, 46)).norm() < 0.02);
+    CHECK(Vec2(left[1] - left[0] - Vec2(-23, 0)).norm() < 0.02);
+    // The tips are 3 m apart in both directions, at 640 px for 12 m.
+    CHECK(Vec2(left[1] - down[1] - 640.0 / 12 * Vec2(3, 3)).norm() < 0.05);
+    // Anticlockwise: from the right over the top. A turn the other way goes down first.
+    const std::size_t turn = layer.rfind("<path d=\"", layer.find("stroke-width=\"4.4\""));
+    REQUIRE(turn != std::string::npos);
+    const std::string turns = layer.substr(turn, layer.find('"', turn + 9) - turn);
+    picture.loads[1].moment = -5e3;
+    const std::string clockwise = draw_blocks_picture(picture);
+    CHECK(contains(text, turns));
+    CHECK_FALSE(contains(clockwise, turns));
+    const std::string step = turns.substr(turns.find('l') + 1);
+    CHECK(std::stod(step.substr(step.find('-', 1))) < 0);
   }
 
   TEST_CASE("nothing at all is a picture too") {

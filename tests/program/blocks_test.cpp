@@ -104,7 +104,10 @@ TEST_SUITE("program/blocks") {
     const double weight = 2 * 2.5 * 9.81;
     CHECK(base.at("force_y_kN_per_m").get<double>() == near(-weight - 5).epsilon(0.005));
     CHECK(base.at("force_x_kN_per_m").get<double>() == near(0.05 * weight + 2).epsilon(0.05));
-    CHECK(r.files.at("blocks.svg").find("</svg>") != std::string::npos);
+    const std::string& picture = r.files.at("blocks.svg");
+    CHECK(picture.find("</svg>") != std::string::npos);
+    CHECK(picture.find("load, 5.39 kN/m") != std::string::npos);  // of 2 and -5
+    CHECK(picture.find("<title>load\n1.00 kN m/m\ncomes on with the loading") != std::string::npos);
   }
 
   TEST_CASE("a block on an incline slides at its friction angle, by every procedure") {

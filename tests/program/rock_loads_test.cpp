@@ -171,6 +171,10 @@ TEST_SUITE("program/rock_loads") {
     CHECK(falls.outcome.out.find("load     (0, -3e+04) kN/m at (0.1, 2.3) m, on block ") !=
           std::string::npos);
     CHECK(stands.files.at("blocks.svg").find("Load: (0, -1) kN/m at") != std::string::npos);
+    // Drawn where the block stands, not where it was when it has come off.
+    CHECK(stands.files.at("blocks.svg").find("<g id=\"loads\"") != std::string::npos);
+    CHECK(stands.files.at("blocks.svg").find("load, 1.00 kN/m") != std::string::npos);
+    CHECK(falls.files.at("blocks.svg").find("<g id=\"loads\"") == std::string::npos);
     CHECK(stands.files.at("report.html").find("Load on a block: (0, -1) kN/m at") !=
           std::string::npos);
   }

@@ -177,6 +177,15 @@ inline void draw_diamond(SvgCanvas& canvas, const Vec2& centre, double half_size
   canvas.polygon(corners, style);
 }
 
+/// A slender triangle, 8 px long.
+/// @param along  unit length
+inline void draw_arrow_head(SvgCanvas& canvas, const Vec2& tip, const Vec2& along,
+                            const char* colour) {
+  const std::vector<Vec2> corners = {tip, tip - 8 * along + 3 * perpendicular(along),
+                                     tip - 8 * along - 3 * perpendicular(along)};
+  canvas.polygon(corners, {.fill = colour});
+}
+
 #if VOUSSOIR_BODIES
 
 VOUSSOIR_INLINE std::vector<std::string> wrapped_lines(std::string_view text, double width,

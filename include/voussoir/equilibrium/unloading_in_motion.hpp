@@ -96,7 +96,7 @@ class UnloadingInMotion {
     if (!half_) return std::nullopt;
     is_varied_ = true;
     RockfallRange range{report.fallen_measure, report.fallen_measure};
-    if (report.verdict != Verdict::collapse) range.scale = mean_measure();
+    range.is_collapse = report.verdict == Verdict::collapse;
     if (tuning_.range == RangeSought::all) range.is_near_collapse = is_near_collapse(report);
     const auto vary = [&](const std::optional<Fork>& fork, double limit, double slowness,
                           double damping) {
@@ -346,18 +346,6 @@ class UnloadingInMotion {
     for (int b = 0; b < run_.body_count(); ++b)
       if (run_.body(b).movable() && !rests(b)) return false;
     return true;
-  }
-
-  /// Of a block [m^2], [m^3].
-  [[nodiscard]] double mean_measure() const {
-    double sum = 0;
-    int count = 0;
-    for (int b = 0; b < start_.body_count(); ++b) {
-      if (!is_rock(b) || context_.measures == nullptr) continue;
-      sum += (*context_.measures)[index(b)];
-      ++count;
-    }
-    return count > 0 ? sum / count : 0;
   }
 
   System& system_;

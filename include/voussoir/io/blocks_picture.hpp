@@ -12,6 +12,7 @@
 #include <voussoir/drawing/svg.hpp>
 #include <voussoir/io/blocks_picture_data.hpp>
 #include <voussoir/io/detail/bolt_layers.hpp>
+#include <voussoir/io/detail/load_layer.hpp>
 #include <voussoir/io/detail/rock_layers.hpp>
 #include <voussoir/io/detail/side_column.hpp>
 
@@ -153,6 +154,7 @@ VOUSSOIR_INLINE std::vector<LegendItem> blocks_legend(const BlocksPicture& pictu
                        draw_crossing_state(canvas, c, state);
                      }});
   }
+  for (LegendItem& item : loads_legend(picture.loads)) items.push_back(std::move(item));
   return items;
 }
 
@@ -183,13 +185,18 @@ VOUSSOIR_INLINE void draw_rock(SvgCanvas& canvas, const BlocksPicture& picture, 
   canvas.begin_layer("bolts");
   draw_bolts(canvas, picture, map, forces);
   canvas.end_layer();
+  if (!picture.loads.empty()) {
+    canvas.begin_layer("loads");
+    draw_loads(canvas, picture.loads, map);
+    canvas.end_layer();
+  }
   canvas.end_layer();
   canvas.rectangle(map.page(), {.stroke = "#111"});
 }
 
 VOUSSOIR_INLINE void draw_spots(SvgCanvas& canvas, const BlocksPicture& picture,
                                 const PageMap& map) {
-  constexpr double lining_width = 10, bolt_width = 8;  // [px]
+  constexpr double lining_width = 10, bolt_width = 8, load_width = 10;  // [px]
   canvas.begin_spots();
   for (const PictureBlock& block : picture.blocks)
     if (!block.says.empty() && is_drawable(block))
@@ -213,6 +220,15 @@ VOUSSOIR_INLINE void draw_spots(SvgCanvas& canvas, const BlocksPicture& picture,
     if (is_drawable(bolt))
       if (const auto seen = clip_segment(bolt.head, bolt.tip, map.world()))
         canvas.spot(map(seen->first), map(seen->second), bolt_width, bolt.says);
+  const double largest = largest_force(picture.loads);
+  for (const PictureLoad& load : picture.loads) {
+    if (!is_drawable(load) || !map.world().contains(load.at)) continue;
+    if (const auto arrow = arrow_of(load, largest, map))
+      canvas.spot(arrow->front(), arrow->back(), load_width, load.says);
+    else
+      canvas.spot(map(load.at) - Vec2(turn_radius, 0), map(load.at) + Vec2(turn_radius, 0),
+                  2 * turn_radius, load.says);
+  }
   canvas.end_layer();
 }
 

@@ -71,6 +71,14 @@ struct PictureLining {
   bool is_elsewhere = false;  ///< as of bolts
 };
 
+/// A force, a moment, or both, on a block.
+struct PictureLoad {
+  Vec2 at = zeros<Vec2>();     ///< where it acts, on the block as it now lies [m]
+  Vec2 force = zeros<Vec2>();  ///< [N/m]
+  double moment = 0;           ///< anticlockwise [N]
+  std::string says = {};       ///< as of blocks
+};
+
 /// All that `draw_blocks_picture` shows.
 struct BlocksPicture {
   PictureHeader header;              ///< title, verdict in words, key numbers
@@ -83,6 +91,7 @@ struct BlocksPicture {
   std::optional<double> ground_surface;  ///< y [m]; none: too far up to matter
   std::vector<PictureBolt> bolts;
   std::vector<PictureLining> linings;
+  std::vector<PictureLoad> loads{};
   std::vector<std::vector<Vec2>> fills{};  ///< outlines of holes in the wall that they fill [m]
   /// In-situ stress times radius [N/m]: thrust in linings of less than 1/200 of it, and moments of
   /// such a thrust at the edge of the core of the section, are drawn as small as they are; 0: the

@@ -43,8 +43,9 @@ struct TunnelPictureText {
   std::optional<double> crown = {};
   std::string crown_name = "crown convergence";
   double strip_width = 0;  ///< in 3-D: of the lining, that forces are per metre of [m]; 0: of a rib
-  ViewFrom from = ViewFrom::axis;  ///< in 3-D
-  bool shows_whole_model = true;   ///< in 2-D, small, beside the rock around the opening
+  ViewFrom from = ViewFrom::axis;         ///< in 3-D
+  bool shows_whole_model = true;          ///< in 2-D, small, beside the rock around the opening
+  std::vector<PlacedLoad<2>> loads = {};  ///< in 2-D: that have come on
   /// In tension, of every bolt [N]; infinite: it has none. Empty: nothing is said of it.
   std::vector<double> bolt_strengths = {};
   /// In 2-D: what every node of the linings has of its strength [-]; not a number: not checked.
@@ -215,8 +216,9 @@ requires(Solver::dim == 2) [[nodiscard]] std::string
     draw_tunnel(const Solver& solver, const ConstructionResult<typename Solver::Geometry>& result,
                 const TunnelPictureText& text = {}) {
   const double fallen = result.fallen_measure();
-  BlocksPicture picture =
-      picture_of(state_of(solver), solver.mass(), bars_of(solver), text.lining_thickness);
+  const auto state = state_of(solver);
+  BlocksPicture picture = picture_of(state, solver.mass(), bars_of(solver), text.lining_thickness);
+  picture.loads = picture_loads(state, solver.mass(), text.loads);
   picture.header.title = text.title;
   picture.shows_whole_model = text.shows_whole_model;
   picture.header.lines = {verdict_sentence(result.last(), fallen, "m²", result.has_lost_lining())};

@@ -21,6 +21,7 @@
 #include <voussoir/io/view_from.hpp>
 #include <voussoir/rockmass/rock_mass.hpp>
 #include <voussoir/tunnel/joined_openings.hpp>
+#include <voussoir/tunnel/placed_load.hpp>
 #include <voussoir/tunnel/tunnel_state.hpp>
 
 namespace voussoir {
@@ -166,6 +167,22 @@ template <int Dim>
 }
 
 }  // namespace detail
+
+/// Loads as they lie on blocks that have moved; without those on blocks that have come off.
+/// @throws InvalidInput  see `loaded_block`
+[[nodiscard]] inline std::vector<PictureLoad> picture_loads(
+    const TunnelState<Planar>& state, const RockMass<Planar>& mass,
+    const std::vector<PlacedLoad<2>>& loads) {
+  std::vector<PictureLoad> drawn;
+  for (const PlacedLoad<2>& load : loads) {
+    const auto& block = state.blocks[static_cast<std::size_t>(loaded_block(mass, load))];
+    if (block.is_gone) continue;
+    PictureLoad& made = drawn.emplace_back();
+    made = {block.motion(load.at), load.load.force, load.load.moment[0]};
+    made.says = detail::words_of(made);
+  }
+  return drawn;
+}
 
 /// @param bars  of the bolts, in the order in which they were installed
 /// @param lining_thickness  [m]; 0: that of their sections, or where the state does not know it a

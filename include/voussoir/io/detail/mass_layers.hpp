@@ -198,9 +198,7 @@ VOUSSOIR_INLINE void draw_axes(SvgCanvas& canvas, const Vec2& origin, double len
     if (size < 3) continue;
     const Vec2 along = arrow / size, tip = origin + arrow;
     canvas.line(origin, tip, {.stroke = "#111", .stroke_width = 1.4});
-    const std::array<Vec2, 3> head = {tip, tip - 8 * along + 3 * perpendicular(along),
-                                      tip - 8 * along - 3 * perpendicular(along)};
-    canvas.polygon(head, {.fill = "#111"});
+    draw_arrow_head(canvas, tip, along, "#111");
     // A word beside an arrow begins behind its tip.
     const std::string& name = names[static_cast<std::size_t>(axis)];
     const bool is_aside = name.size() > 2 && along.x() > 0.5;
