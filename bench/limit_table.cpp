@@ -3,9 +3,8 @@
 // against limit analysis, closed forms and fibres: the table of docs/validation.md. CSV, one line a
 // problem; minutes.
 //   limit_table [FOLDER]
-//   limit_table balance RATIO    the limits alone, by procedures at rest, with blocks balanced to
-//   so
-//                                much of their weight in place of the default
+//   limit_table balance RATIO
+// With RATIO: the limits alone, at rest, blocks balanced to so much of their weight.
 // With FOLDER: pictures of an arch that falls and of a beam that stands, in a second, and no table.
 #include <algorithm>
 #include <array>
